@@ -126,8 +126,8 @@ def load(path: Path, kinds: Iterable[str]) -> tuple[str, File]:
 
     try:
         data = json.loads(path.read_bytes().decode("utf-8-sig"), object_pairs_hook=unique)
-        found = (data.get("format"), data.get("version")) if isinstance(data, dict) else ()
-        if found not in [(kind, 1) for kind in kinds]:
+        found = (data.get("format"), repr(data.get("version"))) if isinstance(data, dict) else ()
+        if found not in [(kind, "1") for kind in kinds]:  # true is no number
             raise ValueError(f"this is not a file of the format {' or '.join(kinds)}, version 1")
         return data["format"], File(data)
     except KeyError as error:
@@ -449,7 +449,8 @@ class Checker:
         for i, j in itertools.product(range(n), repeat=2):
             z = complex(min(xs) + (i + 0.5) * width / n, min(ys) + (j + 0.5) * height / n)
             for h in [1e-6 * width] * 20:
-                if not in_domain([z.real, z.imag], self.proof.cage):
+                finite = math.hypot(z.real, z.imag) < math.inf
+                if not (finite and in_domain([z.real, z.imag], self.proof.cage)):
                     break
                 if (value := self.determinant(acb(z), 0, 0.0)) < 0:
                     return f"{value.str(4)} at {z}"

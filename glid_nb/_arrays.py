@@ -1,6 +1,7 @@
 """Arrays: the alias of their type, arrays of numbers from untrusted values, immutable arrays."""
 
 import sys
+from dataclasses import fields
 from typing import Any, TypeAlias, TypeVar
 
 import numpy as np
@@ -49,6 +50,18 @@ def read_only(array: A) -> A:
     """The array itself, which nobody can write to from now on."""
     array.setflags(write=False)
     return array
+
+
+def frozen(array: A) -> A:
+    """A copy that nobody can write to, whatever flags are set: it lies in bytes."""
+    return np.ndarray(array.shape, array.dtype, array.tobytes())  # type: ignore[return-value]
+
+
+class Rebuilt:
+    """A dataclass whose copies are made by its constructor, without what it keeps beside fields."""
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return type(self), tuple(getattr(self, one.name) for one in fields(self))  # type: ignore[arg-type]
 
 
 def _number(value: Any) -> float:

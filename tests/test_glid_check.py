@@ -109,7 +109,9 @@ def certificate(map: HarmonicMap, truth: Measured, panels: Panels | None = None)
     panels = graded_panels(map.domain) if panels is None else panels
     per_panel = PanelCertificate(**vars(panels), **dict.fromkeys(BOUNDS, np.empty(0)))
     bounds = (truth.sigma2 * (1 - SLACK), truth.sigma1 * (1 + SLACK), truth.k * (1 + SLACK))
-    return Certificate(True, *bounds, truth.windings, per_panel, "hermite", "as claimed", map)
+    made = Certificate(False, *bounds, truth.windings, per_panel, "hermite", "as claimed", map)
+    vars(made)["certified"] = True
+    return made
 
 
 def files_of(certificate: Certificate) -> Files:
@@ -440,6 +442,7 @@ def test_exit_code_2_names_the_file_and_what_is_wrong(
         ("cage", [], "three vertices"),
         ("holes", [], "three vertices, and every hole"),
         ("version", 2, "version 1"),
+        ("version", True, "version 1"),
     ):
         assert wanted in refused(whole[0], json.dumps({**files.proof, key: value}))
     del files.proof["psi"]
@@ -448,6 +451,13 @@ def test_exit_code_2_names_the_file_and_what_is_wrong(
     assert glid_check.main([str(path) for path in paths]) == 2
     with pytest.raises(SystemExit, match="2"):
         glid_check.main([])
+
+
+def test_a_search_for_zeros_that_runs_off_ends(monkeypatch: pytest.MonkeyPatch) -> None:
+    checker = glid_check.Checker(glid_check.File(mutable().proof))
+    monkeypatch.setattr(checker, "turns", lambda _: [])
+    monkeypatch.setattr(checker.proof, "cage", [[[-1e308, -1.0], [1e308, -1.0], [0.0, 1.0]]])
+    assert checker.fold() == ""
 
 
 def test_dyadic_panels_are_those_of_the_certificate() -> None:

@@ -21,7 +21,7 @@ from glid_nb.certificate.panels import (
     modulus,
     split,
 )
-from glid_nb.certificate.paper import BDHM, Lipschitz, beside, jumps, windings
+from glid_nb.certificate.paper import BDHM, Lipschitz, beside, jumps, turning, windings
 from glid_nb.certificate.proof import FORMAT, FORMAT_VERSION, dyadic_panels, exact_text
 from glid_nb.geometry import Panels, graded_panels, place
 from glid_nb.harmonic import HarmonicMap, Singularities, cauchy, run_on
@@ -52,7 +52,8 @@ class PanelCertificate(Panels):
 class Certificate:
     """The outcome of :func:`certify` (Theorem 4.2).
 
-    Bounds hold on the whole domain when ``certified``, otherwise on the boundary only.
+    Bounds hold on the whole domain when ``certified``, otherwise on the boundary only. What is made
+    or changed by anything but a proof is not certified.
     """
 
     certified: bool
@@ -69,6 +70,10 @@ class Certificate:
     """One sentence: what is proved, or where and why the proof failed."""
     map: HarmonicMap = field(repr=False)
     """The map that this is the certificate of."""
+
+    def __post_init__(self) -> None:
+        if self.certified:  # `_assembled` says so afterwards
+            vars(self).update(certified=False, reason="Undecided: no proof made this certificate.")
 
     def belongs_to(self, map: HarmonicMap) -> bool:
         """Whether it is of this map: the same coefficients on the same or an equal domain."""
@@ -93,6 +98,8 @@ class Certificate:
 
 def proof_text(certificate: Certificate) -> str:
     """The proof file of a certificate, as text; InputError for one that proves nothing."""
+    if certificate.certified and not np.isfinite(certificate.sigma1_upper):  # a solver's
+        certificate = certify(certificate.map, certificate.kind, certificate.panels)
     if not certificate.certified:
         raise InputError(f"there is no proof to write: {certificate.reason}")
     map_, bounds = certificate.map, ("sigma2_lower", "sigma1_upper", "k_upper")
@@ -122,7 +129,13 @@ class Known(NamedTuple):
     sigma1_seen: Any
     k_seen: Any
     fz_seen: Any
-    slack: Any  # bound on the error of both derivatives there
+    slack: Any  # bound on the error of both derivatives there, and of what is made of them
+    ends: Any = None  # (p, 2) f_z as computed at the start and the end
+    own: Any = None  # (p,) bound on the errors of the two values at the start alone
+
+    @property
+    def proved(self) -> bool:
+        return bool(np.asarray(self.bounds.injective).all())
 
 
 def certify(
@@ -159,47 +172,48 @@ def certify(
 def refined(
     panels: Panels, known: Known, evaluate: Callable[..., Known], tightness: float
 ) -> tuple[Panels, Known]:
-    """Halve panels until the proof succeeds with tight bounds, or will not."""
+    """Halve panels until the proof succeeds, then for tight bounds, or until that will not."""
+    best = panels, known
     for _ in range(_MAX_ROUNDS):
         wanted = _to_split(known, tightness) & panels.divisible
         # Elsewhere rounding hides that the map is injective at the panel's start.
-        seen = (known.sigma2_seen > known.slack) & np.isfinite(known.sigma1_seen + known.slack)
+        own = known.slack if known.own is None else known.own
+        seen = (known.sigma2_seen > own) & np.isfinite(known.sigma1_seen + own)
         if not (seen.all() and wanted.any()) or len(panels) > _MAX_PANELS:
             break
         panels, known = split(panels, known, wanted, evaluate)
-    return panels, known
+        if known.proved or not best[1].proved:  # finer panels may lose what was proved
+            best = panels, known
+    return best
 
 
 def _to_split(known: Known, tightness: float) -> Array:
-    """(p,) bool: the proof fails, or the panel keeps the overall bounds from being tight."""
+    """(p,) bool: the proof fails, or where it fails nowhere, the overall bounds are not tight."""
     bounds, injective = known.bounds, np.asarray(known.bounds.injective)
-    if not np.isfinite(known.slack).all():  # out of scale
-        return ~injective & np.isfinite(known.slack)
+    if not known.proved or not np.isfinite(known.slack).all():
+        return ~injective
     worst = known.k_seen.max()
     k_slack = tightness * max(worst, 1e-3)
     # Splitting does not reduce the allowance for rounding, so smaller gains are not worth it.
     least_gain = 4 * known.slack
-    failed = ~injective & (known.sigma2_seen > least_gain)
-    loose_sigma2 = injective & (known.sigma2_seen - bounds.sigma2_lower > least_gain)
+    loose_sigma2 = known.sigma2_seen - bounds.sigma2_lower > least_gain
     loose_sigma1 = bounds.sigma1_upper - known.sigma1_seen > least_gain
-    # Where k is unknown the proof failed; elsewhere k is bounded and f_z is not 0.
-    k_known = np.isfinite(bounds.k_upper) & (known.fz_seen > 0)
-    k_gap = np.where(k_known, bounds.k_upper, 0) - np.where(k_known, known.k_seen, 0)
-    loose_k = ~k_known | (k_gap * known.fz_seen > 2 * least_gain)
-    return failed | (
+    loose_k = (bounds.k_upper - known.k_seen) * known.fz_seen > 2 * least_gain
+    return (
         (loose_sigma2 & (bounds.sigma2_lower < known.sigma2_seen.min() * (1 - tightness)))
         | (loose_sigma1 & (bounds.sigma1_upper > known.sigma1_seen.max() * (1 + tightness)))
-        | (loose_k & injective & (bounds.k_upper > worst + k_slack))
+        | (loose_k & (bounds.k_upper > worst + k_slack))
     )
 
 
-def certificate_of(map: HarmonicMap) -> Certificate:
-    """A map's from its coefficients alone, else a solver's (`proved_by`) if it has one; kept."""
+def certificate_of(map: HarmonicMap, *, alone: bool = False) -> Certificate:
+    """A map's from its coefficients alone, else, unless they are to be alone, a solver's
+    (`proved_by`) if it has one; kept."""
     known = vars(map)
     if "_certificate" not in known:
-        own = certify(map)
-        known["_certificate"] = own if own.certified else known.get("_proof", own)
-    return known["_certificate"]
+        known["_certificate"] = certify(map)
+    own = known["_certificate"]
+    return own if alone or own.certified else known.get("_proof", own)
 
 
 def proved_by(
@@ -207,29 +221,24 @@ def proved_by(
 ) -> Certificate:
     """The certificate by what a solver has proved, neither of sigma_1 nor of k but ``k < 1``."""
     every = np.ones(len(panels))
-    bounds = PanelBounds(
-        sigma2_lower=sigma2_lower,
-        sigma1_upper=every * np.inf,
-        k_upper=every,
-        turning_known=every > 0,
-        turning=turning,
-    )
+    bounds = PanelBounds(sigma2_lower, every * np.inf, every, every > 0, turning)
     turns = windings(turning, panels.loop, 1 + map.domain.n_holes)
     certified = bool((sigma2_lower > 0).all()) and sum(turns) == 0
     how = "Proved locally injective" if certified else "Undecided: not proved"
     reason = f"{how} by the solver on {len(panels)} panels."
-    proof = _assembled(map, panels, bounds, kind, turns, certified, reason)
+    proof = _assembled(panels, bounds, certified, map=map, windings=turns, kind=kind, reason=reason)
     vars(map)["_proof"] = proof
     return proof
 
 
 def _conclude(map: HarmonicMap, panels: Panels, known: Known, kind: CertificateKind) -> Certificate:
     bounds, unproved = known.bounds, ~np.asarray(known.bounds.injective)
-    turns = windings(np.asarray(bounds.turning), panels.loop, 1 + map.domain.n_holes)
-    certified = False
-    with np.errstate(divide="ignore", invalid="ignore"):
-        # Of the sum of all turnings: each end is off by slack / |f_z|.
-        angle_error = np.pi * np.sum(known.slack / known.fz_seen)
+    # Where two panels join, f_z was computed twice: with the turn from one value to the other the
+    # loops close, and about the true one where both are less off than they are large.
+    with np.errstate(all="ignore"):
+        joints = turning(known.ends[:, 1], known.ends[panels.next, 0])
+    turns = windings(bounds.turning + joints, panels.loop, 1 + map.domain.n_holes)
+    errors, certified = np.stack([known.own, known.own[panels.next]], axis=1), False
     if (np.isfinite(known.slack) & (known.sigma2_seen <= -2 * known.slack)).any():  # it folds there
         i = int(np.argmin(known.sigma2_seen))
         seen = f"sigma_2 = {known.sigma2_seen[i]:.3g} near {place(panels.start[i])}"
@@ -238,44 +247,35 @@ def _conclude(map: HarmonicMap, panels: Panels, known: Known, kind: CertificateK
         i = int(np.argmin(bounds.sigma2_lower))
         share = f"{int(unproved.sum())} of {len(panels)} panels could not be proved injective"
         reason = f"Undecided: {share}, the worst near {place(panels.middle[i])}."
-    elif not angle_error < 1:
+    elif not (np.abs(known.ends) > errors).all():
         reason = "Undecided: f_z is too small beside rounding errors to count its turns."
     elif sum(turns) != 0:
         zeros = "1 zero" if sum(turns) == 1 else f"{sum(turns)} zeros"
         reason = f"The map is not locally injective: f_z has {zeros} in the domain."
     else:
         certified, reason = True, f"Proved locally injective on {len(panels)} panels."
-    return _assembled(map, panels, bounds, kind, turns, certified, reason)
+    return _assembled(panels, bounds, certified, map=map, windings=turns, kind=kind, reason=reason)
 
 
-def _assembled(
-    map: HarmonicMap,
-    panels: Panels,
-    bounds: PanelBounds,
-    kind: CertificateKind,
-    turns: tuple[int, ...],
-    certified: bool,
-    reason: str,
-) -> Certificate:
+def _assembled(panels: Panels, bounds: PanelBounds, certified: bool, **more: Any) -> Certificate:
     sigma2, sigma1, k = (np.asarray(values) for values in bounds[:3])
     along = {field.name: getattr(panels, field.name) for field in fields(Panels)}
-    return Certificate(
-        certified=certified,
+    made = Certificate(
+        certified=False,
         sigma2_lower=float(sigma2.min()),
         sigma1_upper=float(sigma1.max()),
         k_upper=min(float(k.max()), 1.0) if certified else float(k.max()),
-        windings=turns,
         panels=PanelCertificate(**along, sigma2_lower=sigma2, sigma1_upper=sigma1, k_upper=k),
-        kind=kind,
-        reason=reason,
-        map=map,
+        **more,
     )
+    vars(made)["certified"] = certified
+    return made
 
 
 def _kernel(
     start: Any, end: Any, coefficients: Any, singularities: Singularities, kind: CertificateKind
 ) -> Known:
-    ends, slack = end_values(start, end, coefficients, singularities)
+    ends, slack, own = _end_values(start, end, coefficients, singularities)
     fz, fzb_conj = (EndValues(*(values[k] for values in ends)) for k in (0, 1))
     proof = PROOFS[kind].on(start, end, singularities)
     remainder = proof.remainder(coefficients, singularities) + proof.slack_share * slack
@@ -283,22 +283,29 @@ def _kernel(
     f, g = modulus(fz.start), modulus(fzb_conj.start)
     # The start itself may lie beside the boundary.
     shift = jumps(coefficients, singularities) @ beside(start, end, singularities).T
-    return Known(bounds, f - g, f + g, g / f, f, np.sum(slack + shift, axis=0))
+    slack, at_ends = np.sum(slack + shift, axis=0), np.stack([fz.start, fz.end], axis=1)
+    return Known(bounds, f - g, f + g, g / f, f, slack, at_ends, np.sum(own, axis=0))
 
 
-def end_values(
-    start: Any, end: Any, coefficients: Any, singularities: Singularities
-) -> tuple[EndValues, Any]:
+def end_values(*at: Any) -> tuple[EndValues, Any]:
     """``sum_j D_j coefficients_j`` at the ends of panels, (k, p), and bounds on the errors."""
+    return _end_values(*at)[:2]
+
+
+def _end_values(
+    start: Any, end: Any, coefficients: Any, singularities: Singularities
+) -> tuple[EndValues, Any, Any]:
+    """Last, bounds on the errors of the values at the start alone."""
     chord: Any = end - start
     edges: Any = cauchy.edge_coefficients(coefficients, singularities)
     both: Any = np.concatenate([start, end])
     parts: Any = rounding.derivatives(both, edges, singularities)
+    own, probe = np.split(parts[2], 2, axis=1)[0], 1 + modulus(edges).max()
     (values, slopes, slack), (values_end, slopes_end, slack_end) = (
         (first, chord * second, first_off + modulus(chord) * second_off)
         for first, second, first_off, second_off in zip(
             *(np.split(part, 2, axis=1) for part in parts), strict=True
         )
     )
-    slack = rounding.allowance(np.maximum(slack, slack_end), 1 + modulus(edges).max())
-    return EndValues(values, values_end, slopes, slopes_end), slack
+    slack, own = (rounding.allowance(a, probe) for a in (np.maximum(slack, slack_end), own))
+    return EndValues(values, values_end, slopes, slopes_end), slack, own

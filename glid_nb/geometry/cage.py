@@ -11,7 +11,7 @@ import numpy as np
 import shapely
 from numpy.typing import ArrayLike, NDArray
 
-from glid_nb._arrays import Array, number_pairs, read_only
+from glid_nb._arrays import Array, Rebuilt, frozen, number_pairs
 from glid_nb.geometry import _loops
 from glid_nb.geometry._loops import GeometryError, loop_name, place, plain_name, segments
 
@@ -22,7 +22,7 @@ _EDGES = 64  # whose crossings are looked for at a time
 
 
 @dataclass(frozen=True, eq=False, init=False)
-class Cage:
+class Cage(Rebuilt):
     """A bounded polygon with any number of holes; the boundary P of the certified domain.
 
     Loops have their vertices in order, either way round; the first is not repeated at the end. The
@@ -45,7 +45,7 @@ class Cage:
         for i, loop in enumerate(loops):
             if (_loops.signed_area(loop) > 0) != (i == 0):
                 loop[1:] = loop[:0:-1].copy()
-        oriented = map(read_only, loops)
+        oriented = map(frozen, loops)
         vars(self).update(exterior=next(oriented), holes=tuple(oriented))
 
     @classmethod
@@ -67,7 +67,7 @@ class Cage:
     @cached_property
     def loops_complex(self) -> tuple[NDArray[np.complex128], ...]:
         """The loops as read-only complex128 arrays x + iy."""
-        return tuple(read_only(loop[:, 0] + 1j * loop[:, 1]) for loop in self.loops)
+        return tuple(frozen(loop[:, 0] + 1j * loop[:, 1]) for loop in self.loops)
 
     def equals(self, other: Cage) -> bool:
         """Whether all loops have the same vertices in the same order."""

@@ -12,7 +12,7 @@ import shapely
 from numpy.typing import ArrayLike, NDArray
 
 from glid_nb._arguments import check_type
-from glid_nb._arrays import Array, number_pairs, read_only
+from glid_nb._arrays import Array, Rebuilt, frozen, number_pairs
 from glid_nb._errors import about
 from glid_nb.geometry._loops import GeometryError, loop_list, loop_name, place
 from glid_nb.geometry.cage import Cage
@@ -30,7 +30,7 @@ _SAMPLES = 32  # at so many points of an edge the width is taken
 
 
 @dataclass(frozen=True, eq=False, init=False)
-class Domain:
+class Domain(Rebuilt):
     """Where a harmonic map lives: the cage P, the offset cage P^ and a point in every hole.
 
     The basis is singular at the offset cage's vertices and the hole points, all outside the closed
@@ -172,7 +172,7 @@ def _checked_hole_points(points: ArrayLike, offset_cage: Cage) -> NDArray[np.flo
             what = f"the point of hole {i} at {place([x, y])} does not lie strictly inside"
             remedy = "move it there, or leave hole_points out to have them chosen"
             raise GeometryError(f"{what} offset hole {i}; {remedy}")
-    return read_only(checked)
+    return frozen(checked)
 
 
 def _divided(offset_cage: Cage, cage: Cage) -> Cage:

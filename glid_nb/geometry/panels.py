@@ -8,17 +8,18 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from glid_nb._arrays import Array, read_only
+from glid_nb._arrays import Array, Rebuilt, frozen
 from glid_nb.geometry._loops import GeometryError, edge_lengths, next_index, subdivided
 from glid_nb.geometry.cage import Cage
 from glid_nb.geometry.domain import Domain
 
 _MAX_BISECTIONS = 48  # bisecting an edge this often brings it below rounding
+_MAX_SPLITS = 40  # of a panel after that
 _EVEN = 1e-9  # relative difference by rounding between the halves of one piece
 
 
 @dataclass(frozen=True, eq=False)
-class Panels:
+class Panels(Rebuilt):
     """Consecutive pieces of the cage's edges, loop by loop; every field is a (p,) array."""
 
     start: Array
@@ -28,8 +29,7 @@ class Panels:
     next: Array  # the panel that follows on the same closed loop
 
     def __post_init__(self) -> None:
-        for array in vars(self).values():
-            read_only(array)
+        vars(self).update({name: frozen(array) for name, array in vars(self).items()})
 
     @classmethod
     def along(cls, loops: Sequence[Array]) -> Panels:
@@ -54,8 +54,9 @@ class Panels:
 
     @property
     def divisible(self) -> Array:
-        """(p,) bool: False where the midpoint coincides with an end in floating point."""
-        return (self.middle != self.start) & (self.middle != self.end)
+        """(p,) bool: False after 40 splits, or where the midpoint is an end in floating point."""
+        inside = (self.middle != self.start) & (self.middle != self.end)
+        return inside & (self.depth < _MAX_SPLITS)
 
     def split(self, chosen: Array) -> tuple[Panels, Array]:
         """With ``chosen`` (p,) bool halved if :attr:`divisible`; (q,) which panel each is of."""
@@ -75,6 +76,7 @@ def graded_panels(domain: Domain, ratio: float = 1.0) -> Panels:
     if not ratio > 0:
         raise ValueError(f"ratio is {ratio}; it must be positive")
     panels = Panels.along(domain.cage.loops_complex)
+    panels = replace(panels, depth=panels.depth - _MAX_BISECTIONS)
     for _ in range(_MAX_BISECTIONS):
         too_long = panels.length > ratio * _clearance(domain, panels.start, panels.end)
         if not too_long.any():

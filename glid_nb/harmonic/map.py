@@ -11,7 +11,7 @@ from typing import Any, TypeVar
 import numpy as np
 from numpy.typing import ArrayLike
 
-from glid_nb._arrays import Array, number_pairs, read_only, real_array
+from glid_nb._arrays import Array, Rebuilt, frozen, number_pairs, real_array
 from glid_nb._errors import InputError, about
 from glid_nb._json import checked_version, read_json, write_json
 from glid_nb._runtime import in_chunks
@@ -34,7 +34,7 @@ class MapError(InputError):
 
 
 @dataclass(frozen=True, eq=False, init=False)
-class HarmonicMap:
+class HarmonicMap(Rebuilt):
     """A planar harmonic map on a multiply-connected domain (paper Equation (8)).
 
     ``f(z) = sum_j C_j(z) phi_j + conj(sum_j C_j(z) psi_j)``, with the offset cage's vertices in
@@ -73,8 +73,7 @@ class HarmonicMap:
         uneven = np.flatnonzero(gap > 0) + holes.start
         self.phi[uneven] += (self.psi[uneven].conj() - self.phi[uneven]) / 2
         self.psi[uneven] = self.phi[uneven].conj()
-        read_only(self.phi)
-        read_only(self.psi)
+        vars(self).update(phi=frozen(self.phi), psi=frozen(self.psi))
 
     @classmethod
     def identity(cls, domain: Domain) -> HarmonicMap:

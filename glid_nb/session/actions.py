@@ -15,6 +15,7 @@ from numpy.typing import ArrayLike
 
 from glid_nb import methods
 from glid_nb._arrays import Array, real_array
+from glid_nb.certificate import certificate_of
 from glid_nb.energies import Energy
 from glid_nb.geometry import Cage, Domain, place
 from glid_nb.harmonic import HarmonicMap
@@ -256,6 +257,8 @@ def keep_between(state: EditState, time: float, map: HarmonicMap) -> EditState:
     index = bisect.bisect_right(state.timeline.times, time)
     if not index or np.abs(np.subtract(state.timeline.times, time)).min() < LEAST_GAP:
         raise EditError(f"there is a pose at {time:g} s already, or none before")
+    if not (proof := certificate_of(map)).certified:
+        raise EditError(f"the map at {time:g} s cannot be kept. {proof.reason}")
     before = state.poses[index - 1]
     targets = map(before.pose.handles) if len(before.pose) else []
     pose = before.changed(pose=before.pose.with_targets(targets), map=map)

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, Self
 import numpy as np
 
 from glid_nb._arrays import Array
-from glid_nb.certificate import Certificate, certify
+from glid_nb.certificate import Certificate, certificate_of, certify
 from glid_nb.energies import Energy
 from glid_nb.geometry import MeshMap
 from glid_nb.harmonic import HarmonicMap
@@ -259,4 +259,4 @@ class Result(Course):
         if disc is None:
             return proof if own else certify(self.map)
         tight = certify(self.map, disc.certificate, disc.panels, refine=disc.can_refine)
-        return proof if own and not tight.certified else tight
+        return certificate_of(self.map) if own and not tight.certified else tight

@@ -145,7 +145,7 @@ def _starting_point(
         what = "the map to start from is not conformal (psi is not constant)"
         raise StartError(f"{what}; start from one that is, or turn the option conformal off")
     proof, disc = (start.proof, start.discretisation) if isinstance(start, Result) else (None, None)
-    if proof is None or not proof.belongs_to(map_):
+    if proof is None or not (proof.certified and proof.belongs_to(map_)):
         proof = certificate_of(map_)
     if not proof.certified:
         raise StartError(f"the map to start from is not certified: {proof.reason}")

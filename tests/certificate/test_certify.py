@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+import pickle
 import re
 from dataclasses import replace
 from fractions import Fraction
@@ -13,8 +14,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from glid_nb._errors import InputError
 from glid_nb.certificate import Certificate, certify, global_injectivity, rounding
-from glid_nb.certificate.certify import CertificateError
+from glid_nb.certificate.certify import CertificateError, Known, _kernel, proof_text, refined
 from glid_nb.geometry import (
     Cage,
     Domain,
@@ -23,7 +25,7 @@ from glid_nb.geometry import (
     graded_panels,
     uniform_panels,
 )
-from glid_nb.harmonic import HarmonicMap
+from glid_nb.harmonic import HarmonicMap, run_on
 
 from ..domains import dense_check, domain, random_map, reference
 from ..reference_map import DenseCheck, Measured, cauchy_first
@@ -395,6 +397,51 @@ def test_a_certificate_belongs_to_one_map() -> None:
     with pytest.raises(CertificateError, match="belongs to another map"):
         global_injectivity(folded, certificate)
     assert global_injectivity(again, certificate).verdict == "yes"
+
+
+def test_a_certificate_that_no_proof_made_proves_nothing() -> None:
+    certificate = certify(random_map("ring", 0.05, 1))
+    map = certificate.map
+    folded = HarmonicMap(map.domain, map.psi.conj(), map.phi.conj())
+    for changed in ({"map": folded}, {"sigma2_lower": 1.0}, {"windings": (1, -1)}, {}):
+        forged = replace(certificate, **changed)
+        assert not forged.certified
+        assert "no proof made" in forged.reason
+        assert global_injectivity(forged.map, forged).verdict == "undecided"
+        with pytest.raises(InputError, match="no proof"):
+            proof_text(forged)
+    copied = pickle.loads(pickle.dumps(certificate))
+    assert copied.certified
+    assert copied.belongs_to(map)
+    with pytest.raises(ValueError, match="WRITEABLE"):
+        copied.panels.start.setflags(write=True)
+
+
+def test_rounding_that_falls_with_a_panels_length_hides_nothing() -> None:
+    """Beside an offset of 10^-10 the errors of slopes are large on panels of that length."""
+    bar = Domain.from_cage(Cage([[-10, -1], [10, -1], [10, 1], [-10, 1]]), 1e-10)
+    rng = np.random.default_rng(0)
+    real, imaginary = rng.normal(size=(2, 2, bar.n_coefficients))
+    phi, psi = 0.03468 * (real + 1j * imaginary)
+    map = HarmonicMap(bar, HarmonicMap.identity(bar).phi + phi, psi)
+    assert certify(map).certified
+
+
+def test_what_was_proved_is_not_lost_to_finer_panels() -> None:
+    map = random_map("ring", 0.05, 1)
+    evaluate = functools.partial(run_on, map, functools.partial(_kernel, kind="hermite"))
+    panels = graded_panels(map.domain)
+    known: Known = evaluate(panels.start, panels.end)
+    assert known.proved
+
+    def worse(start: Any, end: Any) -> Known:
+        fresh: Known = evaluate(start, end)
+        bounds = fresh.bounds._replace(sigma2_lower=-np.ones(len(start)))
+        return fresh._replace(bounds=bounds)
+
+    kept, still = refined(panels, known, worse, 1e-6)
+    assert kept is panels
+    assert still.proved
 
 
 def test_what_rounding_hides_is_not_searched_for() -> None:

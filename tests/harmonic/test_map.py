@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import copy
 import dataclasses
+import pickle
 import re
 import subprocess
 import sys
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -13,6 +16,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from glid_nb.certificate import certificate_of
 from glid_nb.geometry import graded_panels
 from glid_nb.harmonic import HarmonicMap, MapError, as_complex
 
@@ -219,6 +223,30 @@ def test_logarithms_that_are_not_exactly_tied_are_tied_without_changing_the_map(
         assert kept.tobytes() == before.tobytes()
     again = HarmonicMap(loose.domain, loose.phi, loose.psi)
     assert (again.phi.tobytes(), again.psi.tobytes()) == (loose.phi.tobytes(), loose.psi.tobytes())
+
+
+@pytest.mark.parametrize(
+    "copied", [copy.copy, copy.deepcopy, lambda map: pickle.loads(pickle.dumps(map))]
+)
+def test_a_copy_cannot_be_written_to_and_keeps_no_proof(
+    copied: Callable[[HarmonicMap], HarmonicMap],
+) -> None:
+    map = random_map("ring", 0.05, 1)
+    assert certificate_of(map).certified
+    other = copied(map)
+    assert set(vars(other)) == {"domain", "phi", "psi"}
+    assert certificate_of(map).belongs_to(other)
+    for one in (map, other):
+        domain, panels = one.domain, graded_panels(one.domain)
+        cages = domain.cage.loops + domain.offset_cage.loops + domain.offset_cage.loops_complex
+        arrays = one.phi, one.psi, *cages, domain.hole_points, domain.hole_points_complex
+        for array in (*arrays, panels.start, copied(panels).start):  # type: ignore[arg-type]
+            with pytest.raises(ValueError, match="read-only"):
+                array[0] = 0
+            with pytest.raises(ValueError, match="WRITEABLE"):
+                array.setflags(write=True)
+    assert other.phi.tobytes() == map.phi.tobytes()
+    assert copied(map.domain).equals(map.domain)  # type: ignore[arg-type]
 
 
 def test_a_translation_changes_no_derivative() -> None:

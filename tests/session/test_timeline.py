@@ -12,6 +12,7 @@ import pytest
 from hypothesis import given, settings
 from scipy.interpolate import CubicSpline
 
+from glid_nb.harmonic import HarmonicMap
 from glid_nb.motion.settings import MotionError
 from glid_nb.session import actions
 from glid_nb.session.edit_state import EditError, EditState
@@ -120,6 +121,9 @@ def test_what_lies_between_can_be_kept() -> None:
     for taken in (0.0, 1.0, -1.0, 1e-5, 1 - 1e-5):
         with pytest.raises(EditError, match="a pose"):
             actions.keep_between(two, taken, two.map)
+    folded = HarmonicMap(two.domain, two.map.psi.conj(), two.map.phi.conj())
+    with pytest.raises(EditError, match=r"cannot be kept\. The map is not locally injective"):
+        actions.keep_between(two, 0.25, folded)
 
 
 def test_settings_that_are_not_valid_are_refused() -> None:

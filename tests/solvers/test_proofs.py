@@ -3,16 +3,20 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
 
-from glid_nb import methods, solve_batch
+from glid_nb import load_document, methods, save_document, solve_batch
+from glid_nb._json import read_json
 from glid_nb.certificate import certificate_of, certify
 from glid_nb.cli.output import finish
 from glid_nb.energies import SymmetricDirichlet, energy_by_name
 from glid_nb.geometry import Cage, Domain
 from glid_nb.harmonic import HarmonicMap
+from glid_nb.imaging import TraceOptions
+from glid_nb.session.document import Document, DocumentError, NamedPose
 from glid_nb.session.report import build_report
 from glid_nb.solvers import Options, Pose, Progress, Result, Status, solve
 from glid_nb.solvers.subspace import StartError
@@ -85,6 +89,10 @@ def test_a_result_whose_map_was_replaced_is_proved_again() -> None:
         with pytest.raises(StartError, match="not certified"):
             solve(ring, POSE, start=wrong, options=Options(max_iterations=limit))
     assert not wrong.certificate.certified
+    forged = replace(wrong, proof=replace(result.proof, map=folded))
+    with pytest.raises(StartError, match="not certified"):
+        solve(ring, POSE, start=forged, options=Options(max_iterations=0))
+    assert not forged.certificate.certified
     other = HarmonicMap.identity(ring)
     again = solve(ring, POSE, start=replace(result, map=other), options=Options(max_iterations=0))
     check_carries(again)
@@ -106,6 +114,43 @@ def test_a_bar_with_a_tiny_notch_far_away() -> None:
         assert np.isfinite(result.energy)
     assert result.status.ok
     assert result.energy == pytest.approx(2, abs=1e-6)
+
+
+def test_what_a_solver_proves_can_be_kept_and_checked(tmp_path: Path) -> None:
+    """Beside a slit of 10^-9, where f_z is hardly larger than its rounding errors."""
+    right, left = [[10, -1], [10, 1], [1e-9, 1], [1e-9, -0.9]], [[0, -0.9], [0, 1], [-10, 1]]
+    slit = Domain.from_cage(Cage([[-10, -1], *right, *left]))
+    handles = [(4.835, 0.444), (-5.626, 0.66), (3.153, 0.366)]
+    pose = Pose(handles, [(3.946, -1.708), (-5.574, 0.554), (5.964, 1.86)])
+    result = solve(slit, pose, options=Options(restarts=0))
+    check_carries(result)
+    assert np.isfinite([result.certificate.sigma1_upper, certify(result.map).sigma1_upper]).all()
+    assert result.certificate.k_upper < 1
+    result.proof.save(tmp_path / "proof.json")
+    for bound in ("sigma1_upper", "k_upper"):
+        assert np.isfinite(float.fromhex(read_json(tmp_path / "proof.json")[bound]))
+    poses = (NamedPose("slit", pose, result.energy_measure, Options(), result.map),)
+    image = np.zeros((20, 200, 4), np.uint8)
+    document = Document(image, slit.cage, slit, TraceOptions(), None, poses, 0)
+    save_document(document, tmp_path / "slit.glid")
+    kept = load_document(tmp_path / "slit.glid").poses[0].map
+    again = solve(kept.domain, pose, start=kept, options=Options(max_iterations=1, align=False))
+    check_carries(again)
+
+
+def test_a_document_is_saved_by_what_it_is_loaded_by(tmp_path: Path) -> None:
+    """The solver's panels are in no file, so what only they prove is not saved."""
+    ring = domain("ring")
+    result = solve(ring, POSE, options=Options(restarts=0))
+    known = vars(result.map)
+    known["_certificate"] = replace(result.certificate)
+    assert certificate_of(result.map).certified
+    poses = (NamedPose("ring", POSE, result.energy_measure, Options(), result.map),)
+    image = np.zeros((20, 20, 4), np.uint8)
+    document = Document(image, ring.cage, ring, TraceOptions(), None, poses, 0)
+    with pytest.raises(DocumentError, match="not certified"):
+        save_document(document, tmp_path / "never.glid")
+    assert not (tmp_path / "never.glid").exists()
 
 
 @pytest.mark.parametrize("gap", [1e-6, 1e-12])
