@@ -11,7 +11,7 @@ import subprocess
 import tempfile
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import IO, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -115,11 +115,9 @@ def _video(frames: Frames, fps: float, suffix: str, transparent: bool) -> bytes:
     pixels = ["-pix_fmt", "yuva420p" if transparent else "yuv420p"]
     with tempfile.TemporaryDirectory(prefix="glid_nb-") as folder:
         path, log = Path(folder) / f"frames{suffix}", Path(folder) / "log"
-        command = [get_ffmpeg_exe(), "-v", "error", *given, *_CODECS[suffix], *_COLORS, *pixels]
-        with (
-            log.open("wb") as told,
-            subprocess.Popen([*command, str(path)], stdin=subprocess.PIPE, stderr=told) as ffmpeg,
-        ):
+        program = get_ffmpeg_exe()
+        command = [program, "-v", "error", *given, *_CODECS[suffix], *_COLORS, *pixels]
+        with log.open("wb") as told, _running([*command, str(path)], told) as ffmpeg:
             assert ffmpeg.stdin is not None
             try:
                 for frame in frames.pictures:
@@ -129,9 +127,19 @@ def _video(frames: Frames, fps: float, suffix: str, transparent: bool) -> bytes:
             except BaseException:
                 ffmpeg.kill()
                 raise
-        if ffmpeg.returncode:
-            raise OSError(f"ffmpeg could not write the {suffix} video: {log.read_text()[-500:]}")
+        if ffmpeg.returncode or not path.is_file():
+            told = f"exit code {ffmpeg.returncode}: {log.read_text()[-500:] or 'it says nothing'}"
+            raise OSError(f"ffmpeg ({program}) could not write the {suffix} video, {told}")
         return path.read_bytes()
+
+
+def _running(command: list[str], told: IO[bytes]) -> subprocess.Popen[bytes]:
+    try:
+        return subprocess.Popen(command, stdin=subprocess.PIPE, stderr=told)
+    except OSError as error:
+        what = f"ffmpeg cannot be run, {command[0]}: {error.strerror}"
+        remedy = "pip install 'glid-nb[video]' again, or correct IMAGEIO_FFMPEG_EXE"
+        raise InputError(f"{what}; {remedy}") from error
 
 
 def _sprite_sheet(frames: Frames, fps: float, name: str) -> list[bytes]:

@@ -13,7 +13,7 @@ from glid_nb.export import encode
 from glid_nb.export.encode import RGB
 from glid_nb.export.formats import file_names, suffix_of
 from glid_nb.export.mesh import motion_glb
-from glid_nb.export.moving import Progress, Stopped, frames
+from glid_nb.export.moving import Progress, Stopped, frames, report
 from glid_nb.export.page import page_html
 from glid_nb.imaging import PixelFrame, as_rgba8
 from glid_nb.imaging.render import check_fits
@@ -91,7 +91,8 @@ def motion_files(
     ``progress`` is called with the numbers of finished and of all frames, or stages where there are
     no frames; when it returns True the export stops, and there are no files.
 
-    Raises an InputError for another suffix, a setting that is out of range, or a missing package.
+    Raises an InputError for a motion that is not proved throughout, another suffix, a setting that
+    is out of range, or a missing package.
     """
     suffix, fps = suffix_of(name), frames_per_second
     check_type("motion", motion, Motion, _MAKE_ONE, InputError)
@@ -99,6 +100,9 @@ def motion_files(
     checked("loop", bool, loop)
     image = as_rgba8(image)
     check_fits(PixelFrame(*image.shape[1::-1]), motion.keyframes[0])
+    if not motion.certificate.certified:
+        remedy = 'add a keyframe before that, or choose between="auto"'
+        raise InputError(f"{motion.certificate.reason} Nothing uncertified is exported; {remedy}.")
     try:
         match suffix:
             case ".html":
@@ -107,7 +111,9 @@ def motion_files(
             case ".glb":
                 contents = [motion_glb(image, motion, poses, progress=progress)]
             case ".motion.json":
+                report(progress, 0, 1)
                 contents = [text.encode() for text in motion.texts()]
+                report(progress, 1, 1)
             case _:
                 drawn = frames(image, motion, poses, size, fps, background, progress)
                 contents = encode.encoded(drawn, name, suffix, fps, background, loop)

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from PIL import Image, ImageDraw
 
+from glid_nb._arguments import check_type
 from glid_nb._arrays import Array
 from glid_nb._errors import InputError
 from glid_nb.export.encode import RGB, Frames, check_settings, encoded
@@ -47,7 +48,7 @@ def animation_bytes(
     *,
     size: int = 480,
     frames_per_second: float = 20.0,
-    background: RGB = (255, 255, 255),
+    background: RGB | None = (255, 255, 255),
     there_and_back: bool = False,
     format: Format = "gif",
     marks: bool = True,
@@ -61,11 +62,14 @@ def animation_bytes(
     rings where another part of the shape covers them.
 
     There are at most 100 frames per second, of a GIF 50. The background's red, green and blue are 0
-    to 255. ``there_and_back`` appends the frames in reverse order, so that the loop has no jump. A
-    "gif" is supported everywhere but has 256 colours only, an "apng" keeps them all. Raises an
-    InputError that names an argument out of range.
+    to 255; None is transparent, in an "apng" only. ``there_and_back`` appends the frames in reverse
+    order, so that the loop has no jump. A "gif" is supported everywhere but has 256 colours only,
+    an "apng" keeps them all. Raises an InputError that names an argument out of range.
     """
-    maps = list(maps)
+    for name, given, kind in (("maps", maps, HarmonicMap), ("poses", poses or (), Pose)):
+        check_type(name, given, Sequence, "of a motion give motion.resample(20)[1]", InputError)
+        for one in given:
+            check_type(f"each of {name}", one, kind, "give one for each frame", InputError)
     if not maps:
         raise InputError("maps is empty; an animation needs at least one map")
     if poses is not None and len(poses) != len(maps):
@@ -79,11 +83,12 @@ def animation_bytes(
     for i, map in enumerate(maps):
         pose = None if poses is None else poses[i]
         mesh = deformed_mesh(map, _VERTICES, _TOLERANCE_PX * frame.units_per_pixel, pose)
-        picture = on_background(draw_mesh(texture, mesh, frame), background)
+        drawn = draw_mesh(texture, mesh, frame)
+        picture = Image.fromarray(drawn) if background is None else on_background(drawn, background)
         if pose is not None and marks:
             hidden = Sheets(map, order_of(map.domain.cage, pose), pixels).hidden(pose.handles)
             picture.alpha_composite(_marks(pose, map, frame, hidden))
-        frames.append(np.asarray(picture.convert("RGB")))
+        frames.append(np.asarray(picture.convert("RGB" if background else "RGBA")))
     if there_and_back:
         frames += frames[-2:0:-1]
     drawn = Frames((frame.width, frame.height), len(frames), iter(frames))

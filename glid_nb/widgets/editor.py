@@ -260,7 +260,8 @@ class Editor(ClosingWidget, ipywidgets.VBox):
     def export(
         self, path: str | Path, size: tuple[int, int] | None = None, view: View = "source"
     ) -> tuple[Path, ...]:
-        """Export as .png, .obj, .glb, .svg, .html, .py, .proof.json or .glid, a session.
+        """Export as .png, .obj, .glb, .svg, .html, .py, .proof.json or .glid, a session; as .gif,
+        .apng, .mp4, .webm, .sheet.png, .zip or .motion.json the motion.
 
         ``size`` and ``view`` of a picture are as in `glid_nb.render`. Returns the written files:
         ``path``, then those that come with it, such as ``-texture.png`` with a mesh, or

@@ -4,17 +4,16 @@ import contextlib
 import json
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
 
 import ipywidgets
 
 from glid_nb import export as to
-from glid_nb._errors import InputError
 from glid_nb._files import write_bytes_atomically, zipped
 from glid_nb._json import json_text
 from glid_nb._runtime import data_directory
 from glid_nb.certificate.certify import proof_text
-from glid_nb.export.formats import FORMATS, ExportError, file_names, suffix_of
+from glid_nb.export.formats import FORMATS, MOTION_FORMATS, ExportError, file_names, suffix_of
 from glid_nb.imaging.read import png
 from glid_nb.imaging.render import View
 from glid_nb.session.animation import Animation
@@ -66,7 +65,14 @@ def export(
 ) -> tuple[Path, ...]:
     """Write `exported` files over those of an earlier export; an `OccupiedError` over others."""
     path = Path(path)
-    (name, data), *others = exported(model, path, size, view).items()
+    if path.name.lower().endswith(tuple(MOTION_FORMATS.keys() - FORMATS.keys())):
+        state, settings = model.deformation.state, {} if size is None else {"size": max(size)}
+        poses, maps = ([getattr(pose, part) for pose in state.poses] for part in ("pose", "map"))
+        motion, how = state.timeline.motion(maps), cast(Any, settings)
+        files = to.motion_files(path.name, model.document.image, motion, poses, **how)
+    else:
+        files = exported(model, path, size, view)
+    (name, data), *others = files.items()
     # If the file exists, those beside it came with it.
     beside = write(model, path, dict(others), replace=path.exists())
     return (*write(model, path, {name: data}, replace=True), *beside)
@@ -188,8 +194,6 @@ class MotionExport(ClosingWidget, ipywidgets.HBox):
             count = len(motion.times) - 1
             if any(report(i, count) or not motion.interval(i) for i in range(count)):
                 return self._say("Stopped; nothing was written.", "")
-            if not motion.certificate.certified:
-                raise InputError(f"{motion.certificate.reason} Nothing uncertified is exported.")
             name, deliver = task
             poses = [pose.pose for pose in document.poses]
             how: Any = {"size": self.size.value, "frames_per_second": self.rate.value}

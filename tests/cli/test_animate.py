@@ -146,6 +146,15 @@ def test_a_motion_that_folds_is_not_written(run: Any, tmp_path: Path) -> None:
     assert not (tmp_path / "a.gif").exists()
 
 
+def test_a_wrong_size_is_refused_before_anything_is_proved(
+    run: Any, session: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(Motion, "certificate", None)
+    outcome = run("animate", session, "--out", tmp_path / "a.gif", "--size", "9999")
+    assert outcome.code == 1
+    assert "size is 9999; it must be a whole number from 16 to 8192" in outcome.err
+
+
 def test_ctrl_c_leaves_nothing(
     run: Any, session: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -80,6 +80,14 @@ def test_there_and_back_has_no_jump() -> None:
 
 
 @pytest.mark.slow
+def test_an_apng_may_be_transparent() -> None:
+    maps, poses = drag(2)
+    data = animation_bytes(picture(), maps, poses, size=60, background=None, format="apng")
+    alpha = np.asarray(Image.open(io.BytesIO(data)).convert("RGBA"))[..., 3]
+    assert (alpha.min(), alpha.max()) == (0, 255)
+
+
+@pytest.mark.slow
 def test_the_marks_are_drawn() -> None:
     maps, (there,) = drag(1)
     poses = [there.with_targets(there.targets + np.array([0.0, 1.5]))]
@@ -96,6 +104,10 @@ def test_the_marks_are_drawn() -> None:
     [
         ({"maps": []}, "maps is empty"),
         ({"poses": []}, "4 maps but 0 poses"),
+        ({"poses": [1, 2, 3, 4]}, "each of poses must be Pose, not int"),
+        ({"maps": [1, 2]}, "each of maps must be HarmonicMap, not int"),
+        ({"maps": drag()[0][0]}, r"maps must be Sequence, not HarmonicMap; .* motion\.resample"),
+        ({"background": None}, "GIF has no transparency"),
         ({"size": 3}, "size"),
         ({"frames_per_second": 0}, "frames_per_second"),
         ({"frames_per_second": float("nan")}, "frames_per_second"),

@@ -230,7 +230,7 @@ def test_progress_is_told_and_stops(tmp_path: Path) -> None:
     assert [path.name for path in tmp_path.iterdir()] == ["walk.gif"]
 
 
-@pytest.mark.parametrize(("kind", "stages"), [("html", 3), ("glb", 2)])
+@pytest.mark.parametrize(("kind", "stages"), [("html", 3), ("glb", 2), ("motion.json", 1)])
 def test_page_and_mesh_tell_their_stages_and_stop(kind: str, stages: int) -> None:
     told = []
     name = f"walk.{kind}"
@@ -277,6 +277,33 @@ def test_page_and_mesh_tell_their_stages_and_stop(kind: str, stages: int) -> Non
 def test_what_cannot_be_made_is_refused(name: str, changes: dict[str, Any], message: str) -> None:
     with pytest.raises(InputError, match=message):
         motion_files(**{"name": name, "image": picture(), "motion": motion(), **changes})
+
+
+@pytest.mark.parametrize("kind", [*MOTION_FORMATS, ""])
+def test_what_is_not_proved_throughout_is_not_exported(kind: str, tmp_path: Path) -> None:
+    start = HarmonicMap.identity(domain())
+    folding = Motion([start, HarmonicMap(domain(), -start.phi, -start.psi)], between="linear")
+    with pytest.raises(
+        InputError, match=r"up to t = 0\.49.*Nothing uncert.*; add a keyframe before"
+    ):
+        animate(tmp_path / f"walk{kind}", picture(), folding)
+    assert not [*tmp_path.iterdir()]
+
+
+@pytest.mark.parametrize(
+    ("program", "message"),
+    [
+        ("/nonexistent/ffmpeg", "ffmpeg cannot be run, /nonexistent/ffmpeg: No such file or direc"),
+        ("/bin/false", r"ffmpeg \(/bin/false\) could not write .*, exit code 1: it says nothing"),
+        ("/bin/true", r"ffmpeg \(/bin/true\) could not write .*, exit code 0: it says nothing"),
+    ],
+)
+def test_an_ffmpeg_that_fails_is_named(
+    program: str, message: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("IMAGEIO_FFMPEG_EXE", program)
+    with pytest.raises((InputError, OSError), match=message):
+        motion_files("walk.mp4", picture(), motion(), **SMALL)
 
 
 def test_a_motion_of_too_many_frames_is_refused() -> None:

@@ -122,6 +122,16 @@ def test_the_headless_editor(editor: Editor, tmp_path: Path) -> None:
         assert np.array_equal(np.asarray(picture), expected)
     with pytest.raises(ExportError, match=r"\.xyz"):
         editor.export(tmp_path / "out.xyz")
+    with pytest.raises(glid.InputError, match="at least 2 keyframes"):
+        editor.export(tmp_path / "walk.gif")
+    editor.deformation.save_pose()
+    editor.deformation.reset()
+    for suffix in (".gif", ".sheet.png", ".motion.json"):
+        for file in editor.export(tmp_path / f"walk{suffix}", size=(64, 32)):
+            assert file.stat().st_size > 100
+    with Image.open(tmp_path / "walk.gif") as picture:
+        assert picture.n_frames > 20
+    editor.load(path)
 
     # Tracing anew is a step that undo takes back.
     editor.trace(drop_holes=[[100.0, 50.0]])
