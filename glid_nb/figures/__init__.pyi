@@ -5,6 +5,7 @@ from .curves import function as function
 from .drawing import figure_png as figure_png
 from .overview_figure import overview as overview
 from .shapes import basis as basis
+from .shapes import boundary as boundary
 from .shapes import distortion as distortion
 from .shapes import panels as panels
 from .shapes import picture as picture

@@ -72,9 +72,8 @@ def energy_levels(*energies: Energy | str) -> NotebookFigure:
 def derivative_curve(map: HarmonicMap, which: Literal["fz", "fzb"] = "fz") -> NotebookFigure:
     """The curve that a derivative runs through along the boundary, loop by loop, around 0.
 
-    A legend tells how often each loop's curve winds around 0, counted from samples, each loop
-    walked in its own direction (holes clockwise). For f_z the sum of all windings is the number of
-    its zeros in the domain (Section 8). A dot marks each loop's start.
+    A legend tells how often each loop's curve, which begins at a dot, winds around 0, by samples
+    (holes clockwise). For f_z all windings add up to its zeros in the domain (Section 8).
     """
     if which not in ("fz", "fzb"):
         raise ValueError(f"which is {which!r}; choose 'fz' or 'fzb'")
@@ -107,8 +106,8 @@ def convergence(
 ) -> NotebookFigure:
     """Total energies of several named results, on a logarithmic axis.
 
-    They are drawn against "iterations" or "seconds", those of `Iteration.time`: without compiling.
-    With ``gap_to``, such as the lowest energy known, (E - gap_to) / gap_to is drawn instead.
+    Against "iterations" or "seconds", those of `Iteration.time`: without compiling. With
+    ``gap_to``, such as the lowest energy known, (E - gap_to) / gap_to is drawn instead.
     """
     if against not in ("iterations", "seconds"):
         raise ValueError(f"against is {against!r}; choose 'iterations' or 'seconds'")

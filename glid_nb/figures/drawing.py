@@ -26,7 +26,7 @@ _CSS_DPI = 108.0  # this many of the page's pixels per inch
 _MANY = 256  # values of a field
 _ROUND, _COARSE = (1, 1.1, 1.2, 1.5, 2, 2.5, 3, 4, 5, 7), (1, 2, 5)  # ticks of a decade
 
-_ON_WHITE: Any = [withStroke(linewidth=2.0, foreground="white")]  # shows on every picture
+ON_WHITE: Any = [withStroke(linewidth=2.0, foreground="white")]  # shows on every picture
 
 Floats = NDArray[np.float64]
 
@@ -131,7 +131,7 @@ def targets(axes: Axes, map: Any, pose: Pose) -> None:
     apart = np.linalg.norm(images - pose.targets, axis=1) > _MISS * size
     segments = np.stack([images[apart], pose.targets[apart]], axis=1)
     lines = LineCollection(list(segments), colors=INK, linewidths=0.9, zorder=3)
-    lines.set_path_effects(_ON_WHITE)
+    lines.set_path_effects(ON_WHITE)
     axes.add_collection(lines, autolim=False)
     dots(axes, pose.targets, CYAN, 5.0, edge=0.6, label="targets")
     dots(axes, images, "black", 2.2, edge=0.0, label="handles' images")
@@ -141,7 +141,7 @@ def label_levels(axes: Axes, lines: Any, labels: dict[float, str]) -> None:
     """Write values at contour lines, legible on every colour."""
     texts = axes.clabel(lines, [*labels], fmt=labels, fontsize=SMALL, colors=INK, inline_spacing=2)
     for text in texts:
-        text.set_path_effects(_ON_WHITE)
+        text.set_path_effects(ON_WHITE)
 
 
 def log_ticks(low: float, high: float) -> list[float]:

@@ -41,19 +41,17 @@ def overview(
 ) -> Figure:
     """A figure that summarises a solve.
 
-    The upper row has one scale unless sizes differ a lot: the picture with the cage, the offset
-    cage and the handles; the deformed picture with targets (cyan discs) and the handles' images
-    (black dots), joined by a line where they differ; the distortion max(sigma_1, 1 / sigma_2) over
-    the deformed shape. The lower row: the energies and the Newton steps per iteration, and along
-    the boundary the certified lower bound on sigma_2 and the sampled sigma_2.
+    The upper row has one scale unless sizes differ a lot: the picture with both cages and the
+    handles; the deformed one with targets (cyan discs) and the handles' images (black dots), joined
+    where they differ; the distortion max(sigma_1, 1 / sigma_2). The lower row: energies and Newton
+    steps per iteration, and along the boundary the certified and the sampled sigma_2.
 
     The image is the one that the cage was traced from, the result what :func:`glid_nb.solve`
     returned. A pose has handles and targets to show instead of the solve's. The width is in inches,
     at least 4.5; the text's size does not depend on it.
 
-    The figure has 300 dots per inch and is unknown to pyplot. A notebook shows it,
-    ``figure.savefig(path)`` writes it to a file, `figure_png` to memory. Raises a ValueError when
-    the width is too small, a TypeError when the result's map is a map of a mesh.
+    The figure has 300 dots per inch and is unknown to pyplot; ``figure.savefig(path)`` writes it.
+    A ValueError when the width is too small, a TypeError when the map is one of a mesh.
     """
     if not width >= _NARROWEST:
         raise ValueError(f"width is {width} inches; the text needs at least {_NARROWEST}")

@@ -152,9 +152,9 @@ class EnergyPlot(_OverIterations):
     the targets' part as it is; on a logarithmic axis."""
 
     _looks: ClassVar = {
-        "energy_p2p": {"color": ORANGE, "label": "targets"},
-        "energy_iso": {"color": BLUE, "label": "isometric"},
-        "energy": {"color": INK, "label": "total", "linestyle": (0, (4, 1.5))},
+        "energy_p2p": {"color": ORANGE, "label": "targets", "linewidth": 2.4},
+        "energy_iso": {"color": SKY, "label": "isometric", "linewidth": 2.4},
+        "energy": {"color": INK, "label": "total", "linewidth": 0.8},
     }
     _dotted = -1
 

@@ -40,6 +40,10 @@ _WIDTH, _WIDTH_OF_ONE, _TALLEST = 7.4, 4.6, 3.8  # inches
 _ABREAST = 4
 _CHECKS = 24  # along the longer side of a shape
 _FULL_MARGIN = 0.5  # from this certified sigma_2 on panels have one colour
+_FEW, _SMALL = 5, 0.06  # triangles, and of the axes' size: folds that get rings
+# Face, edge, its width and hatch of folds, one upon the other: colour-blind people see them too.
+_FOLDED = ("none", "white", 2.8, ""), ("none", INK, 1.5, "")
+_FOLDED += (VERMILION, "face", 0.5, ""), ("none", INK, 0.0, "/////")
 _MANY = 400  # panels, among which the dots at their ends would hide the colours
 
 
@@ -103,13 +107,11 @@ def distortion(
 ) -> NotebookFigure:
     """Fields of distortion on the deformed shapes, side by side, with one scale of colours.
 
-    ``maps`` is a HarmonicMap or MeshMap, or several, each with its title. Dark is distorted,
-    vermilion is folded; under the title stands how many triangles a MeshMap turns over. Of a pose
-    the targets (cyan) and the handles' images (black) are drawn.
-
-    The quantity is "sigma1", "sigma2" (the singular values, Equation (2)), "k" (the little
-    dilatation), "distortion" (max(sigma_1, 1 / sigma_2)), "energy" (the symmetric Dirichlet
-    density), or an Energy, for its density.
+    ``maps`` is a HarmonicMap or MeshMap, or several, each with a title. Dark is distorted, hatched
+    vermilion is folded, and the title says so; few or tiny folds have a ring. Of a pose the targets
+    (cyan) and the handles' images (black) are drawn. The quantity is "sigma1", "sigma2" (Equation
+    (2)), "k" (the little dilatation), "distortion" (max(sigma_1, 1 / sigma_2)), "energy" (the
+    symmetric Dirichlet density), or an Energy, for its density.
     """
     maps, sheets = _listed(maps, pose)
     figure, grid = _side_by_side(maps, sheets, pose, titles, 0.55)
@@ -140,18 +142,40 @@ def draw_distortion(
 
 
 def picture(
-    image: ArrayLike | None, maps: Maps, pose: Pose | None = None, *, titles: Sequence[str] = ()
+    image: ArrayLike | None,
+    maps: Maps,
+    pose: Pose | None = None,
+    *,
+    titles: Sequence[str] = (),
+    cages: bool = False,
+    numbers: bool = False,
 ) -> NotebookFigure:
-    """A picture under each map, side by side; turned-over triangles are vermilion.
+    """A picture under each map, side by side; maps, pose, titles and folds as in `distortion`.
 
-    The image is the one that the cage was traced from, or None for a chequered one. Maps, pose and
-    titles are as in `distortion`.
+    The image is the one that the cage was traced from, or None for a chequered one. With ``cages``
+    a map's cage (solid) and offset cage (dotted) are drawn, at rest; with ``numbers`` the targets'
+    numbers stand in place of dots.
     """
     maps, sheets = _listed(maps, pose)
-    figure, grid = _side_by_side(maps, sheets, pose, titles, 0.05)
-    for axes, sheet in zip(grid, sheets, strict=True):
+    figure, grid = _side_by_side(maps, sheets, None if numbers else pose, titles, 0.05)
+    for axes, map, sheet in zip(grid, maps, sheets, strict=True):
         draw_deformed(axes, image, sheet, _PIXELS)
+        if cages and isinstance(map, HarmonicMap):
+            drawing.loops(axes, map.domain.cage.loops, color=BLUE, linewidth=1.2)
+            drawing.loops(axes, map.domain.offset_cage.loops, color=INK, linestyle=":")
+        for i, (x, y) in enumerate(pose.targets if numbers and pose is not None else ()):
+            around = {"boxstyle": "circle", "facecolor": "white", "edgecolor": INK}
+            axes.text(x, y, str(i), ha="center", va="center", fontsize=style.SMALL, bbox=around)
     figure.draw_without_rendering()  # as above
+    return figure
+
+
+def boundary(maps: Maps, *, titles: Sequence[str] = ()) -> NotebookFigure:
+    """The image of the boundary alone under harmonic maps: the exterior solid, holes dashed."""
+    figure, grid = _side_by_side(*(listed := _listed(maps, None)), None, titles, 0.05)
+    for axes, sheet in zip(grid, listed[1], strict=True):
+        drawing.loops(axes, sheet.outline[:1], color=BLUE)
+        drawing.loops(axes, sheet.outline[1:], color=BLUE, linestyle="--")
     return figure
 
 
@@ -172,9 +196,8 @@ def basis(domain: Domain, j: int, part: Literal["re", "im", "abs"] = "re") -> No
     """One basis function inside the offset cage, and the cage on which maps are certified.
 
     ``j`` is the column of the basis: the Cauchy coordinate C_j (Equation (8)) of the offset cage's
-    vertex j, counted loop by loop from 0; after the last vertex, the logarithm ln|z - rho| of each
-    hole. The part is "re", "im" or "abs". The offset cage's vertices, where the functions are
-    singular, are dots, the hole points crosses; the one of this function is green.
+    vertex j, counted loop by loop from 0; after the last, each hole's ln|z - rho|. The part is
+    "re", "im" or "abs". Vertices, singular, are dots, hole points crosses; that of j is green.
     """
     n, n_vertices = domain.n_coefficients, domain.n_coefficients - domain.n_holes
     if not 0 <= j < n:
@@ -213,8 +236,8 @@ def basis(domain: Domain, j: int, part: Literal["re", "im", "abs"] = "re") -> No
 def panels(certificate: Certificate) -> NotebookFigure:
     """The boundary's panels with what is proved on each: on the shape, and along arc length.
 
-    On the shape a panel is dark where the certified lower bound of sigma_2 is small, and vermilion
-    where nothing is proved; up to 400 panels end at dots. Beside it are bounds and sampled sigma_2.
+    A panel is dark where the certified lower bound of sigma_2 is small, vermilion where nothing is
+    proved; up to 400 panels end at dots. The plot has the bounds and the sampled sigma_2.
     """
     proved, cage = certificate.panels, certificate.map.domain.cage
     bound = np.nan_to_num(proved.sigma2_lower, nan=-1.0)
@@ -252,12 +275,10 @@ def _listed(maps: Any, pose: Pose | None) -> tuple[list[AnyMap], list[DrawnMap]]
 def _scale(quantity: Quantity | Energy, known: Floats) -> tuple[Any, Any]:
     """Norm and colours; a hundredth of the triangles, at the cage's corners, may lie beyond."""
     least, high, colors = float(known.min()), float(np.quantile(known, 0.99)), distortion_colors()
-    if quantity == "sigma1":
-        return Normalize(1.0, float(np.clip(high, 1.5, 6.0))), colors
-    if quantity == "sigma2":
-        return Normalize(0.0, 1.0), colors.reversed()
-    if quantity == "k":
-        return Normalize(0.0, float(np.clip(high, 0.1, 1.0))), colors
+    linear = {"sigma1": (1.0, float(np.clip(high, 1.5, 6.0))), "sigma2": (0.0, 1.0)}
+    linear["k"] = 0.0, float(np.clip(high, 0.1, 1.0))
+    if isinstance(quantity, str) and quantity in linear:
+        return Normalize(*linear[quantity]), colors.reversed() if quantity == "sigma2" else colors
     if quantity == "distortion":
         return LogNorm(1.0, float(np.clip(high, 1.25, 1e4))), colors
     isometric = isometry_energy(SymmetricDirichlet() if quantity == "energy" else quantity)
@@ -266,35 +287,40 @@ def _scale(quantity: Quantity | Energy, known: Floats) -> tuple[Any, Any]:
 
 
 def _side_by_side(
-    maps: list[AnyMap],
-    sheets: list[DrawnMap],
-    pose: Pose | None,
-    titles: Sequence[str],
-    room: float,
+    maps: list[AnyMap], sheets: list[DrawnMap], pose: Pose | None, names: Sequence[str], room: float
 ) -> tuple[NotebookFigure, list[Axes]]:
     """Axes with one scale, titles, folds and targets, one for each map; ``room`` is below them."""
-    if len(titles) not in (0, len(maps)):
-        raise ValueError(f"there are {len(titles)} titles for {len(maps)} maps")
+    if len(names) not in (0, len(maps)):
+        raise ValueError(f"there are {len(names)} titles for {len(maps)} maps")
     box = drawing.box_around(np.concatenate([sheet.mesh.images for sheet in sheets]))
     box = box if pose is None else drawing.enlarged(box, pose.targets)
-    room += 0.25 * (pose is not None) + 0.15 * any(sheet.counted for sheet in sheets)
+    room += 0.25 * (pose is not None) + 0.15 * any(s.counted or s.folded.any() for s in sheets)
     figure, grid = _shape_axes(len(maps), box, room)
     for i, (axes, map, sheet) in enumerate(zip(grid, maps, sheets, strict=True)):
-        lines = [*titles[i : i + 1]]
         count = int(sheet.folded.sum())
-        if sheet.counted:
-            lines.append(f"{count} triangle{'' if count == 1 else 's'} turned over")
-        text, color = "\n".join(lines or [" "]), VERMILION if count else INK
-        axes.set_title(text, fontsize=style.FONT_SIZE, color=color)
-        folded = [*sheet.mesh.images[sheet.mesh.triangles[sheet.folded]]]
-        look: Any = {"edgecolors": "face", "linewidths": 0.6}
-        axes.add_collection(PolyCollection(folded, facecolors=VERMILION, **look))
+        folds = f"{count} triangle{'' if count == 1 else 's'} turned over"
+        lines = [*names[i : i + 1], *([folds] if sheet.counted else ["folds"] * bool(count))]
+        look: Any = {"fontsize": style.FONT_SIZE, "color": VERMILION if count else INK}
+        axes.set_title("\n".join(lines or [" "]), **look)
+        _mark_folds(axes, sheet.mesh.images[sheet.mesh.triangles[sheet.folded]])
         if pose is not None:
             drawing.targets(axes, map, pose)
     if pose is not None:
         marks = grid[0].get_legend_handles_labels()[0]
         figure.legend(handles=marks, loc="outside lower center", ncols=2, **style.LEGEND)
     return figure, grid
+
+
+def _mark_folds(axes: Axes, corners: Floats) -> None:
+    """Hatched vermilion on triangles (f, 3, 2), edged in ink and white; rings around a few."""
+    for face, edge, width, hatch in _FOLDED:
+        look: Any = {"facecolors": face, "edgecolors": edge, "linewidths": width, "hatch": hatch}
+        axes.add_collection(PolyCollection([*corners], **look))
+    few, size = len(corners) < _FEW, np.ptp([axes.get_xlim(), axes.get_ylim()], axis=1).max()
+    if few or np.ptp(corners, axis=(0, 1)).max() < _SMALL * size:
+        middles = corners.mean(axis=1) if few else corners.mean(axis=(0, 1))[None]
+        look = {"markersize": 15, "fillstyle": "none", "color": INK, "clip_on": False}
+        axes.plot(*middles.T, "o", path_effects=drawing.ON_WHITE, **look)[0].set_in_layout(False)
 
 
 def _shape_axes(n: int, box: Floats, room: float = 0.8) -> tuple[NotebookFigure, list[Axes]]:

@@ -12,6 +12,7 @@ import pytest
 from IPython.core.interactiveshell import InteractiveShell
 from matplotlib.collections import PolyCollection
 from matplotlib.colors import to_rgba
+from matplotlib.lines import Line2D
 from matplotlib.text import Text
 from matplotlib_inline.backend_inline import configure_inline_support
 from PIL import Image
@@ -77,6 +78,39 @@ def test_distortion_draws_maps_side_by_side_and_counts_what_is_turned_over(quant
     ]
     assert vermilion == [0, count]
     assert count > 0
+
+
+def rings(figure: Any) -> int:
+    lines = [line for line in figure.findobj(Line2D) if line.get_fillstyle() == "none"]
+    return sum(len(np.ravel(line.get_xdata())) for line in lines)
+
+
+def test_a_fold_is_marked_by_more_than_its_hue() -> None:
+    figure = figures.distortion(mirrored())
+    assert any(shapes.get_hatch() for shapes in figure.findobj(PolyCollection))
+    assert rings(figure) == 0
+    mesh = triangulate(domain("ring").cage, 100)
+    images = mesh.vertices.copy()
+    a, b, c = mesh.triangles[0]
+    images[a] = 1.1 * (images[b] + images[c]) / 2 - 0.1 * images[a]
+    turned = MeshMap(mesh, images)
+    assert rings(figures.picture(None, [turned, RING])) == turned.flipped.sum() in (1, 2, 3)
+
+
+def test_a_harmonic_map_that_folds_says_so() -> None:
+    folding = HarmonicMap(RING.domain, 0 * RING.phi, np.conj(RING.phi))
+    assert "mirrored\nfolds" in texts(figures.picture(None, [folding], titles=["mirrored"]))
+
+
+def test_handles_are_numbered_and_cages_drawn_and_a_boundary_stands_alone() -> None:
+    figure = figures.picture(None, RING, POSE, numbers=True, cages=True)
+    assert {"0", "1"} <= set(texts(figure).split("\n"))
+    assert len(figure.axes[0].lines) == 2 * len(RING.domain.cage.loops) + 1
+    (axes,) = figures.boundary(RING).axes
+    assert [line.get_linestyle() for line in axes.lines if line.get_fillstyle() != "none"] == [
+        "-",
+        "--",
+    ]
 
 
 def test_unknown_quantities_and_things_that_are_no_maps_are_refused() -> None:
