@@ -45,6 +45,7 @@ exclude_patterns = [
     "glid-nb-*",
     "node_modules",
     "site",
+    "docs/templates",
     "studies",
     "tests",
 ]
@@ -78,6 +79,7 @@ copybutton_prompt_is_regexp = True
 
 html_theme = "pydata_sphinx_theme"
 html_title = "glid_nb"
+templates_path = ["templates"]
 html_static_path = ["static"]
 html_css_files = ["site.css"]
 # Read from disk, a page may not fetch others for the summaries of search results.
@@ -101,6 +103,7 @@ html_theme_options = {
     "navbar_align": "left",
     "navigation_depth": 3,
     "show_toc_level": 2,
+    "secondary_sidebar_items": ["download-notebook", "page-toc"],
     "show_prev_next": True,
     "footer_start": ["copyright"],
     "footer_end": [],

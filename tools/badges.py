@@ -31,8 +31,8 @@ def line(notebook: str, repository: str | None = None) -> str:
     """The line of links of a notebook, given its file's name."""
     if repository is None:
         return (
-            "Run it in JupyterLab or Notebook 7, on Binder, or on Colab (untested): "
-            "[how to](../docs/howto/hosts.md)."
+            "Run it in JupyterLab or Notebook 7, on Binder (once the repository is public), or on "
+            "Colab (untested): [how to](../docs/howto/hosts.md)."
         )
     path = f"notebooks/{notebook}"
     binder = f"https://mybinder.org/v2/gh/{repository}/HEAD?labpath={path}"

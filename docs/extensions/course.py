@@ -39,6 +39,12 @@ def hide_live_widgets(_app: Sphinx, document: nodes.document) -> None:
             block.replace_self(nodes.paragraph("", words, classes=["widget"]))
 
 
+def offer_notebook(app: Sphinx, page: str, _template: str, context: dict[str, Any], _: Any) -> None:
+    """Tell a chapter's page where the file is that the course's table links."""
+    if page.startswith("notebooks/"):
+        context["notebook_file"] = f"_downloads/{app.env.dlfiles[f'{page}.ipynb'][1]}"
+
+
 class Course(SphinxDirective):
     """A table of all notebooks: title, question, minutes, the file."""
 
@@ -58,4 +64,6 @@ class Course(SphinxDirective):
 def setup(app: Sphinx) -> dict[str, Any]:
     app.add_directive("course", Course)
     app.connect("doctree-read", hide_live_widgets)
+    # Before the theme looks which parts of the sidebar are empty.
+    app.connect("html-page-context", offer_notebook, priority=100)
     return {"parallel_read_safe": True, "parallel_write_safe": True}

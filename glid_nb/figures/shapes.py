@@ -40,7 +40,7 @@ _WIDTH, _WIDTH_OF_ONE, _TALLEST = 7.4, 4.6, 3.8  # inches
 _ABREAST = 4
 _CHECKS = 24  # along the longer side of a shape
 _FULL_MARGIN = 0.5  # from this certified sigma_2 on panels have one colour
-_FEW, _SMALL = 5, 0.06  # triangles, and of the axes' size: folds that get rings
+_FEW, _SMALL = 5, 0.03  # triangles, and of the axes' size: folds that get rings
 # Face, edge, its width and hatch of folds, one upon the other: colour-blind people see them too.
 _FOLDED = ("none", "white", 2.8, ""), ("none", INK, 1.5, "")
 _FOLDED += (VERMILION, "face", 0.5, ""), ("none", INK, 0.0, "/////")
