@@ -42,7 +42,8 @@ def hide_live_widgets(_app: Sphinx, document: nodes.document) -> None:
 def offer_notebook(app: Sphinx, page: str, _template: str, context: dict[str, Any], _: Any) -> None:
     """Tell a chapter's page where the file is that the course's table links."""
     if page.startswith("notebooks/"):
-        context["notebook_file"] = f"_downloads/{app.env.dlfiles[f'{page}.ipynb'][1]}"
+        files = {Path(name): place for name, (_, place) in app.env.dlfiles.items()}
+        context["notebook_file"] = f"_downloads/{files[Path(f'{page}.ipynb')]}"
 
 
 class Course(SphinxDirective):

@@ -83,7 +83,7 @@ def overview(
     _add_legend(pictures[1])
     draw_distortion(pictures[2:], [sheet], "distortion", extendfrac=0.04)
     minimum = isometry_energy(result.energy_measure)
-    EnergyPlot(plots[0]).update(result.history, result.start_energy, minimum=minimum)
+    EnergyPlot(plots[0]).update([result.initial, *result.history], minimum=minimum)
     plots[0].set_ylabel(f"E − {minimum:.3g}" if minimum else "E", fontsize=SMALL, labelpad=0)
     StepPlot(plots[1]).update(result.history)
     CertificatePlot(plots[2], cage).update(certificate, map)

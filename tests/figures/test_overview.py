@@ -83,7 +83,7 @@ def result(bent: HarmonicMap, certificate: Certificate, pose: Pose) -> Any:
         certificate=certificate,
         history=HISTORY,
         pose=pose,
-        start_energy=40.0,
+        initial=Record(0, 2.0, 38.0),
         energy_measure=SymmetricDirichlet(),
     )
 
