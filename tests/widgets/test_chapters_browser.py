@@ -20,7 +20,6 @@ RUNS = {
     "lab": ("04", LabNotebook),
     "lab-09": ("09", LabNotebook),
     "lab-12": ("12", LabNotebook),
-    "notebook-02": ("02", functools.partial(LabNotebook, interface="notebook")),
     "notebook": ("04", functools.partial(LabNotebook, interface="notebook")),
     "voila-02": ("02", VoilaPage),
     "voila-09": ("09", VoilaPage),
