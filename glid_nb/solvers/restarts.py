@@ -2,13 +2,13 @@
 
 The energy has many local minima. Which one a map leads to is decided by how it turns the lines
 between handles (:mod:`glid_nb.solvers.turning`): so where one of them turns by about half a circle,
-its targets are led the other way round in stages. A line that is squeezed though it could bend is
-freed by starting at the identity itself instead of at the rigidly aligned one, which breaks the
-symmetry. Where the first way does not converge or ends very high, everything is tried: all turns
-that may go either way, and ``lambda`` raised in stages, for with the usual ``1e5`` the first Newton
-steps rush the handles to their targets, whatever that does to the shape. An energy that is no
-barrier (ARAP) can run against the limit of local injectivity far from its targets; it then starts
-at the symmetric Dirichlet minimum.
+its targets are led the other way round in stages. The identity itself as start, instead of the
+rigidly aligned one, frees a line that is squeezed though it could bend, and helps after a high
+energy where the targets are far from any rigid motion. Where the first way does not converge or
+ends very high, everything is tried: all turns that may go either way, and ``lambda`` raised in
+stages, for with the usual ``1e5`` the first Newton steps rush the handles to their targets,
+whatever that does to the shape. An energy that is no barrier (ARAP) can run against the limit of
+local injectivity far from its targets; it then starts at the symmetric Dirichlet minimum.
 """
 
 import functools
@@ -22,7 +22,7 @@ import numpy as np
 from glid_nb._jax import jnp
 from glid_nb._runtime import double_precision
 from glid_nb.energies import Energy, SymmetricDirichlet
-from glid_nb.harmonic import HarmonicMap
+from glid_nb.harmonic import HarmonicMap, as_complex
 from glid_nb.solvers.method import Inputs
 from glid_nb.solvers.result import Attempt, Result, Status
 from glid_nb.solvers.turning import turning_of
@@ -30,13 +30,16 @@ from glid_nb.solvers.turning import turning_of
 Descend = Callable[[Inputs], Result]
 
 # Multiples of an isometry's energy, if that is at least the last number: below the first no other
-# way is tried, above the second lines that turn less too, above the third everything.
-LOW_ENERGY, HIGH_ENERGY, HIGHEST_ENERGY, LEAST_ISOMETRY = 1.02, 3.0, 25.0, 0.5
+# way is tried, above the second lines that turn less and the identity too, above the third all.
+LOW_ENERGY, HIGH_ENERGY, HIGHEST_ENERGY, LEAST_ISOMETRY = 1.02, 2.5, 25.0, 0.5
 SAME_ENERGY = 1e-6
 # Lines that turn by so much may turn the other way round: what that costs grows with the square.
-HALF_CIRCLE, FAR = np.deg2rad(145), np.deg2rad(100)
-# What a shape costs above an isometry grows faster on the way than this power of the time.
-_GROWTH = 1.75
+HALF_CIRCLE, FAR = np.deg2rad(145), np.deg2rad(95)
+# A rigid alignment that turns by more, and that the targets follow by less of their way, misleads.
+ALIGNED, RIGID = np.deg2rad(10), 0.5
+# What a shape costs above an isometry grows faster on the way than this power of the time; the
+# second one where the first map turns a line by over half a circle.
+GROWTH, WOUND_GROWTH = 1.7, 1.25
 # The stages' fractions of lambda, and how far each is followed.
 STAGES = (1e-5, 1e-3, 1e-1)
 STAGE_ITERATIONS, STAGE_TOLERANCE = 8, 1e-3
@@ -49,10 +52,8 @@ class Way(NamedTuple):
 
     name: str
     problems: list[Inputs]
-    last_resort: bool = True
-    """Whether it is for poses on which nothing better than a high energy is known."""
-    times: Sequence[float] = ()
-    """From 0 to 1, where the targets of the other problems are on their way."""
+    above: float = HIGHEST_ENERGY  # tried from this multiple of an isometry's energy on
+    limits: Sequence[float] = ()  # what the other problems may cost, of what the best result does
 
 
 def improve(first: Result, inputs: Inputs, descend: Descend) -> Result:
@@ -61,7 +62,7 @@ def improve(first: Result, inputs: Inputs, descend: Descend) -> Result:
         return first
     best, tried = first, [("direct", first)]
     for way in _ways(first, inputs)[: inputs.options.restarts]:
-        if way.last_resort and not _is_above(best, HIGHEST_ENERGY):
+        if not _is_above(best, way.above):
             continue
         result = _followed(way, descend, best)
         tried.append((way.name, result))
@@ -83,8 +84,11 @@ def improve(first: Result, inputs: Inputs, descend: Descend) -> Result:
 def _ways(first: Result, inputs: Inputs) -> list[Way]:
     """All other ways that may end lower than the first, those first that help most."""
     assert isinstance(first.map, HarmonicMap)
-    turning, hopeless = turning_of(first.map, inputs.pose), _is_above(first, HIGHEST_ENERGY)
-    ways, paths = list[Way](), turning.ways(FAR if _is_above(first, HIGH_ENERGY) else HALF_CIRCLE)
+    turning, ways = turning_of(first.map, inputs.pose), list[Way]()
+    high, hopeless = _is_above(first, HIGH_ENERGY), _is_above(first, HIGHEST_ENERGY)
+    wound = any(abs(line.turn) > np.pi for line in turning.lines)
+    growth = WOUND_GROWTH if wound else GROWTH
+    paths = turning.ways(FAR if high or wound else HALF_CIRCLE)
     if hopeless and not inputs.energy.is_barrier:
         barrier = replace(inputs, energy=SymmetricDirichlet())
         ways.append(Way("from the symmetric Dirichlet minimum", [barrier, inputs]))
@@ -93,11 +97,14 @@ def _ways(first: Result, inputs: Inputs) -> list[Way]:
     for name, stages in paths.items():
         loose = _loosened(inputs, TURNING_ITERATIONS, align=True)
         problems = [*(replace(loose, pose=stage.pose) for stage in stages), inputs]
-        ways.append(Way(name, problems, False, [stage.time for stage in stages]))
+        ways.append(Way(name, problems, 0, [stage.time**growth for stage in stages]))
     squeezed = any(line.squeezed for line in turning.lines)
-    if inputs.options.align and (hopeless or squeezed):
+    z, w = (as_complex(p - p.mean(axis=0)) for p in (inputs.pose.handles, inputs.pose.targets))
+    turned, along = abs(np.angle(np.vdot(z, w))) > ALIGNED, abs(np.vdot(z, w))
+    misled = high and turned and along < RIGID * np.vdot(z, z).real
+    if inputs.options.align and (hopeless or squeezed or misled):
         still = _with(inputs, align=False)
-        ways.append(Way("from the identity", [still], not squeezed))
+        ways.append(Way("from the identity", [still], 0 if squeezed else HIGH_ENERGY))
         ways.append(Way("staged weights from the identity", _raised(still)))
     return [*ways, Way("staged weights", _raised(inputs))] if hopeless else ways
 
@@ -128,18 +135,17 @@ def _followed(way: Way, descend: Descend, best: Result) -> Result:
     """The result of a way; the history of its stages counts where they only differ by weight.
 
     A shape is distorted the more the further it turns, so a stage that distorts it more than the
-    best result will have at that time is the last.
+    best result will be at that time is the last.
     """
     final, done = way.problems[-1], list[Result]()
     isometry = isometry_energy(final.energy)
-    for stage, time in itertools.zip_longest(way.problems, way.times):
+    for stage, limit in itertools.zip_longest(way.problems, way.limits):
         start = done[-1] if done else None
         stage = _with(stage, align=stage.options.align and not done)
         done.append(descend(replace(stage, start=start)))
         costs = done[-1].energy_iso - isometry
-        if done[-1].status is Status.STOPPED or (
-            time is not None and costs > time**_GROWTH * (best.energy - isometry)
-        ):
+        over = limit is not None and costs > limit * (best.energy - isometry)
+        if done[-1].status is Status.STOPPED or over:
             break
     if way.problems[0].options.p2p_weight != final.options.p2p_weight:
         return _joined(done)

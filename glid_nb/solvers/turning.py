@@ -24,10 +24,10 @@ from glid_nb.harmonic.cauchy import edge_coefficients, first_by_edges
 from glid_nb.solvers.pose import Pose
 
 _VERTICES = 300
-_STAGE = np.deg2rad(40)
+_STAGE, _ALIKE = np.deg2rad(40), np.deg2rad(20)
 _SQUEEZED, _STRAIGHT = 0.95, np.deg2rad(10)
 _BENT = np.deg2rad(40)  # lines that turn by less, or nearly by half a circle, make no arc
-MOST_TURNED = 3  # lines that are turned the other way round
+MOST_TURNED = 3  # lines, or groups of them, that are turned the other way round
 
 
 class Link(NamedTuple):
@@ -35,7 +35,7 @@ class Link(NamedTuple):
 
     child: int
     parent: int
-    turn: float  # against the parent's line, or against the shape as a whole at the root, radians
+    turn: float  # against the parent's line; at the root against the shape, or the other of two
     squeezed: bool
     """Whether its targets are closer than its handles, and what lies between stays straight."""
     curled: bool
@@ -54,7 +54,7 @@ class Turning(NamedTuple):
 
     pose: Pose
     root: int
-    whole: float  # the turn of the shape, radians
+    whole: float  # the turn of the shape, or of the first of two lines at the root
     lines: list[Link]
 
     def ways(self, least: float) -> dict[str, list[Stage]]:
@@ -63,9 +63,8 @@ class Turning(NamedTuple):
         Lines that turn by at least so much go the other way round, alone or together, where that
         bends the shape no more than it would a single one; curled lines along an arc.
         """
-        most = sorted(self.lines, key=lambda line: -abs(line.turn))[:MOST_TURNED]
-        doubtful = [line.child for line in most if abs(line.turn) >= least]
-        some = [s for n in range(len(doubtful)) for s in itertools.combinations(doubtful, n + 1)]
+        far = self._far(least)
+        some = [sum(c, ()) for n in range(MOST_TURNED) for c in itertools.combinations(far, n + 1)]
         bends, allowed = {s: self._bend(s) for s in some}, (2 * np.pi / least - 1) ** 2
         kept = [
             s for s in sorted(some, key=bends.__getitem__) if bends[s] <= allowed * self._bend()
@@ -73,6 +72,17 @@ class Turning(NamedTuple):
         ways = {f"the other way round at {', '.join(map(str, s))}": self.stages(s) for s in kept}
         curled = [line.child for line in self.lines if line.curled]
         return ways | {f"along an arc at {i}": self.stages(bent=i) for i in curled}
+
+    def _far(self, least: float) -> list[tuple[int, ...]]:
+        """The lines that turn most; of many, those at one handle that turn alike are one."""
+        far = [line for line in self.lines if abs(line.turn) >= least]
+        alike, groups = _ALIKE if len(far) > MOST_TURNED else 0, list[tuple[int, ...]]()
+        while far:
+            most = max(far, key=lambda line: abs(line.turn))
+            group = [i for i in far if i.parent == most.parent and abs(i.turn - most.turn) < alike]
+            groups.append(tuple(line.child for line in group or [most]))
+            far = [line for line in far if line.child not in groups[-1]]
+        return groups[:MOST_TURNED]
 
     def _turned(self, reversed: tuple[int, ...]) -> tuple[list[float], dict[int, float]]:
         """Turns against the parents' lines, and those of lines by child, as of the root itself."""
@@ -125,8 +135,10 @@ def turning_of(map: HarmonicMap, pose: Pose) -> Turning:
         short, mean = float(np.angle(ratio)), float(along.mean())
         angles[i] = short + 2 * np.pi * round((mean - short) / (2 * np.pi))
         squeezed.append(bool(np.ptp(along) < _STRAIGHT and abs(ratio) < _SQUEEZED))
-    # Most of the shape turns alike.
-    angles[root] = whole = float(np.median([turns[root], *angles.values()]))
+    # Most of the shape turns alike; where but two lines meet, one turns against the other.
+    ends = [angles[i] for i, j, _ in lines if j == root]
+    whole = float(np.median([turns[root], *angles.values()]))
+    angles[root] = whole = ends[0] if len(ends) == 2 else whole
     found, parents = list[Link](), {j for _, j, _ in lines}
     for (i, j, _), short in zip(lines, squeezed, strict=True):
         turn = angles[i] - angles[j]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+from collections.abc import Sequence
 
 import numpy as np
 
@@ -40,3 +41,14 @@ def check_certified(result: Result, count: int = 50_000) -> None:
     assert dense.k <= certificate.k_upper < 1
     assert dense.windings == certificate.windings
     assert certificate.winding == 0
+
+
+Turn = tuple[list[int], complex, float]
+
+
+def turned(points: np.ndarray, turns: Sequence[Turn]) -> np.ndarray:
+    """Points of which some turn about a pivot by degrees, then others."""
+    z = points @ np.array([1, 1j])
+    for who, pivot, degrees in turns:
+        z[who] = pivot + np.exp(1j * np.deg2rad(degrees)) * (z[who] - pivot)
+    return np.stack([z.real, z.imag], axis=1)

@@ -6,6 +6,7 @@ import dataclasses
 import functools
 import itertools
 import json
+from typing import Any
 
 import numpy as np
 import pytest
@@ -20,10 +21,10 @@ from glid_nb.imaging.trace import trace
 from glid_nb.solvers import Options, Pose, Progress, Status, solve
 from glid_nb.solvers.restarts import SAME_ENERGY
 
-from ..domains import NAMES, domain, real
+from ..domains import NAMES, circle, domain, real
 from ..geometry.shapes import KINDS as CAGES
 from ..geometry.shapes import random_cage
-from .checks import check_certified
+from .checks import Turn, check_certified, turned
 
 pytestmark = pytest.mark.slow  # most of the time is compiling
 
@@ -178,6 +179,43 @@ def test_a_limb_that_curls_is_led_along_an_arc() -> None:
     result = solve(domain, Pose(handles, real(z)))
     assert [attempt.name for attempt in result.attempts] == ["direct", f"along an arc at {tip}"]
     assert result.energy < 0.95 * result.attempts[0].energy
+
+
+def bent_c() -> tuple[Domain, np.ndarray, list[Turn], float]:
+    """Two lines that meet at the root turn by 129 and 145 degrees against each other."""
+    out, handles = np.linspace(-2.6, 2.6, 25), 8.5 * np.exp(1j * np.linspace(-2.4, 2.4, 7))
+    outline = np.concatenate([10 * np.exp(1j * out), 7 * np.exp(-1j * out)])
+    ends = [
+        ([5, 6], handles[4], 129.0),
+        ([0], handles[:2].mean(), -130.0),
+        ([0, 1, 2], handles[3], -145.0),
+    ]
+    return Domain.from_cage(Cage(real(outline))), real(handles), ends, 2.8104
+
+
+def bent_ring() -> tuple[Domain, np.ndarray, list[Turn], float]:
+    """The rigid start, turned by 143 degrees, misleads."""
+    handles = circle(6, 8)
+    z = handles @ np.array([1, 1j])
+    turns = [([4], z[3:5].mean(), 112.51), ([0, 1, 5], z[1:3].mean(), -117.32)]
+    return Domain.from_cage(Cage(circle(40, 10), [circle(30, 6)])), handles, turns, 4.6354
+
+
+def bent_frog() -> tuple[Domain, np.ndarray, list[Turn], float]:
+    """Hands, legs and body: lines that turn alike go the other way round together."""
+    domain = Domain.from_cage(trace(samples.image("frog")).cage)
+    handles = Pose.from_dict(json.loads(samples.pose_path("frog", "extreme").read_text())).handles
+    z = handles @ np.array([1, 1j])
+    turns = [([0, 1], z[2], 133.85), ([6, 7], z[5], -113.33)]
+    return domain, handles, [*turns, ([0, 1, 2], z[5], 125)], 10.4004
+
+
+@pytest.mark.parametrize("bent", [bent_c, bent_ring, bent_frog])
+def test_limbs_bent_by_over_100_degrees_end_near_the_best_minimum_known(bent: Any) -> None:
+    domain, handles, turns, best = bent()
+    result = solve(domain, Pose(handles, turned(handles, turns)))
+    assert result.energy < 1.02 * best
+    check_certified(result)
 
 
 @pytest.mark.parametrize("turn", ["end", "over"])

@@ -15,7 +15,7 @@ from glid_nb.geometry import Domain
 from glid_nb.solvers import Options, Pose, Result, Status, solve
 
 from ..domains import divided
-from .checks import measured
+from .checks import measured, turned
 
 pytestmark = [pytest.mark.reference, pytest.mark.slow]
 
@@ -96,3 +96,12 @@ def test_paper_settings_reproduce_the_reference(reference_folder: Path, name: st
     result, reference = solved(reference_folder, name, "iso,s=1.0", True)
     assert result.energy <= reference["E"] * (1 + 1e-6)
     assert result.certificate.certified
+
+
+def test_a_tail_that_turns_by_over_180_degrees_may_turn_with_what_it_hangs_at(
+    reference_folder: Path,
+) -> None:
+    domain, pose, _ = problem(reference_folder, "racoon")
+    z = pose.handles @ np.array([1, 1j])
+    targets = turned(pose.handles, [([2], z[4], 111.83), ([2, 4], z[1], 115.33)])
+    assert solve(domain, Pose(pose.handles, targets)).energy < 1.02 * 2.7469
