@@ -48,10 +48,11 @@ def measure(case: Case, plan: Plan) -> Measurement:
     ends: Any = [HarmonicMap.identity(domain), solve(domain, pose).map]
     bounded, linear = (Motion(ends, between=between) for between in ("auto", "linear"))
     solved: Any = ends[:1]
-    for t in (*QUARTERS, -0.6):
+    for t in QUARTERS:
         targets = pose.handles + t * (pose.targets - pose.handles)
         solved.append(solve(domain, pose.with_targets(targets), start=solved[-1]).map)
-    loop = Motion([*ends, solved.pop()], [0, 1, 1.3, 3], repeat="loop")
+    back = solve(domain, pose.with_targets(1.6 * pose.handles - 0.6 * pose.targets)).map
+    loop = Motion([*ends, back], [0, 1, 1.3, 3], repeat="loop")
     proof, piece, curve = bounded.certificate, bounded.pieces[0], bounded._curve
     return {
         "size": f"{domain.n_coefficients - domain.n_holes}, {domain.n_holes}",

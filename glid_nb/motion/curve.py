@@ -154,7 +154,8 @@ def _divided(
 def _solved(curve: Bounded, piece: int, s: float, pose: Pose) -> HarmonicMap:
     """The map of least distortion whose handles are where the curve carries them."""
     map = HarmonicMap(curve.boundary.domain, *curve(piece, s))
-    first = map if certificate_of(map).certified else curve.maps[piece]
+    ends = sorted(curve.maps[piece : piece + 2], key=lambda end: certificate_of(end).sigma2_lower)
+    first = map if certificate_of(map).certified else ends[-1]
     asked = pose.with_targets(map(pose.handles))
     found = solve(map.domain, asked, options=Options(restarts=0), start=first).map
     return found if isinstance(found, HarmonicMap) else first
