@@ -42,8 +42,7 @@ class ExponentialSymmetricDirichlet(Energy):
     """``E_exp = exp(s E_iso)`` (Table 1, second row)."""
 
     s: float = 1.0
-    """Sharpness, positive: the larger, the lower the greatest distortion and the higher the average
-    one (Figure 6)."""
+    """Sharpness, positive: the larger, the lower the greatest distortion (Figure 6)."""
 
     name: ClassVar[str] = "exp"
     label: ClassVar[str] = "Exponential sym. Dirichlet"
