@@ -182,8 +182,7 @@ def playing(motion: Motion, wire: Callable[[HarmonicMap], bytes]) -> tuple[dict[
 
 
 def _spread(domain: Domain, points: Array) -> float:
-    """How far images of points move at most where coefficients are rounded to whole numbers: half
-    as much again as in a sample."""
+    """How far images move at most by rounding coefficients: half as much again as seen."""
     n, holes = domain.n_coefficients, domain.n_holes
     phi, psi = np.random.default_rng(0).uniform(-0.5, 0.5, (2, n, 2)) @ [1, 1j]
     psi[n - holes :] = phi[n - holes :].conj()

@@ -92,8 +92,7 @@ class TraceOptions:
     scribbles: Scribbles | None = option(None, _STROKES)
     """Strokes for ``"scribbles"``."""
     smoothing: float | None = option(None, "Blur before the outline is taken, pixels")
-    """Standard deviation in pixels of a Gaussian blur. None: 0 for alpha and scribbles, 0.1 % of
-    the longer side otherwise."""
+    """Of a Gaussian blur, pixels. None: 0.1 % of the longer side, 0 for alpha and scribbles."""
     component: int = option(0, "Which component, 0 being the largest")
     """Which connected component of the foreground, counted from 0, the largest."""
     component_at: Point | None = option(None, "A pixel in the component to trace", **_PIXEL)
@@ -105,8 +104,7 @@ class TraceOptions:
     drop_holes: Sequence[Point] = option((), "A pixel in a hole to fill, of any size", **_PIXELS)
     """Pixels (x, y) in holes that are filled whatever their area; wins over `keep_holes`."""
     offset: float | None = option(None, "Distance of the cage from the outline, pixels")
-    """From the outline outwards, and into the holes. None: about 1 % of the shape's size, less if
-    that would close a bay."""
+    """Outwards, and into holes. None: about 1 % of the shape, less if that would close a bay."""
     simplify: float | None = option(None, "How far simplification may move the outline, pixels")
     """Largest distance from the outline, before edges that cut off a part of the shape are moved
     outwards. None: for a typical character this gives 60 to 120 vertices."""
@@ -114,8 +112,7 @@ class TraceOptions:
     min_edge: float | None = option(None, "Shorter edges are merged, pixels")
     """Least length: short edges make the harmonic basis stiff. None: a fifth of the mean edge."""
     max_edge: float | None = option(None, "Longer edges are divided, pixels", least=0.5, most=_ANY)
-    """Largest length, so that straight limbs can bend. None: a twenty-fifth of the perimeter;
-    `math.inf`: never."""
+    """Largest length, so that limbs can bend. None: perimeter / 25; `math.inf`: never."""
 
     def __post_init__(self) -> None:
         for known in fields(self):

@@ -42,8 +42,7 @@ class Tracing:
     notes: tuple[str, ...]
     """Sentences about what was chosen, filled, moved or repaired."""
     doubt: str
-    """Why the foreground is no more than a guess; empty where it is clear or the options say how to
-    find it."""
+    """Why the foreground is a guess; empty where it is clear or options say how to find it."""
     method: str
     """How the foreground was found, never ``"auto"``."""
     threshold: float

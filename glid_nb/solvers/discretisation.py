@@ -59,8 +59,7 @@ class Matrices(NamedTuple):
     next: Int[Array, " p"]
     real: Bool[Array, " p"]  # False for padding
     stiff: Float[Array, ""] | None = None
-    """What stiff areas add to the weights; None without any. With them, nodes inside the domain
-    follow those on the panels."""
+    """What stiff areas add to the weights; None without any. Their nodes follow the panels'."""
 
 
 class _Rows(NamedTuple):

@@ -30,8 +30,7 @@ class Point(NamedTuple):
     energy_iso: Number
     energy_p2p: Number
     largest: Number
-    """What the rounding errors are relative to, the largest since the samples were computed anew;
-    see :func:`reach`."""
+    """What rounding errors are relative to, since samples were computed anew; see :func:`reach`."""
 
     @property
     def energy(self) -> Number:

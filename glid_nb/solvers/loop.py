@@ -181,8 +181,7 @@ def followed(descent: Descent, done: Advance | None = None) -> Ending:
 
 
 Steps = Generator[Callable[[], Reached], None, Ending]
-"""Yields, for the start and after each step, what tells where the method is, which is not timed;
-returns how the method ended."""
+"""Yields at the start and after each step what tells where the method is; returns how it ended."""
 
 
 class GeneratedDescent(Descent):

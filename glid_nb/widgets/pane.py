@@ -45,8 +45,7 @@ class Stage(Pad):
     coefficients = traitlets.Bytes(b"").tag(sync=True)
     """The map, as ``ShaderMap.wire`` writes it; empty where the kernel evaluates."""
     marks = traitlets.Dict({key: [] for key in _MARKS}).tag(sync=True)
-    """Targets and images of the handles, lists of [x, y], indices of the selected and of the hidden
-    ones, and `Drawing.ring`."""
+    """Targets and images of handles, [x, y]; indices selected, hidden; and `Drawing.ring`."""
     names = traitlets.List(traitlets.Unicode(), []).tag(sync=True)
     """Names of the handles, which may be empty."""
     onion = traitlets.List([]).tag(sync=True)

@@ -67,8 +67,7 @@ class SubspaceMethod(Method):
 
 @dataclass(frozen=True)
 class SecondOrderMethod(SubspaceMethod):
-    """A variant of Newton's method; it has converged where ``decrement^2 / 2`` falls below
-    ``tolerance`` times the energy."""
+    """A variant of Newton's method; converged where ``decrement^2 / 2 < tolerance * energy``."""
 
     window = None
 
