@@ -92,7 +92,6 @@ def register_energy(cls: type[E]) -> type[E]:
 
 
 def _rebuilt(cls: type[E], parameters: tuple[Any, ...]) -> E:
-    """An energy whose parameters are whatever JAX puts into a tree, unchecked."""
     energy = object.__new__(cls)
     vars(energy).update(zip(cls.parameters(), parameters, strict=True))
     return energy

@@ -261,7 +261,6 @@ class _Corners:
 
 
 def _notes(corners: _Corners, local: Array, distance: float) -> tuple[str, ...]:
-    """A sentence per loop on which the distance was reduced by over a tenth."""
     notes: list[str] = []
     for loop, distances in enumerate(corners.split(local)):
         reduced = int((distances < 0.9 * distance).sum())

@@ -16,8 +16,7 @@ from glid_nb.imaging.outline import Outline, ring_loop, thinned
 # Least area of a hole, relative to the component and in square pixels. Holes in the alpha channel
 # are intended; those found by colour may be eyes or highlights.
 _LEAST_SHARE, _LEAST_SHARE_BY_COLOR, _LEAST_AREA = 0.002, 0.0075, 9.0
-# Automatic offset, relative to the square root of the shape's area; at least so many pixels, but on
-# tiny shapes at most this share.
+# Automatic offset, over the root of the shape's area; its least pixels, and their largest share.
 _OFFSET, _LEAST_OFFSET, _MOST_OFFSET = 0.01, 2.0, 0.05
 _SLIT = 0.5  # times the offset, on each side
 _ROUGH, _FINE = 0.05, 0.03  # tolerances of simplification before and after, times the offset
@@ -163,7 +162,6 @@ def _moved(region: shapely.Polygon, offset: float, sign: int) -> list[shapely.Po
 
 
 def _shrunk(loop: Array, offset: float, min_area: float) -> tuple[list[Array], float]:
-    """The parts that a hole shrinks to, and the offset used: less for a hole that would vanish."""
     region = shapely.Polygon(loop)
     for used in (offset, 0.5 * offset, 0.25 * offset):
         if used == 0:

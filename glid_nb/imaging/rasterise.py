@@ -186,7 +186,6 @@ def _runs(first: Ints, count: Ints) -> Ints:
 
 
 def _straight(premultiplied: Colours) -> NDArray[np.uint8]:
-    """(n, 4) 8-bit colours with straight alpha."""
     result = np.zeros(premultiplied.shape, np.uint8)
     seen = premultiplied[:, 3] >= 0.5 / 255
     colours = premultiplied[seen]

@@ -55,7 +55,6 @@ def scribble_score(
 def _labels(
     scribbles: Scribbles, shape: tuple[int, int], size: tuple[int, int]
 ) -> tuple[NDArray[np.int32], tuple[str, ...]]:
-    """Labels of the scaled picture's pixels, 0 without a stroke, and notes."""
     foreground = _drawn(scribbles.foreground, shape, size, "foreground")
     background = _drawn(scribbles.background, shape, size, "background")
     if not foreground.any():

@@ -154,7 +154,6 @@ def _droppable(loops: Loops, blocked: Array, shortest: Array) -> Array:
 
 
 def _around(loops: Loops) -> NDArray[np.intp]:
-    """(n, 5) for each vertex the ones from two before to two after."""
     before, after, own = loops.before, loops.after, np.arange(len(loops.after))
     return np.stack([before[before], before, own, after, after[after]], axis=1)
 

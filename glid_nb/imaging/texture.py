@@ -123,7 +123,6 @@ class Sampler:
 
 
 def _times(matrices: Floats, vectors: Floats) -> Floats:
-    """(k, 2) products of (k, 2, 2) and (k, 2)."""
     return matrices[:, :, 0] * vectors[:, :1] + matrices[:, :, 1] * vectors[:, 1:]
 
 

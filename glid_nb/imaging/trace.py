@@ -165,7 +165,6 @@ class Tracer:
 
 
 def _doubt(foreground: Foreground, n_components: int, options: TraceOptions) -> str:
-    """Why the foreground is a guess; empty where it is none."""
     told = (options.threshold, options.background, options.background_at) != (None, None, None)
     if told or options.method != "auto" or foreground.method not in ("color", "threshold"):
         return ""
@@ -179,7 +178,6 @@ def _doubt(foreground: Foreground, n_components: int, options: TraceOptions) -> 
 
 
 def _component_notes(components: Components, rank: int, options: TraceOptions) -> list[str]:
-    """A note if much of the foreground is left out and no component was chosen."""
     share = 1 - components.areas[rank] / components.areas.sum()
     if options.component_at is not None or options.component or share < _LEFT_OUT:
         return []

@@ -290,7 +290,6 @@ def go_to_pose(state: EditState, index: int) -> EditState:
 def _with_inserted(
     state: EditState, index: int, pose: NamedPose, time: float | None = None
 ) -> EditState:
-    """The state with a copy of a pose, under another name, which is edited."""
     check_room((*state.poses, pose))
     copy = replace(pose, name=next(_free_names(state, pose.name)))
     poses = (*state.poses[:index], copy, *state.poses[index:])
@@ -313,7 +312,6 @@ def _points(values: ArrayLike, name: str) -> Array:
 
 
 def _with_numbers(state: EditState, indices: Iterable[int], **numbers: ArrayLike | None) -> Pose:
-    """The pose with other numbers of some handles, one for all or one each; None sets free."""
     chosen, changed = _checked_indices(state, indices), {}
     for name, values in numbers.items():
         changed[name] = np.array(getattr(state.pose, name))
@@ -325,7 +323,6 @@ def _with_numbers(state: EditState, indices: Iterable[int], **numbers: ArrayLike
 
 
 def _pinned(state: EditState, pose: Pose) -> EditState:
-    """The state with a pose that holds the same handles in another way."""
     if pose.pins_alike(state.pose):
         return state
     state.current.method.check(state.current.energy, pose)
@@ -364,7 +361,6 @@ def _checked_name(name: str) -> str:
 
 
 def _free_names(state: EditState, name: str) -> Iterator[str]:
-    """``name`` with the free numbers at its end."""
     stem = name.rstrip("0123456789").rstrip() or "Pose"
     taken = {pose.name for pose in state.poses} | {name}
     numbers = (f"{stem[:190]} {i}" for i in itertools.count(1))

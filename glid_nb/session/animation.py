@@ -208,7 +208,6 @@ class Animation(Observed):
 
 
 def _left(task: EditState) -> NamedPose | None:
-    """A pose that was left before its solve had come to an end."""
     others = (pose for pose in task.poses if pose is not task.current)
     return next((p for p in others if p.solution is None and p.method.certified), None)
 
@@ -222,7 +221,6 @@ def _same_motion(task: EditState, other: EditState | None) -> bool:
 
 
 def _spans(task: EditState) -> tuple[Span, ...]:
-    """The intervals, still to be computed."""
     times = task.timeline.closed_times if len(task.poses) > 1 else ()
     ends = itertools.pairwise(times)
     return tuple(Span(*e, p.map) for e, p in zip(ends, task.poses, strict=False))

@@ -166,7 +166,6 @@ def _name_of(image: NDArray[np.uint8]) -> str:
 
 
 def _version_of(path: Path) -> tuple[int, ...] | None:
-    """What differs between two versions of a file; None where there is none."""
     try:
         status = path.stat()
     except OSError:  # a file that cannot be reached is reported when it is written

@@ -72,12 +72,15 @@ def document_bytes(document: Document) -> bytes:
     timeline = {} if document.timeline is None else {"timeline": vars(document.timeline)}
     scribbles, masks = _scribbles_to_members(document.scribbles)
     height, width = document.image.shape[:2]
+    given = document.trace_options
+    options = {**vars(given), "scribbles": given.scribbles is not None}
+    options |= {"max_edge": _NEVER} if given.max_edge == math.inf else {}
     data = {
         "format": FORMAT,
         "version": FORMAT_VERSION,
         "image_size_px": [width, height],
         "domain": document.domain.to_dict(),
-        "trace_options": _trace_options_to_dict(document.trace_options),
+        "trace_options": options,
         "scribbles": scribbles,
         "poses": [_pose_to_dict(i, pose) for i, pose in enumerate(document.poses)],
         "active": document.active,
@@ -244,11 +247,6 @@ def _domain_from_dict(data: Any) -> Domain:
         # The maps' coefficients follow the order of the loops' vertices.
         raise InputFileError("domain: its loops must run as saved")
     return domain
-
-
-def _trace_options_to_dict(options: TraceOptions) -> dict[str, Any]:
-    data = {**vars(options), "scribbles": options.scribbles is not None}
-    return {**data, "max_edge": _NEVER} if options.max_edge == math.inf else data
 
 
 def _trace_options_from_dict(data: Any, scribbles: Scribbles | None) -> TraceOptions:

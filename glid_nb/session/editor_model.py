@@ -266,7 +266,6 @@ class EditorModel(Observed):
         self._autosave = autosave.Autosave(path, on_done=done, own=own, owner=self)
 
     def _end_keeping(self) -> Path | None:
-        """Stop keeping work that is in no session file; where it was kept."""
         if self._named_path is not None or self._autosave is None:
             return None
         self._autosave.close()
@@ -280,7 +279,6 @@ class EditorModel(Observed):
         return _Session(state, domain, deformation)
 
     def _change_picture(self, domain: Domain) -> None:
-        """Begin with a new picture, or go on with one that had a session before."""
         session = next((s for s in self._shelf if s.image is self.tracing.image), None)
         if session is None:
             if self._named_path is not None and self._session is not None:
@@ -340,7 +338,6 @@ class EditorModel(Observed):
             self.autosave()
 
     def _follow(self, session: _Session, domain: Domain) -> None:
-        """Show the outline in the tracing after undo, or a dropped hole, has changed it."""
         tracing = self.tracing
         if tracing.image is not session.image or tracing.domain is None:
             return
@@ -358,7 +355,6 @@ class EditorModel(Observed):
 
 
 def _apply(deformation: Deformation, domain: Domain) -> str:
-    """Deform another outline of the same picture; says what handles that loses."""
     before = sum(len(pose.pose) for pose in deformation.state.poses)
     deformation.set_domain(domain)
     lost = before - sum(len(pose.pose) for pose in deformation.state.poses)

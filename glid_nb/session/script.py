@@ -65,7 +65,6 @@ def _map_lines(pose: NamedPose, exact: bool) -> list[str]:
 
 
 def _motion_lines(document: Document) -> list[str]:
-    """The motion through all maps, where the document has one that can be made."""
     timeline, poses = document.timeline, document.poses
     if timeline is None or not all(pose.method.certified for pose in poses):
         return []
@@ -98,7 +97,6 @@ def _cage(cage: Cage) -> str:
 
 
 def _is_traced(document: Document) -> bool:
-    """Whether tracing the picture anew gives the document's cage, vertex for vertex."""
     if document.trace_options.scribbles is not None:
         return False
     try:

@@ -97,7 +97,6 @@ def uncertified(mesh: MeshMap) -> str:
 
 
 def _miss(state: EditState) -> str:
-    """The largest distance of a handle from its target, if that is visible."""
     gaps = state.map(state.pose.handles) - state.pose.targets
     worst = max(math.hypot(*gap) for gap in gaps)
     return f", {worst:.2g} units from its target" if worst > _REACHED else ""

@@ -49,7 +49,6 @@ def suggest_pose(domain: Domain, max_handles: int = 7) -> Pose:
 
 
 def _spread_out(graph: scipy.sparse.csr_array, clearance: Array, count: int) -> list[int]:
-    """At most ``count`` vertices: the one deepest inside, and those at the ends of limbs."""
     middle = int(np.argmax(clearance))
     nearest = np.asarray(scipy.sparse.csgraph.dijkstra(graph, indices=middle))
     reach = float(nearest.max())

@@ -344,7 +344,6 @@ class TracingModel(Undoable[TracingState]):
         return TracingOutcome(tracing, loops, domain, problems)
 
     def _loops_with(self, state: TracingState, loops: AnyLoops, hole: Hole) -> AnyLoops:
-        """The edited loops without a hole that is dropped, or with one that is kept again."""
         inside = self._world(hole.pixel)
         if hole.kept:
             index = loop_edits.around(loops, inside)

@@ -175,7 +175,6 @@ def _run(poses: list[_Pose]) -> float:
 
 
 def _call(chosen: list[_Pose], size: int) -> float:
-    """One call for the chosen poses; the seconds of compiling."""
     first, watch = chosen[0], Stopwatch()
     limits = [int(pose.settings().iterations) for pose in chosen]
     # What only fills the batch up stays where it is.
@@ -199,8 +198,6 @@ def _call(chosen: list[_Pose], size: int) -> float:
 def _together(
     problem: SubspaceProblem, settings: step.Settings, aims: Any, coefficients: Any, limits: Any
 ) -> step.State:
-    """The iterations of poses that differ by their aims, from maps of their own."""
-
     def one(goals: Any, start: Any, limit: Any) -> step.State:
         state = step.iterations(
             problem._replace(positional=problem.positional._replace(aims=goals)),

@@ -19,8 +19,7 @@ Square = Float[Array, "u u"]
 PerNode = Float[Array, " h"]
 Pair = tuple[Columns, Columns]
 
-# Elements of a basis matrix that are assembled at once: with more, copies of the matrix would need
-# more memory than the Hessian.
+# Elements of a basis matrix assembled at once: copies of more would outgrow the Hessian.
 _PIECE = 1 << 19
 
 

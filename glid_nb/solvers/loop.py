@@ -17,8 +17,7 @@ from glid_nb.solvers.line_search import BLOCKED, REFUSED, RUNNING
 from glid_nb.solvers.method import Inputs, Method
 from glid_nb.solvers.result import Iteration, Make, Progress, Result, Status
 
-# How often panels are split in a row before a shorter step is tried instead, and in all before a
-# solve that gets nowhere ends.
+# How often panels are split before a shorter step is tried, and in all before a solve ends.
 _PATIENCE = 3
 _MOST_ROUNDS = 40
 

@@ -203,7 +203,6 @@ def _p2p_hessian(problem: SubspaceProblem) -> Any:
 
 
 def _is_slow(history: Sequence[Iteration]) -> bool:
-    """Whether the Hessian's coarser quadrature seems to cost iterations."""
     *before, last = history
     if len(history) >= SLOW_ITERATIONS:
         return True
@@ -213,7 +212,6 @@ def _is_slow(history: Sequence[Iteration]) -> bool:
 
 
 def _has_stalled(history: Sequence[Iteration]) -> bool:
-    """Whether the last steps gained nothing, or were tiny and gained next to nothing."""
     if len(history) <= _STALLED:
         return False
     before, *recent = history[-1 - _STALLED :]

@@ -156,7 +156,6 @@ def rigid_motion(z: Array, targets: Array) -> tuple[complex, complex, complex]:
 
 @functools.lru_cache(maxsize=32)
 def _first_outside(domain: Domain, handles: bytes) -> int | None:
-    """The first handle outside the domain, kept for the rest of a drag."""
     inside = domain.cage.contains(np.frombuffer(handles).reshape(-1, 2))
     return None if inside.all() else int(np.argmin(inside))
 

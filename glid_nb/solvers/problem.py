@@ -120,7 +120,6 @@ def measured_apart(a: Positional, b: Positional) -> float:
 
 @functools.lru_cache(maxsize=32)
 def _basis_at(domain: Domain, points: bytes, kernel: Any) -> NDArray[Any]:
-    """(k, c) complex, kept for the next targets of the same handles."""
     z = np.frombuffer(points).reshape(-1, 2) @ np.array([1, 1j])
     return complex_basis(kernel, z, basis_of(domain))
 

@@ -20,8 +20,7 @@ from glid_nb.solvers.pose import Pose
 from glid_nb.solvers.result import Callback, DeformationMap, Refinement, Result, Status
 from glid_nb.solvers.subspace import StartError
 
-# Offset edges shorter than so many times their distance from the cage are not divided: the cage
-# does not see their ends apart.
+# Offset edges shorter than so many times their distance from the cage are not divided.
 _SHORT = 2.0
 
 

@@ -135,7 +135,6 @@ _evaluated = jit(evaluation.evaluated)
 def _starting_point(
     method: Method, inputs: Inputs
 ) -> tuple[HarmonicMap, Certificate | None, Discretisation]:
-    """The map to start from, its proof (none for the identity), and panels for it."""
     domain, options, start = inputs.domain, inputs.options, inputs.start
     fresh = functools.partial(discretise, domain, options.sampling, options.certificate)
     map_ = method.harmonic_start(inputs)

@@ -28,8 +28,7 @@ _ROUNDS = 10
 _HALVINGS = 12
 # What a map may keep of its share of the margin after no step from it could be proved.
 _INWARD = 0.9
-# Before the first full step one program is enough, whose solution is cut short anyway, unless it
-# is cut shorter than this.
+# Before the first full step one program is enough, unless its solution is cut shorter than this.
 _SHORT = 1 / 64
 _NOTHING = 1e-10  # an energy as good as none, to which the tolerance is not relative any more
 # What a program's duality gap may be: relative to the decrease that counts as none, and in itself.
@@ -149,7 +148,6 @@ class _Descent(GeneratedDescent):
         return inward if isinstance(inward, Iterate) else outcome
 
     def _attempt(self, now: Iterate, rounds: int) -> Iterate | Ending:
-        """The step of a program that is solved again with the samples its solution violates."""
         gradient = self.problem.gradient(now.v)
         none = self.method.tolerance * max(now.energy, _NOTHING)
         gap = float(np.clip(_GAP * none, _LEAST_GAP, _MOST_GAP))
@@ -179,7 +177,6 @@ class _Descent(GeneratedDescent):
         return self._shortened(now, solved.change, solved)
 
     def _accepted(self, now: Iterate, v: Array, step: float) -> Iterate | Certificate | None:
-        """The map, or its proof where that fails, or None where its energy is not lower."""
         energy = sum(self.problem.energies(v))
         if not energy <= now.energy:
             return None

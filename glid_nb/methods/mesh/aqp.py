@@ -75,7 +75,6 @@ class AQP(MeshMethod):
         return proxy.without_decrease(now)
 
     def _started(self, problem: MeshProblem, proxy: _Proxy) -> _State:
-        """ARAP, projected, and smoothed for other energies than the symmetric Dirichlet energy."""
         operators, w = problem.operators, problem.start
         if np.abs(w[problem.handles] - problem.targets).max(initial=0) > 0:
             for _ in range(self.arap_iterations):  # local and global steps (Liu et al. 2008)

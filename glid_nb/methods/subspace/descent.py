@@ -32,8 +32,7 @@ Curvature = Literal["exact", "projected", "gauss-newton", "dirichlet"]
 _ROUNDING = 1e-8  # a decrease promised by the direction that rounding of the energy can hide
 # The same for a first-order direction, which promises far more than a step can hold.
 _SMALL_SLOPE = 1e-4
-# A direction longer than this multiple of the coefficients is shortened: the line search works on
-# steps between 1e-12 and 2.
+# A direction longer than this multiple of the coefficients is shortened, for the line search.
 _LONGEST = 10.0
 # Newton's steps that are shorter, and gain less of the energy, creep: each is dearer than the last,
 # for it splits panels next to where the map folds.
@@ -230,7 +229,6 @@ def _advance(
     direction: Coefficients,
     may_refine: Bool[AnyArray, ""] | bool,
 ) -> tuple[line_search.Backtracking, Coefficients]:
-    """The best certified step along ``direction``, a change of the unknowns."""
     slope = jnp.dot(gradient, direction)
     line = evaluation.line_along(problem, expand(direction, problem.unknowns), slope)
     found = line_search.search(problem, point, line)
