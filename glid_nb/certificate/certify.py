@@ -3,11 +3,13 @@
 import functools
 from collections.abc import Callable
 from dataclasses import dataclass, field, fields
+from numbers import Real
 from pathlib import Path
 from typing import Any, Literal, NamedTuple
 
 import numpy as np
 
+from glid_nb._arguments import check_type
 from glid_nb._arrays import Array
 from glid_nb._errors import InputError
 from glid_nb._files import write_text_atomically
@@ -77,6 +79,7 @@ class Certificate:
 
     def belongs_to(self, map: HarmonicMap) -> bool:
         """Whether it is of this map: the same coefficients on the same or an equal domain."""
+        check_type("map", map, HarmonicMap, "such as that of a result")
         own = self.map
         same = np.array_equal(own.phi, map.phi) and np.array_equal(own.psi, map.psi)
         return own is map or (same and own.domain.equals(map.domain))
@@ -155,6 +158,9 @@ def certify(
     split on which the proof fails, as the paper does not, or whose bounds are further than the
     relative ``tightness`` from values that the map attains.
     """
+    check_type("map", map, HarmonicMap, "such as that of a result")
+    check_type("panels", panels, Panels | None, "such as those of a certificate")
+    check_type("tightness", tightness, Real, "a positive number")
     if kind not in PROOFS:
         raise ValueError(f"unknown kind of certificate {kind!r}; choose one of {', '.join(PROOFS)}")
     if not tightness > 0:

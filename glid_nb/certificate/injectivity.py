@@ -13,6 +13,7 @@ from typing import Any, Literal
 import numpy as np
 import shapely
 
+from glid_nb._arguments import check_type
 from glid_nb._arrays import Array
 from glid_nb._runtime import double_precision
 from glid_nb.certificate.arcs import Arcs, jets_of
@@ -64,6 +65,7 @@ def global_injectivity(
     """
     if max_panels < 1:
         raise ValueError(f"max_panels is {max_panels}; it must be at least 1")
+    check_type("certificate", certificate, Certificate | None, "what glid_nb.certify returns")
     certificate = certify(map) if certificate is None else certificate
     if not certificate.belongs_to(map):
         raise CertificateError(

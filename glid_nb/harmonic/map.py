@@ -11,6 +11,7 @@ from typing import Any, TypeVar
 import numpy as np
 from numpy.typing import ArrayLike
 
+from glid_nb._arguments import check_count, check_type
 from glid_nb._arrays import Array, Rebuilt, frozen, number_pairs, real_array
 from glid_nb._errors import InputError, about
 from glid_nb._json import checked_version, read_json, write_json
@@ -49,6 +50,7 @@ class HarmonicMap(Rebuilt):
     psi: Array = field(repr=False)
 
     def __init__(self, domain: Domain, phi: ArrayLike, psi: ArrayLike) -> None:
+        check_type("domain", domain, Domain, "make one with Domain.from_cage(cage)")
         object.__setattr__(self, "domain", domain)
         n = domain.n_coefficients
         for name, given in (("phi", phi), ("psi", psi)):
@@ -78,6 +80,7 @@ class HarmonicMap(Rebuilt):
     @classmethod
     def identity(cls, domain: Domain) -> HarmonicMap:
         """The identity map: ``phi`` = the exterior offset vertices, everything else 0."""
+        check_type("domain", domain, Domain, "make one with Domain.from_cage(cage)")
         exterior = domain.offset_cage.loops_complex[0]
         phi = np.zeros(domain.n_coefficients, dtype=complex)
         phi[: len(exterior)] = exterior
@@ -94,8 +97,7 @@ class HarmonicMap(Rebuilt):
 
     def wirtinger_derivatives(self, points: ArrayLike, order: int) -> tuple[Array, Array]:
         """The ``order``-th complex derivatives of ``f_z`` and of ``conj(f_zbar)``, order >= 1."""
-        if order < 1:
-            raise ValueError(f"order is {order}; it must be at least 1")
+        check_count("order", order, 1, "derivatives")
         return run_on(self, functools.partial(_higher, order=order), as_complex(points))
 
     def sigma1(self, points: ArrayLike) -> Array:
@@ -124,6 +126,7 @@ class HarmonicMap(Rebuilt):
         The components of the difference are harmonic, so their extremes lie on the boundary. The
         maps may have different offset cages.
         """
+        check_type("other", other, HarmonicMap, "such as that of a result")
         points = as_points(uniform_panels(self.domain.cage, n_points).start)
         return float(np.linalg.norm(self(points) - other(points), axis=1).max())
 
@@ -186,14 +189,11 @@ def images_under(maps: Sequence[HarmonicMap], points: ArrayLike) -> Array:
 
 
 def as_complex(points: ArrayLike) -> Array:
-    """(k, 2) real points, or complex ones of any shape, as a (k,) complex array."""
-    array = np.asarray(points)
-    if np.iscomplexobj(array):
-        z = array.astype(complex).ravel()
+    """(k, 2) real points, or an array of complex ones of any shape, as a (k,) complex array."""
+    if hasattr(points, "dtype") and np.iscomplexobj(points):
+        z = np.asarray(points, dtype=complex).ravel()
     else:
-        array = np.asarray(array, dtype=float)
-        if array.ndim != 2 or array.shape[1] != 2:
-            raise ValueError(f"points have shape {array.shape}; expected (k, 2)")
+        array = number_pairs(points, "points must be (k, 2) coordinates", MapError)
         z = array[:, 0] + 1j * array[:, 1]
     bad = np.flatnonzero(~np.isfinite(z))
     if bad.size:

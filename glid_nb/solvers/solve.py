@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import replace
+from numbers import Real
 from typing import Any
 
 import numpy as np
@@ -102,6 +103,7 @@ def refine(result: Result, gain: float = 0.01, callback: Callback | None = None)
     ValueError when ``gain`` is not between 0 and 1.
     """
     check_type("result", result, Result, "what glid_nb.solve returns")
+    check_type("gain", gain, Real, "a share of the energy")
     if not isinstance(result.map, HarmonicMap) or result.n_unknowns is None:
         raise MethodError(f"{result.method} has no basis to refine; use a descent, such as Newton")
     if not 0 < gain < 1:

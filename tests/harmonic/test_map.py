@@ -149,7 +149,7 @@ def test_points_may_be_pairs_or_complex() -> None:
 @pytest.mark.parametrize("points", [[1.0, 2.0], [[1.0, 2.0, 3.0]], 3.0, [[[1.0, 2.0]]]])
 def test_other_shapes_of_points_are_refused(points: Any) -> None:
     map = HarmonicMap.identity(domain("ell"))
-    with pytest.raises(ValueError, match=re.escape(f"shape {np.shape(points)}")):
+    with pytest.raises(ValueError, match=re.escape(f"shape is {np.shape(points)}")):
         map(points)
 
 
