@@ -23,9 +23,8 @@ def column_bucket(count: int) -> int:
 
 
 class Basis(NamedTuple):
-    """Columns of the harmonic subspace on a domain (paper Section 5), padded. Padding columns have
-    zero coefficients, so they change no map; domains with the same number of padded columns share
-    compiled programs."""
+    """Columns of the harmonic subspace on a domain (paper Section 5), padded by columns without
+    coefficients: domains with the same number of padded columns share compiled programs."""
 
     singularities: Singularities
     """The offset cage's vertices, then padding on a far circle; hole points, then padding."""

@@ -19,8 +19,7 @@ class FixedPoints:
 
     With the slope s_e of phi along the edge from z_e, (D.1) is the sum over the offset cage's edges
     ``1/(2 pi i) sum_e (phi_e + (z - z_e) s_e) L_e``, its derivative ``1/(2 pi i) sum_e s_e L_e``:
-    one matrix product for each map. The logarithms L_e are kept in single precision, up to half a
-    GB.
+    one matrix product for each map. Up to half a GB of L_e is kept, in single precision.
     """
 
     def __init__(self, domain: Domain, points: ArrayLike) -> None:

@@ -72,8 +72,7 @@ class Motion:
     easing: tuple[Easing, ...]
     """One of "linear", "in", "out" or "in-out", for all intervals or for each."""
     repeat: Repeat
-    """Either "once"; "loop", back to the first keyframe after the last; "ping-pong", back the same
-    way."""
+    """Either "once"; "loop", back to the first keyframe after the last; or "ping-pong"."""
     between: Between
     """Either "bounded", bounded distortion interpolation; "solved", the same through maps solved on
     the way, with handles that move on rigid paths; "auto", bounded but where that is worse than the
@@ -273,8 +272,7 @@ class Motion:
     def save(self, path: str | Path, proof: str | Path | None = None) -> None:
         """Write keyframes, settings and pieces as JSON, and the proof that ``glid-check`` reads.
 
-        Raises MotionError for a proof of a motion that is not certified, or of the same name; then
-        nothing is written.
+        MotionError, and no file, for a proof of what is not certified, or of the same name.
         """
         paths = [path] if proof is None else [path, proof]
         if proof is not None and same_file(Path(path), Path(proof)):

@@ -87,8 +87,7 @@ class TracingModel(Undoable[TracingState]):
     with the same `gesture`, any value, such as the moves of one drag, are one step for undo.
 
     The image is as in `read_image`, None to begin without one; the options are the first ones.
-    Raises a TraceError for a picture that cannot be read; one without a shape is one of the
-    `problems`.
+    A TraceError for a picture that cannot be read; one without a shape is one of the `problems`.
     """
 
     def __init__(

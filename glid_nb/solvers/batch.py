@@ -57,8 +57,7 @@ def solve_batch(
     """Deform one shape into many poses.
 
     The same as calling :func:`glid_nb.solve` for each row of targets, up to rounding, and faster
-    where there are several devices or one wide one. Every result is certified on its own; they come
-    in the order of the poses.
+    where there are several devices or one wide one. Every result, in order, has its own proof.
 
     ``handles`` are (h, 2) points of the domain, ``targets`` (B, h, 2) where they should go in each
     of B poses; depths, angles, scales and weights, (h,), and the stiffness are those of every pose,

@@ -37,8 +37,7 @@ _ROUNDING = 1e-8  # a decrease promised by the Newton decrement that rounding of
 
 @dataclass(frozen=True)
 class Newton(Method):
-    """Newton's method with the exact Hessian where it is positive definite and the paper's
-    projected one elsewhere.
+    """Newton's method, with the exact Hessian where that is positive definite, else the projected.
 
     Ours; its settings are the :class:`~glid_nb.Options`.
     """

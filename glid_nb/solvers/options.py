@@ -43,9 +43,8 @@ class Options:
     """How local injectivity is proved; "lipschitz" is the paper's (Section 8), "bdhm" has the
     larger constants that the paper replaces (Figure 7)."""
     hessian: HessianKind = option("adaptive", "The matrix of Newton's method", "Hessian", _HESSIANS)
-    """The exact Hessian where it is positive definite, else the projected one; with "projected"
-    always that (the paper's, Section 7); with "exact" never, halting where it is not positive
-    definite."""
+    """The exact Hessian where it is positive definite, else the projected one (Section 7); with
+    "projected" always that, as in the paper; with "exact" never, halting there."""
     p2p_weight: float = option(
         1e5, "How strongly handles are drawn to their targets", "Weight λ", above=0
     )

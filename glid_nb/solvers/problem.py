@@ -55,8 +55,7 @@ class SubspaceProblem(NamedTuple):
     energy: Energy
     p2p_hessian: Any = None  # (4u, 4u), in whitened coordinates; for Newton's method
     anchor: Float[AnyArray, " 4c"] | float = 0.0
-    """Coefficients of a constant map, relative to which derivatives are computed: a translation
-    then costs no accuracy."""
+    """A constant map's, to which derivatives are relative: a translation costs no accuracy."""
 
 
 class Positional(NamedTuple):

@@ -2,8 +2,7 @@
 
 The derivatives of Cauchy coordinates on the boundary are nearly dependent, and the Hessian's
 condition is the square of theirs, beyond what single precision resolves. In coordinates ``x`` with
-``phi = T x``, in which the derivatives ``D T`` are orthonormal along the boundary, it is that of
-``K``.
+``phi = T x``, where the derivatives ``D T`` are orthonormal along the boundary, it is ``K``'s.
 
 ``T`` has a row for each column, and columns for the translation, for the other unknowns, zeros for
 padding, and last one for each logarithm, its coefficient, scaled. All but the translation vanish at

@@ -24,9 +24,8 @@ _AT_VERTEX = 1e-9  # of the shape's longer side
 
 
 class MeshOperators:
-    """A mesh as the solvers see it; images are (v,) complex. On a triangle ``f_z = sum_i conj(G_i)
-    w_i / 2`` and ``f_zbar = sum_i G_i w_i / 2``, ``G_i`` the complex gradient of a corner's hat
-    function."""
+    """A mesh for solvers; images are (v,) complex. On a triangle ``f_z = sum_i conj(G_i) w_i / 2``
+    and ``f_zbar = sum_i G_i w_i / 2``, ``G_i`` the complex gradient of a corner's hat function."""
 
     def __init__(self, mesh: Triangulation) -> None:
         self.mesh = mesh
