@@ -86,8 +86,8 @@ def graded_panels(domain: Domain, ratio: float = 1.0) -> Panels:
 
 
 def paired(panels: Panels, domain: Domain, ratio: float) -> Array:
-    """(p,) bool: the first of two consecutive panels of equal length on one straight piece, together
-    no longer than ``ratio`` times their distance to a singularity; pairs do not overlap."""
+    """(p,) bool: the first of two consecutive panels of equal length on one straight piece that are
+    at most ``ratio`` times their distance to a singularity together; pairs do not overlap."""
     after = np.roll(np.arange(len(panels)), -1)
     chord, following = panels.end - panels.start, panels.end[after] - panels.start[after]
     even = np.abs(chord - following) <= _EVEN * np.abs(chord)

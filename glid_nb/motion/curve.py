@@ -41,7 +41,7 @@ class Piece(NamedTuple):
         if time in (self.start, self.end):
             return self.start_map if time == self.start else self.end_map
         s = (time - self.start) / (self.end - self.start)
-        return HarmonicMap(self.start_map.domain, *blended((self.start_map, self.end_map), 0, s))
+        return HarmonicMap(self.start_map.domain, *blend((self.start_map, self.end_map), 0, s))
 
 
 def linear_pieces(times: Sequence[float], maps: Sequence[HarmonicMap]) -> tuple[Piece, ...]:
@@ -97,7 +97,7 @@ class Curve:
         return np.unique([start, *inside, end]).tolist()
 
 
-def blended(maps: Sequence[HarmonicMap], piece: int, s: float) -> Coefficients:
+def blend(maps: Sequence[HarmonicMap], piece: int, s: float) -> Coefficients:
     """Coefficients on the straight line from a map to the next."""
     a, b = maps[piece], maps[piece + 1]
     return a.phi + s * (b.phi - a.phi), a.psi + s * (b.psi - a.psi)

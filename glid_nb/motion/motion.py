@@ -24,14 +24,7 @@ from glid_nb.harmonic import HarmonicMap
 from glid_nb.motion import file, settings
 from glid_nb.motion.boundary import boundary_of
 from glid_nb.motion.bounded import Bounded
-from glid_nb.motion.curve import (
-    Curve,
-    Piece,
-    blended,
-    linear_pieces,
-    through_mended,
-    through_solved,
-)
+from glid_nb.motion.curve import Curve, Piece, blend, linear_pieces, through_mended, through_solved
 from glid_nb.motion.settings import Between, Easing, MotionError, Repeat, checked
 
 _TOLERANCE = 0.002
@@ -237,7 +230,7 @@ class Motion:
         through = maps, self.times, self.easing
         if self.between == "linear":
             ways = ("linear",) * len(intervals)
-            return Curve(*through, functools.partial(blended, maps), (1,) * len(ways), ways)
+            return Curve(*through, functools.partial(blend, maps), (1,) * len(ways), ways)
         way = follow = Bounded.through(maps, self.times, self.turns, closed)
         ways = (self.between,) * len(intervals)
         if self.between == "auto":

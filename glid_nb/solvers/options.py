@@ -44,7 +44,7 @@ class Options:
     larger constants that the paper replaces (Figure 7)."""
     hessian: HessianKind = option("adaptive", "The matrix of Newton's method", "Hessian", _HESSIANS)
     """The exact Hessian where it is positive definite, else the projected one (Section 7); with
-    "projected" always that, as in the paper; with "exact" never, halting there."""
+    "projected" always that, as in the paper; with "exact" never, halting where it is indefinite."""
     p2p_weight: float = option(
         1e5, "How strongly handles are drawn to their targets", "Weight λ", above=0
     )

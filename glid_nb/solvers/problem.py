@@ -17,15 +17,8 @@ from numpy.typing import NDArray
 from glid_nb._jax import AnyArray, Array, Float, jnp
 from glid_nb.energies import Energy
 from glid_nb.geometry import Domain
-from glid_nb.harmonic import (
-    Basis,
-    HarmonicMap,
-    Singularities,
-    as_complex,
-    basis_of,
-    cauchy,
-    rows_of,
-)
+from glid_nb.harmonic import Basis, HarmonicMap, Singularities, as_complex, cauchy, rows_of
+from glid_nb.harmonic.basis import basis_of
 from glid_nb.solvers.discretisation import Matrices, complex_basis
 from glid_nb.solvers.pose import Pose, rigid_motion
 
