@@ -15,14 +15,7 @@ from glid_nb._errors import InputError
 from glid_nb._files import write_text_atomically
 from glid_nb.certificate import rounding
 from glid_nb.certificate.hermite import Hermite
-from glid_nb.certificate.panels import (
-    EndValues,
-    PanelBounds,
-    PanelProof,
-    check_tiling,
-    modulus,
-    split,
-)
+from glid_nb.certificate.panels import EndValues, PanelBounds, check_tiling, modulus, split
 from glid_nb.certificate.paper import BDHM, Lipschitz, beside, jumps, turning, windings
 from glid_nb.certificate.proof import FORMAT, FORMAT_VERSION, dyadic_panels, exact_text
 from glid_nb.geometry import Panels, graded_panels, place
@@ -30,7 +23,6 @@ from glid_nb.harmonic import HarmonicMap, Singularities, cauchy, run_on
 
 CertificateKind = Literal["hermite", "lipschitz", "bdhm"]
 
-PROOFS: dict[CertificateKind, type[PanelProof]]
 PROOFS = {"hermite": Hermite, "lipschitz": Lipschitz, "bdhm": BDHM}
 
 _MAX_ROUNDS = 40
