@@ -109,8 +109,7 @@ class _OverIterations(Plot):
 
     _looks: ClassVar[dict[str, dict[str, Any]]] = {}
     """The look of each line by the field that it shows, the lowest line first."""
-    _dotted: ClassVar[int]
-    """Which of the lines has faint dots for the iterations that it leaves out."""
+    _dotted: ClassVar[int]  # which line has faint dots for the iterations that it leaves out
 
     def __init__(self, axes: Axes, animated: bool = False) -> None:
         super().__init__(axes, animated)
@@ -168,16 +167,12 @@ class EnergyPlot(_OverIterations):
     def _show(
         self,
         history: Sequence[Iteration],
-        start_energy: float | None = None,
         starts: Collection[int] = (),
         solving: bool = False,
         minimum: float = 0.0,
     ) -> None:
-        """Show iterations; ``start_energy`` is the total before the first, at iteration 0, and
-        ``minimum`` the isometric part of a shape that is not deformed."""
+        """Show iterations; ``minimum`` is the isometric part of a shape that is not deformed."""
         rows = _rows(history, *self._looks)
-        if start_energy is not None:
-            rows = np.insert(rows, 0, [0, np.nan, np.nan, start_energy], axis=1)
         above, least = rows[1:], _AT_MINIMUM * max(1.0, minimum)
         above[1:] = np.maximum(above[1:] - minimum, least)
         # Only the lines count for the limits: the peaks after moved targets would flatten them.
@@ -192,10 +187,8 @@ class EnergyPlot(_OverIterations):
         self.axes.yaxis.set_major_locator(LogLocator(subs=subs, numticks=6))
         self.axes.yaxis.set_major_formatter("{x:g}" if narrow else LogFormatterSciNotation())
         self.axes.set_ylim(low, high)
-        text = "no iterations"
-        if len(history):
-            text = f"E = {minimum:.4g} + " if minimum else "E = "
-            text += f"{above[-1, -1]:.3g}"
+        name = f"E = {minimum:.4g} +" if minimum else "E ="
+        text = f"{name} {above[-1, -1]:.3g}" if len(history) else "no iterations"
         self._text.set_text(text)
 
 
