@@ -78,8 +78,7 @@ def run(chosen: argparse.Namespace) -> None:
         *(("notes", note) for note in notes),
         ("pose", f"{origin}: {len(pose)} handles, {moved} moved"),
     ]
-    extra = {"image": str(source), "pose": origin, "notes": notes}
-    finish(result, report, files, chosen.json, rows, **extra)
+    finish(result, report, files, chosen.json, rows, image=str(source), pose=origin, notes=notes)
 
 
 def _source(image: str) -> tuple[Path, str | None]:

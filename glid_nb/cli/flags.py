@@ -53,10 +53,8 @@ def _add_flags(group: Any, settings: Any) -> None:
             text += f" (default {field.default})"
         if labels := field.metadata["choices"]:
             text += "; " + ", ".join(f"{value}: {label}" for value, label in labels.items())
-        if get_origin(kind) is Literal:
-            argument = {"metavar": f"{{{','.join(get_args(kind))}}}"}
-        else:
-            argument = _ARGUMENTS[kind]
+        choice = get_origin(kind) is Literal
+        argument = {"metavar": f"{{{','.join(get_args(kind))}}}"} if choice else _ARGUMENTS[kind]
         if argument.get("action") == "append":
             text, flag = f"{text}; may be repeated", flag.removesuffix("s")
         group.add_argument(flag, dest=field.name, help=text, **argument)

@@ -36,8 +36,7 @@ def run(chosen: argparse.Namespace) -> None:
     chosen.folder.mkdir(parents=True, exist_ok=True)
     if not notebook.exists():
         shutil.copyfile(_bundled_notebook(), notebook)
-    status = subprocess.run(command, check=False).returncode
-    if status:
+    if status := subprocess.run(command, check=False).returncode:
         raise InputError(f"JupyterLab ended with the exit code {status}")
 
 

@@ -152,8 +152,7 @@ def finish(
         write_bytes_atomically(path, data.encode() if isinstance(data, str) else data)
     if as_json:
         short = {key: value for key, value in report.items() if key not in _LONG}
-        named = {path.name: str(path) for path in files}
-        print(json.dumps({**extra, **short, "files": named}))
+        print(json.dumps({**extra, **short, "files": {path.name: str(path) for path in files}}))
     else:
         print(summary_text(report, files, rows))
     if result.status is glid_nb.Status.STOPPED:

@@ -37,8 +37,7 @@ def run(chosen: argparse.Namespace) -> None:
     data = read_object(chosen.problem)
     with about(chosen.problem):
         problem = glid_nb.Problem.from_dict(data)
-        size = data.get("image_size_px")
-        if size is not None:
+        if (size := data.get("image_size_px")) is not None:
             size = picture_size(size, "image_size_px")
     energy, options = energy_of(chosen), options_of(chosen)
     start = glid_nb.HarmonicMap.load(chosen.start) if chosen.start else None

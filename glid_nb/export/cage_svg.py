@@ -69,8 +69,7 @@ def _in_sight(map: HarmonicMap, sheets: Sheets) -> list[Array] | None:
     """The pieces of the cage's image that no other part covers; None if nothing is covered."""
     cage, pieces, covered = map.domain.cage, [], False
     for loop in cage.loops_complex:
-        lengths = np.abs(np.roll(loop, -1) - loop)
-        parts = np.ceil(lengths / (_PIECE * cage.longer_side)).astype(int)
+        parts = np.ceil(np.abs(np.roll(loop, -1) - loop) / (_PIECE * cage.longer_side)).astype(int)
         points = as_points(subdivided(loop, parts))
         hidden, images = sheets.hidden(points), map(points)
         covered |= hidden.any()

@@ -53,10 +53,8 @@ def check_settings(size: Any, fps: Any, background: Any, suffix: str) -> None:
     """Raise an InputError that names the setting which is out of range, or a missing package."""
     checked("size", int, size, least=16, most=_LARGEST)
     # GIF counts in hundredths of a second, and players slow down frames of less than two.
-    name, most = "frames_per_second", 100
-    if suffix == ".gif":
-        name, most = "frames_per_second of a GIF", 50
-    checked(name, float, fps, above=0, most=most)
+    of, most = (" of a GIF", 50) if suffix == ".gif" else ("", 100)
+    checked(f"frames_per_second{of}", float, fps, above=0, most=most)
     rgb: Any = {"most": 255, "form": "three whole numbers from 0 to 255"}
     checked("background", tuple[int, int, int] | None, plain(background), **rgb)
     if background is None and suffix in (".gif", ".mp4"):

@@ -30,8 +30,7 @@ _VERTICES = 4000
 _TOLERANCE = 0.004  # world units; the picture is 20 long
 _MARGIN = 0.04  # of the canvas, as in a rendering with view="fit"
 _GRID_LINES = 20  # along the longer side
-# Vertices and images are rounded by this share of the shape's size: a twentieth of a pixel where it
-# is 2000 pixels long.
+# Vertices and images are rounded by this share of the shape's size: 1/20 pixel where it has 2000.
 _STEP = 2.5e-5
 _HEIGHT = 2.0**-16
 _MOST_STEPS = 2**28  # of a coefficient

@@ -158,9 +158,8 @@ def log_ticks(low: float, high: float) -> list[float]:
 
 def color_bar(axes: Any, colors: Any, label: str, **look: Any) -> Axes:
     """A slim colour bar below axes; returns its own."""
-    figure = np.ravel(axes)[0].figure
     place = {"location": "bottom", "shrink": 0.8, "aspect": 24, "pad": 0.02, "panchor": False}
-    scale = figure.colorbar(colors, ax=axes, **{**place, **look})
+    scale = np.ravel(axes)[0].figure.colorbar(colors, ax=axes, **{**place, **look})
     scale.set_label(label, fontsize=SMALL, labelpad=1, color=INK)
     scale.ax.xaxis.set_minor_locator(NullLocator())
     scale.ax.tick_params(labelsize=SMALL, length=2, width=HAIRLINE, pad=1.5, colors=INK)

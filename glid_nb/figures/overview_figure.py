@@ -95,8 +95,7 @@ def _common_scale(*boxes: Floats) -> Floats:
     """Boxes with one aspect ratio around these, of one size unless one would be tiny in it."""
     sizes = np.array([np.ptp(box, axis=0) for box in boxes])
     common = sizes.max(axis=0)
-    could_grow = (common / sizes).min(axis=1)
-    half = common / 2 * np.minimum(1, _SHRINK / could_grow)[:, None]
+    half = common / 2 * np.minimum(1, _SHRINK / (common / sizes).min(axis=1))[:, None]
     middle = np.mean(boxes, axis=1)
     return np.stack([middle - half, middle + half], axis=1)
 

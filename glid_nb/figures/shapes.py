@@ -246,10 +246,9 @@ def panels(certificate: Certificate) -> NotebookFigure:
     figure.get_layout_engine().set(wspace=0.08)  # type: ignore[union-attr]
     hold(axes, drawing.box_around(cage.exterior, 0.04))
     start, end = as_points(proved.start), as_points(proved.end)
-    segments = np.stack([start, end], axis=1)
     colors = distortion_colors().reversed().with_extremes(under=VERMILION)
     look: Any = {"cmap": colors, "norm": Normalize(1e-300, _FULL_MARGIN), "linewidths": 3}
-    lines = LineCollection(list(segments), array=bound, **look)
+    lines = LineCollection([*np.stack([start, end], axis=1)], array=bound, **look)
     axes.add_collection(lines)
     if len(bound) <= _MANY:
         axes.plot(*start.T, "o", color=INK, markersize=1.4, zorder=3)

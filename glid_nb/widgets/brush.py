@@ -57,11 +57,10 @@ class BrushGestures(PinGestures):
             super()._up(event)
 
     def _key(self, event: Event) -> None:
-        tool, brush = _KEYS.get(event["key"].lower()), self.brush
-        if tool is not None:
+        key, brush = event["key"], self.brush
+        tool = brush.tool if key == "Escape" else _KEYS.get(key.lower())
+        if tool:
             brush.tool = "" if brush.tool == tool else tool
-        elif event["key"] == "Escape" and brush.tool:
-            brush.tool = ""
         else:
             super()._key(event)
 
@@ -86,8 +85,7 @@ class BrushBar(EditControls):
     """Controls of a brush, shown in place of ``other`` while the brush has a tool."""
 
     def __init__(self, deformation: Deformation, brush: Brush, other: ipywidgets.DOMWidget) -> None:
-        style = {"description_width": "68px"}
-        look: dict[str, Any] = {"layout": {"width": "210px"}, "style": style}
+        look: Any = {"layout": {"width": "210px"}, "style": {"description_width": "68px"}}
         most = _LARGEST_RADIUS * deformation.state.domain.cage.longer_side
         size = {"min": most / 50, "max": most, "step": most / 50, "readout": False}
         self.size = ipywidgets.FloatSlider(description="Size", **size, **look)
@@ -126,7 +124,6 @@ def _outlines(stiffness: Stiffness, cage: Cage) -> list[tuple[float, list[Array]
     outlines = []
     for strength, part in stiffness.within(cage).items():
         fine = shapely.segmentize(shapely.normalize(part), cage.longer_side / _EDGES)
-        areas = [area for area in shapely.get_parts(fine) if area.geom_type == "Polygon"]
-        rings = [ring for area in areas for ring in (area.exterior, *area.interiors)]
+        rings = shapely.get_rings(shapely.get_parts(fine))
         outlines.append((strength, [shapely.get_coordinates(ring)[:-1] for ring in rings]))
     return outlines

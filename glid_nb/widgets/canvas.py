@@ -109,16 +109,14 @@ class DeformCanvas(ClosingWidget, ipywidgets.HBox):
         # While the solver works, its next frame acknowledges events, so it sets the pace.
         with model.locked():
             self.pane.stage.serve(model, self.handle, busy=self._is_behind)
-            stop = model.observe(self._on_model)
+            self._endings = (model.observe(self._on_model), *((model.close,) if owned else ()))
             self._draw("state")
             if len(model.state.pose):
                 self.fit()
-            self._endings = (stop, *((model.close,) if owned else ()))
             self._show_source()
             self._draw("legend")
         self.pane.stage.observe(lambda _: model.begin(), ["drawn"])
-        lines = ["show_cage", "show_offset_cage", "show_onion"]
-        self.observe(lambda _: self._draw("state"), lines)
+        self.observe(lambda _: self._draw("state"), ["show_cage", "show_offset_cage", "show_onion"])
         self.observe(lambda _: self._draw("legend"), ["overlay", "show_panels"])
         self.observe(self._show_source, ["show_source"])
         self.brush.observe(lambda _: self._draw("state"))
@@ -333,15 +331,13 @@ class Toolbar(ClosingWidget, ipywidgets.HBox):
         for name, label, tooltip in _TOGGLES:
             self.toggles[name] = toggle(label, "", tooltip, fitting)
             ipywidgets.link((canvas, name), (self.toggles[name], "value"))
-        buttons = self.undo, self.redo, self.reset, self.fit
-        tip = "Paint what should stay as it is (B)"
-        self.stiff = toggle("Stiff", "paint-brush", tip, fitting)
+        self.stiff = toggle("Stiff", "paint-brush", "Paint what should stay as it is (B)", fitting)
         answer_during_cells(self.stiff)  # in the pad's thread: before the stroke that follows
         chosen = bool, lambda on: "stiff" if on else ""
         ipywidgets.link((canvas.brush, "tool"), (self.stiff, "value"), chosen)
         kwargs = {"layout": {"flex_flow": "row wrap"}, **kwargs}
-        shown = [*buttons, self.overlay, *self.toggles.values(), self.stiff]
-        super().__init__(shown, **kwargs)
+        always = [self.undo, self.redo, self.reset, self.fit, self.overlay]
+        super().__init__([*always, *self.toggles.values(), self.stiff], **kwargs)
         self.add_class("glid-tools")
         self._show("state")
         self._endings = (model.observe(self._show),)

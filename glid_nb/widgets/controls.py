@@ -25,16 +25,14 @@ def button(
 ) -> ipywidgets.Button:
     """A button whose click calls ``act``; ``layout`` is its width or a layout that it shares."""
     layout = {"width": layout, "flex": "0 0 auto"} if isinstance(layout, str) else layout
-    look: dict[str, Any] = {"icon": icon, "tooltip": tooltip, "layout": layout}
-    made = ipywidgets.Button(description=label, **look)
+    made = ipywidgets.Button(description=label, icon=icon, tooltip=tooltip, layout=layout)
     made.on_click(lambda _: act())
     return made
 
 
 def toggle(label: str, icon: str, tooltip: str, layout: Any) -> ipywidgets.ToggleButton:
     """A button that stays pressed."""
-    look: dict[str, Any] = {"icon": icon, "tooltip": tooltip, "layout": layout}
-    return ipywidgets.ToggleButton(description=label, **look)
+    return ipywidgets.ToggleButton(description=label, icon=icon, tooltip=tooltip, layout=layout)
 
 
 class EditControls(ClosingWidget, ipywidgets.VBox):

@@ -174,15 +174,13 @@ class FilePanel(ipywidgets.VBox):
 
     def _add_buttons(self) -> None:
         made = self._button
+        go_on, beside = "Go on with the session file", "Write it beside the session file"
+        browser, lines = "Save it through the browser", "Copy the lines that make this map"
         self.save_button = made("Save", "save", "Write the session file", self._save)
-        tooltip = "Go on with the session file"
-        self.open_button = made("Open", "folder-open", tooltip, self._open, "Discard?")
-        tooltip = "Write it beside the session file"
-        self.export_button = made("Write here", "file-export", tooltip, self._export)
-        tooltip = "Save it through the browser"
-        self.download_button = made("Download", "download", tooltip, self._download)
-        tooltip = "Copy the lines that make this map"
-        self.code_button = made("Copy as Python", "code", tooltip, self._copy)
+        self.open_button = made("Open", "folder-open", go_on, self._open, "Discard?")
+        self.export_button = made("Write here", "file-export", beside, self._export)
+        self.download_button = made("Download", "download", browser, self._download)
+        self.code_button = made("Copy as Python", "code", lines, self._copy)
 
     def _button(
         self, label: str, icon: str, tooltip: str, action: _Action, question: str = "Replace?"

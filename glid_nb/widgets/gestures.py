@@ -141,12 +141,10 @@ class PinGestures(Gestures):
         if press.part:
             self._turn(press, point)
             return
-        if press.targets is None:
-            if press.source is None:
-                return
+        if press.targets is None and press.source is not None:
             # Dragging the shape itself pins the point below the pointer.
             press.targets = self._pin_at(press.source)
-        if not self._drags(press):
+        if press.targets is None or not self._drags(press):
             return
         held = list(model.dragged)
         if len(held) != len(press.targets):
@@ -219,8 +217,11 @@ class PinGestures(Gestures):
 
     def _key(self, event: Event) -> None:
         key, model = event["key"], self.deformation
-        plain = {"undo": model.undo, "redo": model.redo, "0": model.reset}
-        plain |= {"m": model.mirror_pose, "f": self._fit}
+        plain: dict[str, Callable[[], Any]] = {"undo": model.undo, "redo": model.redo}
+        plain |= {"0": model.reset, "m": model.mirror_pose, "f": self._fit}
+        plain |= {"x": lambda: model.set_pins(model.selection, angles=None, scales=None)}
+        plain |= {"a": lambda: model.select(range(len(model.pose)))}
+        plain |= {",": lambda: self._next(-1), ".": lambda: self._next(1)}
         if key in ARROWS:
             self._arrow(event)
         elif key == "Enter":
@@ -240,14 +241,8 @@ class PinGestures(Gestures):
             model.bring_forward(model.selection, _DEPTHS[key])
         elif key in _TURNS:
             model.turn(model.selection, *_TURNS[key])
-        elif key in ("x", "X"):
-            model.set_pins(model.selection, angles=None, scales=None)
         elif key == "copy":
             self.copy(pose_text(model.state))
-        elif key in (",", "."):
-            self._next(1 if key == "." else -1)
-        elif key in ("a", "A"):
-            model.select(range(len(model.pose)))
 
     def _arrow(self, event: Event) -> None:
         direction, model = np.array(ARROWS[event["key"]], dtype=float), self.deformation

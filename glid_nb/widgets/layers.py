@@ -15,7 +15,7 @@ from glid_nb._arrays import Array
 from glid_nb._scripts import glsl
 from glid_nb.energies import ENERGIES
 from glid_nb.figures.style import VERMILION, rgb
-from glid_nb.geometry import Domain, MeshMap, Triangulation
+from glid_nb.geometry import Domain, MeshMap, Triangulation, as_points
 from glid_nb.geometry.panels import Panels
 from glid_nb.harmonic import ShaderMap, as_complex
 from glid_nb.methods.mesh.operators import MeshOperators
@@ -134,8 +134,7 @@ def _stack(points: Array, triangles: Array) -> dict[str, Array]:
 
 def comparison_layer(map: MeshMap, uniforms: Uniforms, points: Array, triangles: Array) -> Layer:
     """The picture, by the uniforms of ``picture.frag``, on a mesh that another method moves."""
-    mesh = map.triangulation
-    layer = Layer("picture", uniforms, _evaluation_on(mesh), map, points, triangles)
+    layer = Layer("picture", uniforms, _evaluation_on(map.triangulation), map, points, triangles)
     # Turned-over triangles show their back, and this material draws only backs.
     mark = {"mark": {"value": [*rgb([VERMILION])[0], 0.9]}, "frame": uniforms["frame"]}
     layer.draw(glsl("turned_over.frag"), mark, "BackSide")
@@ -208,15 +207,9 @@ def _loops_ribbon(shape: shapely.Geometry, side: float) -> Ribbon:
 
 
 def _ribbon(start: Array, end: Array) -> Ribbon:
-    count = len(start)
-    direction = (end - start) / np.maximum(np.abs(end - start), 1e-300)
-    points = np.stack([start, start, end, end], axis=1).ravel()
-    along = np.repeat(direction, 4)
-    side = np.tile([-1.0, 1.0, -1.0, 1.0], count)
-    corner = 4 * np.arange(count)[:, None, None]
-    triangles = corner + np.array([[0, 1, 2], [2, 1, 3]])
-    return (
-        np.stack([np.real(points), np.imag(points)], axis=1),
-        triangles.reshape(-1, 3),
-        np.stack([along.real, along.imag, side], axis=1).astype(np.float32),
-    )
+    along = np.repeat((end - start) / np.maximum(np.abs(end - start), 1e-300), 4)
+    points = as_points(np.stack([start, start, end, end], axis=1).ravel())
+    side = np.tile([-1.0, 1.0, -1.0, 1.0], len(start))
+    triangles = 4 * np.arange(len(start))[:, None, None] + np.array([[0, 1, 2], [2, 1, 3]])
+    ribbon = np.column_stack([as_points(along), side]).astype(np.float32)
+    return points, triangles.reshape(-1, 3), ribbon

@@ -22,8 +22,7 @@ if TYPE_CHECKING:
     from glid_nb.widgets.live_plots import LivePlots
 
 _INTERVAL = 0.1  # least number of seconds between two drawings of the plots
-_COLORS = (GREY, BLUE, GREEN, ORANGE, VERMILION)
-_TONES = dict(zip(("idle", "working", "good", "blocked", "error"), _COLORS, strict=True))
+_TONES = {"idle": GREY, "working": BLUE, "good": GREEN, "blocked": ORANGE, "error": VERMILION}
 _RATE_WINDOW = 1.0  # seconds over which frames are counted
 PLOTS = {  # by a plot's name what it shows, and where in the paper that is
     "Energy": (
@@ -144,8 +143,7 @@ class SolverMonitor(ClosingWidget, ipywidgets.VBox):
         rate = len(self._frames)
         if not rate or not moment.busy or moment.solved:
             return status
-        rated = f"{status.text} · {rate} {'frame' if rate == 1 else 'frames'}/s"
-        return StatusLine(status.level, rated)
+        return StatusLine(status.level, f"{status.text} · {rate} frame{'s' * (rate > 1)}/s")
 
     def _draw(self, moment: Moment) -> None:
         frame, solution = moment.frame, moment.solution

@@ -16,8 +16,7 @@ from glid_nb.solvers.restarts import isometry_energy
 MARGIN_COLORS = (
     *("#009e73", "#339e59", "#669e40", "#999f26", "#cc9f0d"),
     *("#e49800", "#e08a00", "#dd7b00", "#d96c00", "#d55e00"),
-)
-"""The certificate's, from a wide margin to none."""
+)  # the certificate's, from a wide margin to none
 
 N_COLORS = len(COLORS)  # stops of the colour map in the shader
 FULL_MARGIN = 0.5  # panels with at least this certified sigma_2 have the best colour
@@ -53,9 +52,7 @@ OVERLAYS: dict[str, Overlay] = {
         2, "Stretch σ₁", lambda r, g: np.maximum(r + g, 1), 1.0, (1.25, 1.5, 2.0, 3.0, 5.0, 10.0)
     ),
     "sigma2": Overlay(3, "Stretch σ₂", lambda r, g: np.minimum(r - g, 1), 1.0, (0.8, 0.5, 0.0)),
-    "k": Overlay(
-        4, "Dilatation k", lambda r, g: g / np.maximum(r, 1e-6), 0.0, (0.1, 0.2, 0.5, 1.0)
-    ),
+    "k": Overlay(4, "Dilatation k", lambda r, g: g / np.maximum(r, 1e-6), ends=(0.1, 0.2, 0.5, 1)),
     "energy": Overlay(5, "Energy density"),
 }
 """By the name of the trait ``DeformCanvas.overlay``; that of the energy depends on the energy."""

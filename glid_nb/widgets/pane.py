@@ -46,23 +46,18 @@ class Stage(Pad):
     """The map, as ``ShaderMap.wire`` writes it; empty where the kernel evaluates."""
     marks = traitlets.Dict({key: [] for key in _MARKS}).tag(sync=True)
     """Targets and images of handles, [x, y]; indices selected, hidden; and `Drawing.ring`."""
-    names = traitlets.List(traitlets.Unicode(), []).tag(sync=True)
-    """Names of the handles, which may be empty."""
-    onion = traitlets.List([]).tag(sync=True)
-    """Outlines of other poses: a colour, and loops of [x, y], each."""
-    stiff = traitlets.List([]).tag(sync=True)
-    """The painted areas: strengths, and loops of [x, y], each."""
+    names = traitlets.List(traitlets.Unicode(), []).tag(sync=True)  # the handles', may be empty
+    onion = traitlets.List([]).tag(sync=True)  # other poses' colours and loops of [x, y], each
+    stiff = traitlets.List([]).tag(sync=True)  # painted areas' strengths and loops of [x, y], each
     brush = traitlets.Dict({}).tag(sync=True)
     """The brush that the left button paints with: ``radius`` and ``strength``; empty for none."""
     cursor = traitlets.List(default_value=None, allow_none=True).tag(sync=True)
     """Where the keyboard's cursor is, [x, y]; None while it is not used."""
     legend = traitlets.Dict({}).tag(sync=True)
     """The overlay's colour bar: ``title``, ``colors`` and ``ticks``; empty for none."""
-    panel_legend = traitlets.Dict({}).tag(sync=True)
-    """The certificate's colour bar, below the overlay's."""
+    panel_legend = traitlets.Dict({}).tag(sync=True)  # the certificate's, below the overlay's
     legend_corner = traitlets.Enum(CORNERS, CORNERS[0]).tag(sync=True)  # where the colour bars are
-    notice = traitlets.Unicode("").tag(sync=True)
-    """Why the last action was refused; empty for nothing."""
+    notice = traitlets.Unicode("").tag(sync=True)  # why the last action was refused, if it was
     prepared = traitlets.Float(1.0).tag(sync=True)
     """How much is done, from 0 to 1, of what the first solve of a shape needs."""
     interactive = traitlets.Bool(True).tag(sync=True)  # whether the pad takes pointers and keys
@@ -74,8 +69,7 @@ class Stage(Pad):
     renderer = traitlets.Instance(ipywidgets.Widget).tag(sync=True, **_REFERENCE)
     """The pythreejs renderer below."""
     camera = traitlets.Instance(ipywidgets.Widget).tag(sync=True, **_REFERENCE)  # its camera
-    materials = traitlets.List([]).tag(sync=True, **_REFERENCE)
-    """The materials that take the coefficients."""
+    materials = traitlets.List([]).tag(sync=True, **_REFERENCE)  # those that take coefficients
 
 
 class Pane(ClosingWidget, ipywidgets.GridBox):
@@ -192,8 +186,7 @@ class Pane(ClosingWidget, ipywidgets.GridBox):
 
     def _new_scene(self, uniform_vectors: int) -> Scene:
         vectors = uniform_vectors or UNIFORM_VECTORS  # 0 while no page has said
-        map_ = self._drawing.map
-        return Scene(self._image, map_, self._n_vertices, self._evaluated_in, vectors)
+        return Scene(self._image, self._drawing.map, self._n_vertices, self._evaluated_in, vectors)
 
     def _wire(self) -> bytes:
         scene = self.scene

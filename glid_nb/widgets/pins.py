@@ -23,11 +23,10 @@ class PinBar(EditControls):
     def __init__(self, deformation: Deformation, **kwargs: Any) -> None:
         self._add_fields()
         self._bind_fields(deformation)
-        buttons = self._add_buttons(deformation)
-        fields = [self.name, self.x, self.y, self.depth, self.angle, self.scale, self.weight]
-        self._numbers: list[Any] = [*fields, *buttons]
+        self._add_buttons(deformation)
         place = [self.list, self.name, self.x, self.y, self.depth, self.back, self.front]
         shape = [self.angle, self.scale, self.weight, self.release, self.mirror]
+        self._of_a_pin: list[Any] = [*place[1:], *shape[:-1]]
         wrapping = ipywidgets.Layout(flex_flow="row wrap")
         rows = [ipywidgets.HBox(row, layout=wrapping) for row in (place, shape)]
         super().__init__(deformation, [ipywidgets.HBox(rows, layout=wrapping)], **kwargs)
@@ -77,7 +76,7 @@ class PinBar(EditControls):
         self._bind(self.weight, lambda weight: set_pins(weights=weight))
         self._bind(self.depth, lambda depth: model.set_depths(model.selection, depth))
 
-    def _add_buttons(self, model: Deformation) -> list[ipywidgets.Button]:
+    def _add_buttons(self, model: Deformation) -> None:
         narrow = ipywidgets.Layout(width="38px")
 
         def acting(icon: str, tooltip: str, act: Any) -> ipywidgets.Button:
@@ -96,7 +95,6 @@ class PinBar(EditControls):
             lambda: model.remove_handles(*model.selection, keep_shape=True),
         )
         self.mirror = acting("exchange", "Swap left and right of the pose (M)", model.mirror_pose)
-        return [self.back, self.front, self.release]
 
     def _on_model(self, what: str) -> None:
         super()._on_model("state" if what == "selection" else what)
@@ -108,7 +106,7 @@ class PinBar(EditControls):
         if self.list.options != names:
             self.list.options = names
         self.list.value = selection[-1] if selection else -1
-        for control in self._numbers:
+        for control in self._of_a_pin:
             control.disabled = not selection
         self.mirror.disabled = not len(pose)
         shown = pose.only([selection[-1]]) if selection else _NOTHING

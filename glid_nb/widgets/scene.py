@@ -51,10 +51,8 @@ class Drawing:
     hidden: Any = ()  # (h,) whether another part of the shape covers a handle
     order: Order | None = None  # which part of the shape covers which; by default as without depths
     overlay: str = "texture"  # one of `glid_nb.widgets.overlays.OVERLAYS`
-    energy: Energy = field(default_factory=SymmetricDirichlet)
-    """Whose density the overlay "energy" shows."""
-    color_range: Range = "fit"
-    """Whether the range of the overlay's colour map is kept, only widened, or fitted."""
+    energy: Energy = field(default_factory=SymmetricDirichlet)  # of the overlay "energy"
+    color_range: Range = "fit"  # whether the colour map's range is kept, only widened, or fitted
     cage: bool = False
     offset_cage: bool = False
     panels: PanelCertificate | None = None
@@ -84,15 +82,13 @@ class Scene:
         self._shown = Drawing(map)
         self.color_range = color_range(self._shown.overlay, self._shown.energy)
         """The values at the ends of the overlay's colour map."""
-        height, width = image.shape[:2]
-        self.frame = PixelFrame(width, height)
+        self.frame = PixelFrame(*image.shape[1::-1])
         self._texture = layers.picture_texture(image)
         mesh = triangulate(self.domain.cage, n_vertices)
         self._mesh, self._order = mesh, order_of(self.domain.cage)
         textured = self._textured_uniforms()
         self.picture = self._layer("picture", textured, *_stacked(mesh, self._order))
-        self.lines: dict[str, Layer] = {}
-        """Those that have been shown, of "cage", "offset_cage" and "panels"."""
+        self.lines: dict[str, Layer] = {}  # those of _LINES that have been shown
         self.comparison: Layer | None = None
         self._sources: dict[str, Any] = {}  # what lines and comparison were made of
         self._replaced: list[Layer] = []
@@ -207,9 +203,8 @@ class Scene:
     def _layer(
         self, shader: str, uniforms: Uniforms, points: Array, triangles: Array, **more: Array
     ) -> Layer:
-        mover = self.shader_map
-        if self.evaluated_in == "kernel":
-            mover = FixedPoints(self.domain, points[:, :2])
+        in_kernel = self.evaluated_in == "kernel"
+        mover = FixedPoints(self.domain, points[:, :2]) if in_kernel else self.shader_map
         return Layer(shader, uniforms, mover, self.map, points, triangles, **more)
 
     def _textured_uniforms(self) -> Uniforms:

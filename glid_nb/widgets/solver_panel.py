@@ -14,16 +14,11 @@ from glid_nb.solvers import Iteration, Method, Options
 from glid_nb.widgets.controls import EditControls, button, paragraph, toggle
 
 _WORKS_ON = {"harmonic": "", "mesh": " · mesh", "linear": " · linear"}
-_UNCERTIFIED = (
-    " Shown for comparison, without a proof; saved and exported is the last certified map."
-)
+_UNPROVED = " Shown for comparison, without a proof; saved and exported is the last certified map."
 _CUSTOM = CustomEnergy.label, CustomEnergy.name
 _FULL = {"width": "auto"}
 _STEPS = 12  # that are told
-_OPTIONS = (
-    *("p2p_weight", "sampling", "certificate", "hessian"),
-    *("iterations_per_call", "conformal"),
-)
+_OPTIONS = "p2p_weight", "sampling", "certificate", "hessian", "iterations_per_call", "conformal"
 _LATE = {"continuous_update": False}
 _CONTROLS: dict[type, tuple[Any, dict[str, Any]]] = {
     bool: (ipywidgets.Checkbox, {"indent": False}),
@@ -132,7 +127,7 @@ class SolverPanel(EditControls):
 
     def _show_method(self, method: Method) -> None:
         self.method.value = method.name
-        text = method.summary + ("" if method.certified else _UNCERTIFIED)
+        text = method.summary + ("" if method.certified else _UNPROVED)
         self.about.value = paragraph(text, "opacity:0.75")
         if type(method) is not self._shown:
             self._shown = type(method)
@@ -162,8 +157,7 @@ def step_in_words(iteration: Iteration) -> str:
     if iteration.step is not None:
         parts.append(f"step length {iteration.step:.3g}")
     if iteration.panels_split is not None:
-        split = iteration.panels_split or "none"
-        parts.append(f"{split} of {iteration.panels} panels split")
+        parts.append(f"{iteration.panels_split or 'none'} of {iteration.panels} panels split")
     return " · ".join([*parts, f"E = {iteration.energy:.6g}"])
 
 

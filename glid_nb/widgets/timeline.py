@@ -52,8 +52,7 @@ class TimelinePanel(Pad):
     heights = traitlets.Dict({"times": []}).tag(sync=True)
     """``times`` of the keyframes and ``floats``, the picture's heights then, if poses' depths
     differ; where the kernel evaluates it sends them with its frames."""
-    thumbnails = traitlets.Dict({}).tag(sync=True)
-    """Pictures as data URIs, by their keys."""
+    thumbnails = traitlets.Dict({}).tag(sync=True)  # pictures as data URIs, by their keys
 
     def __init__(
         self, canvas: DeformCanvas, on_export: Callable[[], None] | None = None, **kwargs: Any
@@ -131,15 +130,10 @@ class TimelinePanel(Pad):
         latest = {p.name: self._pictures.get(p.map, self._latest.get(p.name)) for p in state.poses}
         self._latest = {name: picture for name, picture in latest.items() if picture}
         self.thumbnails = dict(self._latest.values())
-        keyframes = [
-            {
-                "name": pose.name,
-                "time": time,
-                "easing": easing,
-                "thumbnail": self._latest.get(pose.name, ("", ""))[0],
-            }
-            for pose, time, easing in zip(state.poses, timeline.times, timeline.easing, strict=True)
-        ]
+        names = [pose.name for pose in state.poses]
+        pictures = [self._latest.get(name, ("", ""))[0] for name in names]
+        rows = zip(names, timeline.times, timeline.easing, pictures, strict=True)
+        keyframes = [{"name": n, "time": t, "easing": e, "thumbnail": p} for n, t, e, p in rows]
         self.shown = {
             "keyframes": keyframes,
             "active": state.active,
@@ -164,18 +158,15 @@ class TimelinePanel(Pad):
     def _span(self, span: Span) -> dict[str, Any]:
         """A span as the page takes it; one of which nothing is proved stays at its keyframe."""
         scene, pieces = self.canvas.pane.scene, span.pieces
-        times, maps = [piece.end for piece in pieces], [piece.end_map for piece in pieces]
-        if pieces:
-            times, maps = [span.start, *times], [pieces[0].start_map, *maps]
-        else:
-            times, maps = [span.start, span.end], [span.map] * 2
+        start = span.start, pieces[0].start_map if pieces else span.map
+        ends = [(piece.end, piece.end_map) for piece in pieces] or [(span.end, span.map)]
+        times, maps = zip(start, *ends, strict=True)
         shader = scene.evaluated_in == "shader"
-        floats = b"".join(map(scene.shader_map.wire, maps)) if shader else b""
         return {
             **{key: getattr(span, key) for key in ("start", "end", "status", "reason")},
             "sigma2": list(span.sigma2),
-            "times": times,
-            "floats": floats,
+            "times": list(times),
+            "floats": b"".join(map(scene.shader_map.wire, maps)) if shader else b"",
         }
 
     def _draw_thumbnails(self, poses: tuple[NamedPose, ...], worker: Any) -> None:

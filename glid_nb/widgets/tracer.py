@@ -105,10 +105,9 @@ class CageTracer(Pad):
 
     def handle(self, events: Sequence[Event]) -> str | None:
         """Act on pointers and keys."""
-        hand = self.gestures
-        refusal = hand.handle(events)
+        refusal = self.gestures.handle(events)
         # The model announces its own changes; these are not the model's.
-        own = _of_hand(hand)
+        own = _of_hand(self.gestures)
         if own != {name: self.shown[name] for name in own}:
             self._push()
         return refusal
@@ -151,11 +150,8 @@ def described(gestures: TraceGestures) -> dict[str, Any]:
         "reach_shares": REACH_SHARES,
         "holes": [_hole(hole) for hole in model.holes[:_LISTED_HOLES]],
         "n_holes": len(model.holes),
-        "doubt": model.doubt,
         "strokes": {brush: _strokes(getattr(scribbles, brush, None)) for brush in _BRUSHES},
-        "can_undo": model.can_undo,
-        "can_redo": model.can_redo,
-        "edited": model.edited,
+        **{name: getattr(model, name) for name in ("doubt", "can_undo", "can_redo", "edited")},
         "discarded": model.has_discarded_edits,
         **_of_hand(gestures),
     }
@@ -191,9 +187,7 @@ def _hole(hole: Hole) -> dict[str, Any]:
 
 
 def _strokes(strokes: Any) -> list[Any]:
-    if strokes is None or isinstance(strokes, np.ndarray):
-        return []
-    return [_rounded(stroke) for stroke in strokes]
+    return [] if isinstance(strokes, np.ndarray) else [_rounded(one) for one in strokes or ()]
 
 
 def _rounded(points: Any) -> Any:

@@ -42,8 +42,7 @@ class _TracerPress:
     tool: str
     start: Array
     found: Found
-    offset: Array = field(default_factory=lambda: np.zeros(2))
-    """From the pointer to the dragged vertex."""
+    offset: Array = field(default_factory=lambda: np.zeros(2))  # from pointer to dragged vertex
     moved: bool = False
 
 
@@ -60,8 +59,7 @@ class TraceGestures(Gestures):
         super().__init__(model, actions)
         self.model = model
         self.tool = "edit"  # what the left button does, one of the values of _TOOLS
-        self.corners: tuple[tuple[float, float], ...] = ()
-        """The corners of a polygon that is being drawn."""
+        self.corners: tuple[tuple[float, float], ...] = ()  # of a polygon that is being drawn
         self._selected: tuple[Vertex, ...] = ()
         self._press: _TracerPress | None = None
         self._last_click = (-np.inf, np.zeros(2))
