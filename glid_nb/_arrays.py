@@ -1,6 +1,6 @@
 """Arrays: the alias of their type, arrays of numbers from untrusted values, immutable arrays."""
 
-import sys
+import math
 from dataclasses import fields
 from typing import Any, TypeAlias, TypeVar
 
@@ -43,7 +43,10 @@ def number_pairs(value: Any, wanted: str, error: type[Exception]) -> NDArray[np.
 
 def is_finite(number: Any) -> bool:
     """Whether a real number, of Python's long ones too, is a finite float."""
-    return bool(abs(number) <= sys.float_info.max)
+    try:
+        return math.isfinite(number)
+    except OverflowError:
+        return False
 
 
 def read_only(array: A) -> A:
