@@ -1,9 +1,11 @@
-"""Checks of the course's exercises, ``with check("exercise 1"): assert ...``; shapes it uses."""
+"""Checks of the course's exercises, ``with check("exercise 1"): assert ...``; what it shows."""
 
 import re
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from typing import Any
 
+import ipywidgets
 import numpy as np
 
 from glid_nb.geometry import Cage, Domain, as_points
@@ -30,6 +32,21 @@ def check(name: str) -> Iterator[None]:
         print(f"{name}: not yet: {raised}")
     else:
         print(f"{name}: right")
+
+
+def interact(show: Callable[..., Any], **sliders: Any) -> ipywidgets.VBox:
+    """The figure that ``show`` makes, by sliders. nbclient may wait for ever for Output widgets."""
+    picture = ipywidgets.Image()
+
+    def draw(_: Any = None) -> None:
+        picture.value, size = show(**{k: s.value for k, s in sliders.items()})._repr_png_()
+        picture.width = size["width"]
+
+    for name, slider in sliders.items():
+        slider.description = name
+        slider.observe(draw, "value")
+    draw()
+    return ipywidgets.VBox([*sliders.values(), picture]).add_class("widget-interact")
 
 
 def bar() -> Domain:

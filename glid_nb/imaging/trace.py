@@ -67,8 +67,7 @@ def trace(image: ImageSource, options: TraceOptions | None = None, **changes: An
     """Trace a cage around the shape in a picture, which is given as to `read_image`.
 
     The default options suit most drawings and many photographs; ``changes`` are fields of
-    `TraceOptions` to set. Raises a TraceError when the picture cannot be read or shows no shape, or
-    an option is out of range.
+    `TraceOptions` to set. Raises a TraceError for a bad option, or a picture without a shape.
 
     >>> import numpy as np
     >>> y, x = np.mgrid[:100, :100] + 0.5

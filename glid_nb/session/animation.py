@@ -45,8 +45,7 @@ class Span(NamedTuple):
 class Animation(Observed):
     """The motion through the poses of a deformation, and the recording of a drag.
 
-    ``observe`` reports ``"motion"`` and ``"recording"``. Nothing is computed while a hand drags or
-    the solver works.
+    ``observe`` reports "motion" and "recording". While a hand drags or solves nothing is computed.
     """
 
     def __init__(self, deformation: Deformation) -> None:

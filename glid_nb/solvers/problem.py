@@ -2,8 +2,7 @@
 
 Real vectors ``[Re phi, Im phi, Re psi, Im psi]`` hold all padded columns, or the coordinates of
 :mod:`glid_nb.solvers.whitening`. Entries that are not unknowns are masked: their gradient is 0 and
-their rows and columns of the Hessian are those of the identity. The holes' ``psi_j = conj(phi_j)``
-are folded onto ``phi_j``.
+their rows and columns of the Hessian are the identity's. The holes' ``psi_j`` fold onto ``phi_j``.
 """
 
 from __future__ import annotations

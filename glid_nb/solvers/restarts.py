@@ -169,8 +169,7 @@ def _times(results: list[Result]) -> dict[str, float]:
 
 
 def _joined(stages: list[Result]) -> Result:
-    """The last stage's result with the histories and times of all, in energies of the full
-    weight."""
+    """The last stage's result; the histories and times of all, in energies of the full weight."""
     factors = [1 / fraction for fraction in (*STAGES, 1.0)][: len(stages)]
     (initial, *first), *later = (
         [replace(e, energy_p2p=e.energy_p2p * factor) for e in (stage.initial, *stage.history)]

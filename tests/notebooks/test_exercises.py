@@ -17,7 +17,7 @@ from unittest.mock import MagicMock
 import nbformat
 import pytest
 
-from glid_nb import figures
+from glid_nb import course, figures
 
 FOLDER = Path(__file__).parents[2] / "notebooks"
 NOTEBOOKS = sorted(FOLDER.glob("[0-9][0-9]_*.ipynb"))
@@ -102,7 +102,8 @@ def without_figures(monkeypatch: pytest.MonkeyPatch) -> None:
 
     for name in figures.__all__:
         monkeypatch.setattr(figures, name, lambda *_, **__: MagicMock())
-    monkeypatch.setattr(ipywidgets, "interact", lambda *_, **__: None)
+    for sliders in (ipywidgets, course):
+        monkeypatch.setattr(sliders, "interact", lambda *_, **__: None)
 
 
 @pytest.mark.usefixtures("without_figures")
