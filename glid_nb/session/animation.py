@@ -66,7 +66,7 @@ class Animation(Observed):
     @property
     def motion(self) -> Motion:
         """The motion as a value, whether proved or not; MotionError where it cannot be made."""
-        return _motion(self.deformation.state)
+        return motion_of(self.deformation.state)
 
     def at(self, time: float) -> HarmonicMap | None:
         """The proved map at a time, or the last proved one before it; None outside the motion."""
@@ -225,7 +225,7 @@ def _spans(task: EditState) -> tuple[Span, ...]:
     return tuple(Span(*e, p.map) for e, p in zip(ends, task.poses, strict=False))
 
 
-def _motion(task: EditState, first: int = 0, last: int | None = None) -> Motion:
+def motion_of(task: EditState, first: int = 0, last: int | None = None) -> Motion:
     """The motion through the poses from the first to the last, or through all and back."""
     timeline, maps = task.timeline, [pose.map for pose in task.poses]
     if last is None:
@@ -253,7 +253,7 @@ def _proved(task: EditState, worker: LatestWins[EditState]) -> Iterator[tuple[in
         runs = [(b, range(a + 1, b)) for a, b in itertools.pairwise(ends) if b - a > 1]
     for last, run in runs:
         try:
-            motion = _motion(task, run.start, last)
+            motion = motion_of(task, run.start, last)
         except MotionError as error:
             yield from ((i, spans[i]._replace(status="refused", reason=str(error))) for i in run)
             continue

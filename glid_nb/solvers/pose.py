@@ -13,10 +13,8 @@ from numpy.typing import ArrayLike
 from glid_nb._arrays import Array, number_pairs, read_only, real_array
 from glid_nb._errors import InputError
 from glid_nb.geometry import Domain, place
-from glid_nb.solvers.stiffness import Stiffness
+from glid_nb.solvers.stiffness import FARTHEST, Stiffness
 
-# Farther away, the rounding of a coordinate would be felt in the proof.
-_FARTHEST = 1e10
 DEEPEST = 100.0  # the largest depth of a handle
 # What a handle may have beside its target: least, most, and what it has otherwise.
 _MORE = {
@@ -162,13 +160,13 @@ def _first_outside(domain: Domain, handles: bytes) -> int | None:
 
 def _checked_points(points: Any, name: str) -> Array:
     array = number_pairs(points, f"{name} must be a list of [x, y] pairs", PoseError)
-    wrong = np.flatnonzero(~(np.abs(array) <= _FARTHEST).all(axis=1))
+    wrong = np.flatnonzero(~(np.abs(array) <= FARTHEST).all(axis=1))
     if wrong.size:
         point = array[wrong[0]]
         why = "coordinates must be finite numbers"
         if np.isfinite(point).all():
             side = "a picture's longer side is 20 units"
-            why = f"coordinates beyond {_FARTHEST:g} are out of scale ({side})"
+            why = f"coordinates beyond {FARTHEST:g} are out of scale ({side})"
         raise PoseError(f"{name}[{wrong[0]}] is {place(point)}; {why}")
     return read_only(array)
 

@@ -23,7 +23,7 @@ from glid_nb.solvers.discretisation import Discretisation, Matrices, padded
 from glid_nb.solvers.whitening import whitened
 
 FULL_WEIGHT = 1000.0  # of a sample where the strength is 1
-_FARTHEST, _MOST_POINTS, _MOST_STROKES = 1e10, 10_000, 2_000
+FARTHEST, _MOST_POINTS, _MOST_STROKES = 1e10, 10_000, 2_000  # units; in a stroke; in all
 _ROUND = 8  # segments of a quarter of the brush
 NODES = 128  # inside the areas; always as many, so that painting more compiles nothing
 _COARSER, _MOST_LINES = 1.03, 400  # of their grid
@@ -82,9 +82,9 @@ class Stiffness:
     def painted(self, points: ArrayLike, radius: float, strength: float = 1.0) -> Stiffness:
         """With one more stroke, through points (n, 2) of the undeformed shape."""
         line = number_pairs(points, "points must be a list of [x, y] pairs", StiffnessError)
-        if not 0 < len(line) <= _MOST_POINTS or not (np.abs(line) <= _FARTHEST).all():
-            raise StiffnessError(f"points must be 1 to {_MOST_POINTS:,} within {_FARTHEST:g} units")
-        if expected := unmet(float, radius, {"above": 0, "most": _FARTHEST}):
+        if not 0 < len(line) <= _MOST_POINTS or not (np.abs(line) <= FARTHEST).all():
+            raise StiffnessError(f"points must be 1 to {_MOST_POINTS:,} within {FARTHEST:g} units")
+        if expected := unmet(float, radius, {"above": 0, "most": FARTHEST}):
             raise StiffnessError(f"radius must be {expected}, got {radius!r:.40}")
         if expected := unmet(float, strength, {"least": 0, "most": 1}):
             raise StiffnessError(f"strength must be {expected}, got {strength!r:.40}")

@@ -4,7 +4,7 @@ import contextlib
 import json
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
-from typing import Any, cast
+from typing import Any
 
 import ipywidgets
 
@@ -16,7 +16,8 @@ from glid_nb.certificate.certify import proof_text
 from glid_nb.export.formats import FORMATS, MOTION_FORMATS, ExportError, file_names, suffix_of
 from glid_nb.imaging.read import png
 from glid_nb.imaging.render import View
-from glid_nb.session.animation import Animation
+from glid_nb.motion import Motion
+from glid_nb.session.animation import Animation, motion_of
 from glid_nb.session.document_file import document_bytes
 from glid_nb.session.editor_model import EditorModel
 from glid_nb.session.script import python_code
@@ -66,10 +67,8 @@ def export(
     """Write `exported` files over those of an earlier export; an `OccupiedError` over others."""
     path = Path(path)
     if path.name.lower().endswith(tuple(MOTION_FORMATS.keys() - FORMATS.keys())):
-        state, settings = model.deformation.state, {} if size is None else {"size": max(size)}
-        poses, maps = ([getattr(pose, part) for pose in state.poses] for part in ("pose", "map"))
-        motion, how = state.timeline.motion(maps), cast(Any, settings)
-        files = to.motion_files(path.name, model.document.image, motion, poses, **how)
+        motion = motion_of(model.deformation.state)
+        files = _motion_files(model, motion, path.name, **({"size": max(size)} if size else {}))
     else:
         files = exported(model, path, size, view)
     (name, data), *others = files.items()
@@ -131,6 +130,12 @@ def write(
     return list(contents)
 
 
+def _motion_files(model: EditorModel, motion: Motion, name: str, **how: Any) -> dict[str, bytes]:
+    document = model.document
+    poses, loop = [pose.pose for pose in document.poses], motion.repeat != "once"
+    return to.motion_files(name, document.image, motion, poses, loop=loop, **how)
+
+
 def last_export() -> dict[str, Any]:
     """What `remember_export` wrote last; empty where nothing can be read."""
     try:
@@ -190,15 +195,13 @@ class MotionExport(ClosingWidget, ipywidgets.HBox):
             return worker.overtaken
 
         try:
-            motion, document = self._animation.motion, self._model.document
+            motion = self._animation.motion
             count = len(motion.times) - 1
             if any(report(i, count) or not motion.interval(i) for i in range(count)):
                 return self._say("Stopped; nothing was written.", "")
             name, deliver = task
-            poses = [pose.pose for pose in document.poses]
             how: Any = {"size": self.size.value, "frames_per_second": self.rate.value}
-            how |= {"loop": motion.repeat != "once", "progress": report}
-            files = to.motion_files(name, document.image, motion, poses, **how)
+            files = _motion_files(self._model, motion, name, progress=report, **how)
             stopped = worker.cancelled or not files
             self._say("Stopped; nothing was written." if stopped else deliver(files), "")
         except (OSError, ValueError) as error:  # refusals for the user; others are bugs

@@ -98,12 +98,9 @@ def mentioned(table: symtable.SymbolTable) -> set[str]:
 @pytest.fixture
 def without_figures(monkeypatch: pytest.MonkeyPatch) -> None:
     """Figures and sliders draw nothing: nbval runs the notebooks with them."""
-    import ipywidgets
-
     for name in figures.__all__:
         monkeypatch.setattr(figures, name, lambda *_, **__: MagicMock())
-    for sliders in (ipywidgets, course):
-        monkeypatch.setattr(sliders, "interact", lambda *_, **__: None)
+    monkeypatch.setattr(course, "interact", lambda *_, **__: None)
 
 
 @pytest.mark.usefixtures("without_figures")

@@ -131,6 +131,7 @@ def test_the_headless_editor(editor: Editor, tmp_path: Path) -> None:
             assert file.stat().st_size > 100
     with Image.open(tmp_path / "walk.gif") as picture:
         assert picture.n_frames > 20
+        assert "loop" not in picture.info  # the timeline plays once
     editor.load(path)
 
     # Tracing anew is a step that undo takes back.
