@@ -207,7 +207,7 @@ def test_a_motion_that_folds_stops_where_its_proof_does(monkeypatch: pytest.Monk
     def blended(task: Any, *_: Any) -> Motion:
         return Motion([pose.map for pose in task.poses], between="linear")
 
-    monkeypatch.setattr("glid_nb.session.animation._motion", blended)
+    monkeypatch.setattr("glid_nb.session.animation.motion_of", blended)
     with Deformation(domain("ell"), begin=False) as model:
         model.paused = True
         animation = Animation(model)
