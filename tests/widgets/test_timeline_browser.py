@@ -268,8 +268,10 @@ def test_a_walk_cycle_made_by_hand(open_notebook: OpenNotebook) -> None:
     note = second.root.locator(".glid-timeline-note", has_text="Played by the kernel")
     note.wait_for()
     second.root.evaluate("root => { root.style.width = '390px'; }")
-    note.evaluate("note => note.append(' A longer reason.'.repeat(9))")
-    assert note.evaluate("note => note.clientHeight >= note.scrollHeight && note.clientHeight > 50")
+    # At once, for what is proved meanwhile is told there too.
+    longer = "note.append(' A longer reason.'.repeat(9))"
+    fits = "note.clientHeight >= note.scrollHeight && note.clientHeight > 50"
+    assert note.evaluate(f"note => {{ {longer}; return {fits}; }}")
     second.root.evaluate("root => { root.style.width = ''; }")
     book.wait_for("panel.animation.wait(0.1)", 60)
     page.wait_for_function("() => document.querySelectorAll('.glid-computing').length === 0")
