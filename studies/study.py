@@ -3,7 +3,7 @@
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from studies.cases import Case, sample_case
 from studies.machine import machine
@@ -79,7 +79,7 @@ def run_studies(
     fresh: bool = False,
     measuring: bool = True,
 ) -> Path:
-    """Measure, write tables and figures into the folder ``out``, and the tables into ``out.md``.
+    """Measure; write tables and figures into ``out``, the tables into ``out.md`` and ``out-*.md``.
 
     Measurements are kept in ``out/data``. What is there already is not measured again, unless the
     problem, the settings or the machine differ, or with ``fresh``. ``only`` names the studies to
@@ -101,11 +101,11 @@ def run_studies(
             store.get(f"{study.name}-{task.name}", task.of, task.measure)
     out.mkdir(parents=True, exist_ok=True)
     for study in studies:
-        found: list[dict[str, Any]] = store.all(study.name)
-        if found:
+        if found := store.all(study.name):
             study.draw(found, out)
             for name, rows in study.tables(found).items():
                 write_csv(out / f"{name}.csv", rows)
     page = out.with_name(out.name + ".md")
-    update_page(page, out)
+    for each in (page, *out.parent.glob(f"{out.name}-*.md")):
+        update_page(each, out)
     return page
