@@ -195,7 +195,7 @@ def _assembled(
         index = np.arange(0, count, HESSIAN_STRIDE)
         share = np.full(len(index), 1 / len(index))
         along = rows.ends[index], share
-    padding = bucket if t is None else _rung
+    few_sizes = t is not None and basis_of(domain).n_columns <= _LARGE  # each is compiled for
     if t is None:
         stage("whitening")
         basis = basis_of(domain)
@@ -203,7 +203,7 @@ def _assembled(
         t = whitening(*along, anchor, basis)
     if sampling == "graded":
         index, share = _hessian_nodes(panels, domain, length, weights, np.asarray(t))
-        h = padding(len(index))
+        h = p * (1 + (len(index) > p)) if few_sizes else bucket(len(index))
     else:
         h = -(-len(index) // 16) * 16
     index, chord, nodes = padded(index, h), panels.end - panels.start, real_columns(nodes)

@@ -21,7 +21,7 @@ from glid_nb.harmonic.basis import basis_of
 from glid_nb.solvers.discretisation import Matrices, complex_basis
 from glid_nb.solvers.pose import Pose, rigid_motion
 
-_HANDLE_BUCKET = 8
+_HANDLE_BUCKET = 16
 _TURN = 10.0  # weight of f_z at a handle, beside that of its image
 _FARTHEST_TURN = 1.0  # radians between two measurements
 _SAME_DIRECTION = 1e-4  # radians

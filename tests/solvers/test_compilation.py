@@ -8,6 +8,7 @@ import pytest
 
 from glid_nb import Options, Pose, Result, solve
 from glid_nb._runtime import compilation_clock
+from glid_nb.solvers.discretisation import discretise
 
 from ..domains import domain
 
@@ -48,3 +49,14 @@ def test_panels_split_within_a_bucket_compile_nothing(first: Result) -> None:
 
     split(0)  # what cuts panels is compiled once
     assert compiled_by(lambda: solve(domain("ell"), bent(0.13), None, OPTIONS, split(4))) == 0
+
+
+def test_splitting_any_panels_makes_few_sizes() -> None:
+    """Each size is a program more, of which a person who drags waits for the compiling."""
+    rng, sizes = np.random.default_rng(0), set[tuple[int, int]]()
+    for _ in range(8):
+        disc = discretise(domain("ell"))
+        while len(disc.panels) < 700:
+            disc = disc.refined(rng.random(len(disc.panels)) < 0.1)
+            sizes.add((len(disc.matrices.real), len(disc.matrices.hessian_index)))
+    assert len(sizes) <= 6, sorted(sizes)
