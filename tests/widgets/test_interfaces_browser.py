@@ -1,4 +1,4 @@
-"""The editor outside JupyterLab: in Notebook and under Voila."""
+"""The editor in Notebook and under Voila, and keys that the notebook around it takes."""
 
 from __future__ import annotations
 
@@ -40,3 +40,57 @@ def test_a_handle_is_dragged(open_notebook: OpenNotebook, name: str) -> None:
         hand.wait_for_color(image, lambda seen, w=wanted: bool(abs(seen[1:3] - w).max() < 6))
     book.page.locator(".glid-editor").get_by_text("Converged").first.wait_for()
     book.screenshot(f"editor-{name}")
+
+
+CELLS = """() => (window.jupyterapp.shell.currentWidget.content.model ??
+  window.jupyterapp.shell.currentWidget.model).toJSON().cells.map((c) => [c.cell_type, c.source])"""
+
+
+@pytest.mark.parametrize("name", [None, "notebook"])
+def test_no_key_in_the_editor_is_the_notebooks(
+    open_notebook: OpenNotebook, name: str | None
+) -> None:
+    """A, B and M act on the editor wherever it has the focus; they change no cell, X cuts none."""
+    book = open_notebook([SETUP, EDITOR], INTERFACES.get(name or ""))
+    hand, page, cells = Hand(book), book.page, book.page.evaluate(CELLS)
+    for x in (-6.0, 6.0):
+        hand.click((x, 0.0))
+    book.wait_for("len(model.pose) == 2")
+    page.keyboard.press("Escape")
+    book.wait_for("model.selection == ()")
+    places = (
+        page.locator(".glid-tools button", has_text="Cage"),
+        page.get_by_role("tab", name="Solver"),
+        page.locator(".glid-solver-panel .widget-label").first,
+        page.locator(".glid-solver-panel .noUi-handle").first,
+        page.locator(".glid-timeline-note"),
+        page.locator(".glid-pad").first,
+    )
+    for place in places:
+        place.click(position={"x": 5, "y": 5})
+        for key in "xmd":
+            page.keyboard.press(key)
+            page.keyboard.press(key)
+        page.keyboard.press("b")
+        book.wait_for("canvas.brush.tool")
+        page.keyboard.press("Escape")
+        book.wait_for("not canvas.brush.tool")
+        page.keyboard.press("a")
+        book.wait_for("model.selection == (0, 1)")
+        page.keyboard.press("Escape")
+        book.wait_for("model.selection == ()")
+    # What the hint says holds after a click on the button, too.
+    page.locator(".glid-tools button", has_text="Stiff").click()
+    page.get_by_text("Esc when done").wait_for()
+    page.keyboard.press("Escape")
+    page.get_by_text("Esc when done").wait_for(state="hidden")
+    # A list takes letters, and the tracer's keys are its own.
+    page.get_by_title("What the shape shows").focus()
+    page.keyboard.press("b")
+    page.get_by_role("tab", name="Trace").click()
+    page.get_by_role("button", name="Draw a rectangle (R)").click()
+    for key in "xxmmdda":
+        page.keyboard.press(key)
+    page.keyboard.press("n")
+    book.wait_for("editor.tracer.gestures.tool == 'background'")
+    assert page.evaluate(CELLS) == cells

@@ -6,7 +6,7 @@ import { help, shield } from "../pad/help.js";
 import { iconButton } from "../pad/icons.js";
 import { Link } from "../pad/link.js";
 import { openMenu } from "../pad/menu.js";
-import { Pad, undoAround } from "../pad/pad.js";
+import { Pad, keysAround } from "../pad/pad.js";
 import { clearedContext } from "../pad/pen.js";
 import { View } from "../pad/view.js";
 import {
@@ -214,7 +214,7 @@ function render({ model, el }) {
   const button = (...look) => iconButton(...look, "glid-help-button");
   const buttons = [keys.button, button("fit", "Full screen (W)", whole), button("rectangle", "The picture alone (P)", alone)];
   if (pad) box.append(shield(make("div", { className: "glid-corner" }, ...buttons)), keys.table, resizeGrip(model));
-  const forget = pad && undoAround(box, (e) => pad.keydown(e));
+  const forget = pad && keysAround(box, (e) => pad.keydown(e));
 
   // While the timeline shows a motion, the first touch goes back to the pose that is edited.
   let back = null;

@@ -16,16 +16,21 @@ export function undoOrRedo(e) {
 
 const TEXT = "textarea, [contenteditable], input:not([type=checkbox], [type=range], [type=radio])";
 
-// Undo and redo by keys anywhere in the editor around an element, while that is seen: calls act(e),
-// unless a text field or the element itself has the focus. Returns a function that ends this.
-export function undoAround(element, act) {
+// Keys in the editor around an element (or in `whole`, where there is no editor): undo, redo, single characters, Escape
+// and Delete go to act(e) while the element is seen, unless it has the focus itself, or a field that takes them.
+// Jupyter takes none: its X cuts the cell, its M makes it text. Returns a function that ends this.
+export function keysAround(element, act, whole = element) {
   const on = (e) => {
-    const editor = element.closest(".glid-editor");
-    if (!editor || !editor.contains(e.target)) return;
-    if (e.type === "pointerdown") editor.tabIndex = -1; // so that a click on any part of it focuses it
-    else if (isUndo(e) && !e.altKey && element.checkVisibility()) {
-      if (!element.contains(e.target) && !e.target.matches(TEXT)) act(e);
-    }
+    const editor = element.closest(".glid-editor") ?? whole, { target } = e;
+    if (!editor.contains(target) || !element.checkVisibility()) return;
+    if (e.type === "pointerdown") return void (editor.tabIndex = -1); // so that a click on any part of it focuses it
+    const command = e.ctrlKey || e.metaKey, outside = !element.contains(target);
+    const ours = isUndo(e) || !(command || (outside && e.shiftKey && e.key === "Enter"));
+    target.toggleAttribute("data-lm-suppress-shortcuts", ours);
+    editor.onkeydown = ours && ((bubbled) => bubbled.stopPropagation());
+    if (!outside || target.matches(TEXT)) return;
+    const free = target.closest(".glid-timeline") ? /^[^ ]$/ : /^([^ ]|Escape|Delete)$/;
+    if (isUndo(e) ? !e.altKey : !command && free.test(e.key) && !target.matches("select")) act(e);
   };
   for (const name of ["pointerdown", "keydown"]) window.addEventListener(name, on, true);
   return () => {

@@ -3,7 +3,7 @@
 import { follow, make } from "../pad/dom.js";
 import { help } from "../pad/help.js";
 import { Link } from "../pad/link.js";
-import { isUndo, undoAround, undoOrRedo } from "../pad/pad.js";
+import { keysAround } from "../pad/pad.js";
 import { iconButton } from "../pad/icons.js";
 import { Panel } from "./panel.js";
 import { Stage } from "./stage.js";
@@ -90,20 +90,7 @@ function render({ model, el }) {
   );
   const status = make("div", { className: "glid-status", role: "status", "aria-live": "polite" });
   root.append(toolbar, make("div", { className: "glid-body" }, stage.element, panel.element), status);
-  // JupyterLab must not take single keys (b: new cell, d d: delete cell) nor undo and redo; its
-  // other shortcuts with Ctrl stay. It reads this attribute before our elements' listeners run.
-  const guard = (e) => root.toggleAttribute("data-lm-suppress-shortcuts", isUndo(e) || !(e.ctrlKey || e.metaKey));
-  window.addEventListener("keydown", guard, true);
-  const undoByKey = (e) => {
-    act(undoOrRedo(e));
-    e.preventDefault();
-    e.stopPropagation();
-  };
-  const forget = undoAround(root, undoByKey);
-  root.addEventListener("keydown", (e) => {
-    if (isUndo(e) && !e.altKey) undoByKey(e);
-    else if (!e.ctrlKey && !e.metaKey) e.stopPropagation(); // arrow keys would move between cells
-  });
+  const forget = keysAround(stage.element, (e) => stage.pad.keydown(e), root);
   el.classList.add("glid-host");
   el.append(root);
 
@@ -170,7 +157,6 @@ function render({ model, el }) {
 
   return () => {
     unfollow();
-    window.removeEventListener("keydown", guard, true);
     forget();
     link.close();
     stage.close();
