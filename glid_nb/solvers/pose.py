@@ -15,12 +15,12 @@ from glid_nb._errors import InputError
 from glid_nb.geometry import Domain, place
 from glid_nb.solvers.stiffness import FARTHEST, Stiffness
 
-DEEPEST = 100.0  # the largest depth of a handle
+DEEPEST, SCALES = 100.0, (0.01, 100.0)  # the largest depth of a handle; its least and largest scale
 # What a handle may have beside its target: least, most, and what it has otherwise.
 _MORE = {
     "depths": (-DEEPEST, DEEPEST, 0.0),
     "angles": (-1e3, 1e3, np.nan),
-    "scales": (0.01, 100.0, np.nan),
+    "scales": (*SCALES, np.nan),
     "weights": (1e-6, 1e6, 1.0),
 }
 PER_HANDLE = ("handles", "targets", *_MORE, "names")
@@ -190,6 +190,8 @@ def _checked_numbers(name: str, values: ArrayLike | None, count: int) -> Array:
     except (TypeError, ValueError) as error:
         raise PoseError(f"{wanted} ({error})") from error
     within = (least <= array) & (array <= most) | (np.isnan(array) & np.isnan(default))
-    if array.shape != (count,) or not within.all():
+    if array.shape != (count,):
         raise PoseError(f"{wanted}, not {values!r:.60}")
+    if wrong := np.flatnonzero(~within).tolist():
+        raise PoseError(f"{name}[{wrong[0]}] is {array[wrong[0]]:g}; {wanted}")
     return read_only(array)

@@ -8,10 +8,11 @@ import numpy as np
 from glid_nb.session.actions import wrapped
 from glid_nb.session.deformation import Deformation
 from glid_nb.session.edit_state import EditError
-from glid_nb.solvers.pose import DEEPEST, Pose
+from glid_nb.solvers.pose import DEEPEST, SCALES, Pose
 from glid_nb.widgets.controls import EditControls, button
 
 _NOTHING = Pose([(0, 0)], [(0, 0)])  # what the fields show while nothing is selected
+_SCALE = "a scale from {:g} to {:g}, such as 1.5".format(*SCALES)
 
 
 class PinBar(EditControls):
@@ -41,27 +42,18 @@ class PinBar(EditControls):
         self.name = ipywidgets.Text(placeholder="name", **shown, **late)
         self.x = ipywidgets.FloatText(description="x", step=0.1, tooltip="Target", **look)
         self.y = ipywidgets.FloatText(description="y", step=0.1, tooltip="Target", **look)
-        self.angle, self.scale = (
-            ipywidgets.Text(
-                description=name,
-                placeholder="free",
-                tooltip=f"{what} at the pin; empty: free ({keys})",
-                layout={"width": "124px"},
-                **late,
-            )
-            for name, what, keys in (
-                ("Angle °", "By how much the shape is turned", "< and >, X"),
-                ("Scale", "By how much the shape is scaled", "+ and -, X"),
-            )
-        )
+        free: Any = {"placeholder": "free", "layout": {"width": "124px"}, **late}
+        tooltip = "By how much the shape is turned at the pin; empty: free (< and >, X)"
+        self.angle = ipywidgets.Text(description="Angle °", tooltip=tooltip, **free)
+        tooltip = "By how much the shape is scaled at the pin; empty: free (+ and -, X)"
+        self.scale = ipywidgets.Text(description="Scale", tooltip=tooltip, **free)
         tooltip = "How firmly the pin is held: soft to the left, firm to the right"
         scale: Any = {"min": -6, "max": 2, "step": 0.25, "value": 1, "readout_format": ".2g"}
         scale |= {"tooltip": tooltip, "layout": {"width": "196px"}}
         self.weight = ipywidgets.FloatLogSlider(description="Weight", base=10, **scale, **late)
         tooltip = "Where parts overlap, those near pins of greater depth are in front"
-        self.depth = ipywidgets.BoundedFloatText(
-            description="Depth", tooltip=tooltip, min=-DEEPEST, max=DEEPEST, **look
-        )
+        look |= {"description": "Depth", "tooltip": tooltip, "layout": {"width": "104px"}}
+        self.depth = ipywidgets.BoundedFloatText(min=-DEEPEST, max=DEEPEST, **look)
 
     def _bind_fields(self, model: Deformation) -> None:
         def set_pins(**numbers: Any) -> None:
@@ -72,7 +64,7 @@ class PinBar(EditControls):
         self._bind(self.x, lambda x: model.move_target(model.selection[-1], (x, self.y.value)))
         self._bind(self.y, lambda y: model.move_target(model.selection[-1], (self.x.value, y)))
         self._bind(self.angle, lambda text: set_pins(angles=_radians(text)))
-        self._bind(self.scale, lambda text: set_pins(scales=_number(text, "a scale, such as 1.5")))
+        self._bind(self.scale, lambda text: set_pins(scales=_number(text, _SCALE, *SCALES)))
         self._bind(self.weight, lambda weight: set_pins(weights=weight))
         self._bind(self.depth, lambda depth: model.set_depths(model.selection, depth))
 
@@ -118,7 +110,7 @@ class PinBar(EditControls):
 
 
 def _free_or(number: float) -> str:
-    return "" if np.isnan(number) else f"{number:.4g}"
+    return "" if np.isnan(number) else f"{round(number, 4) + 0.0:.4g}"  # neither -0 nor 3e-14
 
 
 def _radians(text: str) -> float | None:
@@ -126,7 +118,7 @@ def _radians(text: str) -> float | None:
     return None if degrees is None else float(wrapped(np.radians(degrees)))
 
 
-def _number(text: str, wanted: str) -> float | None:
+def _number(text: str, wanted: str, least: float = -1e9, most: float = 1e9) -> float | None:
     """The number in a field; None for an empty one or the word "free"."""
     text = text.strip().rstrip("°").replace(",", ".")
     if text in ("", "free"):
@@ -135,6 +127,7 @@ def _number(text: str, wanted: str) -> float | None:
         number = float(text)
     except ValueError:
         number = np.nan
-    if not np.isfinite(number):
-        raise EditError(f"{text!r:.40} is no number; type {wanted}, or nothing to leave it free")
+    if not least <= number <= most:
+        wrong = "no number" if np.isnan(number) else "out of range"
+        raise EditError(f"{text!r:.40} is {wrong}; type {wanted}, or nothing to leave it free")
     return number

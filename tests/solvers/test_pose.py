@@ -67,6 +67,13 @@ def test_names_go_where_their_handles_go() -> None:
             Pose(pose.handles, pose.targets, names=wrong)  # type: ignore[arg-type]
 
 
+def test_a_number_that_cannot_be_is_named() -> None:
+    pose = Pose([[0, 0], [1, 0]], [[0, 0]] * 2)
+    for wrong, named in (([1, -1], r"scales\[1\] is -1"), ([1e3, None], r"scales\[0\] is 1000")):
+        with pytest.raises(PoseError, match=rf"{named}; scales must be 2 numbers from 0.01 to 100"):
+            Pose(pose.handles, pose.targets, scales=wrong)
+
+
 def test_targets_may_coincide() -> None:
     assert len(Pose([[0, 0], [1, 0]], [[3, 3], [3, 3]])) == 2
 

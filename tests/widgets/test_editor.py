@@ -461,6 +461,13 @@ def test_the_numbers_of_pins_and_the_model_show_each_other() -> None:
         bar.angle.value = "much"
         assert "is no number; type an angle" in bar.refusal.value
         assert bar.angle.value == "30"
+        for refused in ("-1", "1e9", "0"):
+            bar.scale.value = refused
+            needed = "is out of range; type a scale from 0.01 to 100, such as 1.5, or nothing"
+            assert needed in bar.refusal.value
+            assert bar.scale.value == "1.5"
+        bar.angle.value = "720"
+        assert bar.angle.value == "0"  # not -2.8e-14
         bar.angle.value = ""
         assert np.isnan(model.pose.angles).all()
         bar.mirror.click()
