@@ -128,8 +128,7 @@ class DeformCanvas(ClosingWidget, ipywidgets.HBox):
 
     def fit(self) -> None:
         """Make the whole shape and all targets visible."""
-        moment = self.deformation.moment
-        self.pane.fit(moment.shown, moment.state.pose.targets)
+        self.pane.fit()
 
     def _pane(self, size: tuple[int, int], interactive: bool) -> Pane:
         state = self.deformation.state

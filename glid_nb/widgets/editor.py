@@ -22,7 +22,7 @@ from glid_nb.imaging.read import ImageSource, png, read_image
 from glid_nb.imaging.render import View
 from glid_nb.motion import Motion
 from glid_nb.session.deformation import Deformation
-from glid_nb.session.document import Document, NamedPose
+from glid_nb.session.document import Document, DocumentError, NamedPose
 from glid_nb.session.edit_state import EditError
 from glid_nb.session.editor_model import EditorModel, find_document
 from glid_nb.session.status_line import StatusLine
@@ -53,7 +53,7 @@ _NOT_SAVED = (
     "The session could not be saved: {error}. The next change tries again; "
     "Save in the Files tab writes it elsewhere."
 )
-_KEPT = "Work on this picture was kept when an editor ended, last on {:%d %B at %H:%M}."
+_KEPT = "Another editor's work on this picture is kept, last changed on {:%d %B at %H:%M}."
 
 
 class Editor(ClosingWidget, ipywidgets.VBox):
@@ -73,7 +73,7 @@ class Editor(ClosingWidget, ipywidgets.VBox):
     the mesh that the picture is drawn on; by default 10,000, or what the page draws within 40 ms.
 
     Raises a TraceError when the picture cannot be read, a DocumentError when the session file
-    cannot, a TypeError or ValueError for another size, or a session file of another picture.
+    cannot, or is of another picture, a TypeError or ValueError for another size.
 
     >>> import glid_nb as glid
     >>> editor = glid.Editor(glid.samples.image("bar"), n_vertices=500)
@@ -109,7 +109,7 @@ class Editor(ClosingWidget, ipywidgets.VBox):
         known = None if document is None else document.image
         if known is not None and image is not None and not np.array_equal(read_image(image), known):
             what = f"{path} exists and is of another picture; leave the picture out to go on with"
-            raise ValueError(f"{what} that session, or give another path")
+            raise DocumentError(f"{what} that session, or give another path")
         self.model = EditorModel(image, document=document, path=path)
         """The editor without its widgets."""
         self.canvas: DeformCanvas | None = None

@@ -9,7 +9,6 @@ import traitlets
 from glid_nb._arrays import Array
 from glid_nb._scripts import bundle, stylesheet
 from glid_nb.harmonic import HarmonicMap
-from glid_nb.solvers import DeformationMap
 from glid_nb.widgets.closing import ClosingWidget
 from glid_nb.widgets.layers import EvaluatedIn
 from glid_nb.widgets.overlays import PANEL_LEGEND, legend
@@ -106,7 +105,7 @@ class Pane(ClosingWidget, ipywidgets.GridBox):
         for side in ("width", "height"):
             ipywidgets.dlink((self.stage, side), (self._renderer, side))
             ipywidgets.dlink((self.stage, side), (self.layout, side), "{}px".format)
-        self.fit(map, ())
+        self.fit()
         self._endings = (lambda: self.scene.close(),)
 
     def show(self, drawing: Drawing) -> None:
@@ -150,23 +149,25 @@ class Pane(ClosingWidget, ipywidgets.GridBox):
         n_bars = bool(self.stage.legend) + bool(self.stage.panel_legend)
         if not n_bars:
             return
-        loops = self.scene.domain.cage.loops
-        # Edges may be longer than the bar.
-        between = [loop + t * (np.roll(loop, -1, axis=0) - loop) for loop in loops for t in _SHARES]
-        outline = (self._drawing.comparison or self._drawing.map)(np.concatenate(between))
         x, y, unit = self.stage.view
         width, height = self.stage.width, self.stage.height
-        seen = np.concatenate([outline, np.reshape(self._drawing.targets, (-1, 2))])
-        pixels = (seen - [x, y]) / unit + [width / 2, height / 2]
+        pixels = (self._everything() - [x, y]) / unit + [width / 2, height / 2]
         self.stage.legend_corner = emptiest_corner(pixels, width, height, n_bars)
+
+    def _everything(self) -> Any:
+        """Points of the outline as it is drawn, and the targets."""
+        loops = self.scene.domain.cage.loops
+        # Edges may be longer than a colour bar.
+        between = [loop + t * (np.roll(loop, -1, axis=0) - loop) for loop in loops for t in _SHARES]
+        outline = (self._drawing.comparison or self._drawing.map)(np.concatenate(between))
+        return np.concatenate([outline, np.reshape(self._drawing.targets, (-1, 2))])
 
     _seen: tuple[float, float]  # world units, across and up, that fit into the view
     _unit: float  # world units of a CSS pixel, so that they do
 
-    def fit(self, map: DeformationMap, points: Any) -> None:
-        """Make the whole shape visible, and these points."""
-        outline = map(np.concatenate(self.scene.domain.cage.loops))
-        everything = np.concatenate([outline, np.reshape(points, (-1, 2))])
+    def fit(self) -> None:
+        """Make the whole shape and all targets visible."""
+        everything = self._everything()
         low, high = everything.min(axis=0), everything.max(axis=0)
         x, y = (low + high) / 2
         width, height = self.stage.width, self.stage.height
@@ -178,9 +179,13 @@ class Pane(ClosingWidget, ipywidgets.GridBox):
         """Change the size in CSS pixels; what was seen is still seen."""
         stage = self.stage
         x, y, unit = stage.view
+        before = stage.width * unit, stage.height * unit
         if unit != self._unit:  # a hand has zoomed since
-            self._seen = stage.width * unit, stage.height * unit
-        self._unit = max(self._seen[0] / width, self._seen[1] / height)
+            self._seen = before
+        # So is what has moved since, out of what was fitted then.
+        far = 2 * _ROOM * abs(self._everything() - [x, y]).max(axis=0)
+        across, up = np.maximum(self._seen, np.minimum(far, before)).tolist()
+        self._unit = max(across / width, up / height)
         with stage.hold_sync(), stage.hold_trait_notifications():
             stage.width, stage.height, stage.view = width, height, [x, y, self._unit]
 

@@ -184,7 +184,7 @@ def test_work_survives_a_restart_of_the_kernel(open_notebook: OpenNotebook) -> N
     page.keyboard.press("ArrowLeft")
     book.screenshot("editor-restarted")
     book.run_all()
-    page.get_by_text("was kept when an editor ended").wait_for()
+    page.get_by_text("work on this picture is kept").wait_for()
     book.screenshot("editor-kept-work")
     page.get_by_role("button", name="Bring it back").click()
     book.wait_for("len(editor.pose) == 1")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import numpy as np
 import pytest
 
 from glid_nb.widgets import DeformCanvas
@@ -68,4 +69,23 @@ def test_a_page_with_few_uniforms_gets_vertices_from_the_kernel() -> None:
     canvas.pane.stage.uniform_vectors = 40
     assert canvas.pane.scene.evaluated_in == "kernel"
     assert canvas.pane.stage.coefficients == b""
+    canvas.close()
+
+
+def test_what_has_moved_stays_in_view_when_the_canvas_takes_another_shape() -> None:
+    canvas = _canvas(width=600, height=480)
+    canvas.deformation.add_handle((0, 0))
+    canvas.deformation.drag(0, to=(1, 0))
+    assert canvas.deformation.solve(60)
+    stage, cage = canvas.pane.stage, canvas.pane.scene.domain.cage
+    outline = canvas.deformation.map(np.concatenate(cage.loops))
+
+    def all_in_view() -> bool:
+        x, y, unit = stage.view
+        half = np.array([stage.width, stage.height]) * unit / 2
+        return bool((abs(outline - [x, y]) <= half).all())
+
+    for width, height in ((600, 480), (480, 800), (900, 480), (600, 480)):
+        canvas.pane.resize(width, height)
+        assert all_in_view()
     canvas.close()

@@ -154,3 +154,47 @@ def test_the_tracer_takes_the_room_that_there_is(open_notebook: OpenNotebook) ->
     page.evaluate("new Promise((go) => requestAnimationFrame(() => requestAnimationFrame(go)))")
     assert float(page.evaluate(zoomed)) > 1.1 * scales[1366]
     page.set_viewport_size({"width": 1366, "height": 768})
+
+
+def test_nothing_wraps_jumps_or_covers_a_mark(open_notebook: OpenNotebook) -> None:
+    """Controls stay on one line in a narrow window, menus at its edge; marks stay in sight."""
+    book = open_notebook([SETUP, EDITOR])
+    hand, page = Hand(book), book.page
+    hand.click((-6.0, 0.0))
+    book.wait_for("len(model.pose) == 1")
+    bar, keep = page.locator(".glid-timeline .glid-bar"), page.locator(".glid-keep")
+    for width in (1366, 800):
+        page.set_viewport_size({"width": width, "height": 900})
+        hand.wait_until_still()
+        heights, left = set(), set()
+        for time, label in (("0.00 / 0.00 s", "Keep"), ("23.00 / 23.00 s", "Keep it")):
+            page.locator(".glid-time").evaluate("(one, text) => { one.textContent = text; }", time)
+            keep.evaluate("(one, text) => { one.textContent = text; }", label)
+            heights.add(box(bar)[3])
+            left.add(box(keep)[2])
+        assert max(heights) < 45  # one line
+        assert len(left) == 1
+        book.screenshot(f"timeline-bar-{width}")
+
+    # A menu at the right edge is as wide as its rows.
+    pad = box(hand.pad)
+    heights = set()
+    for x in (20, pad[2] - 60):
+        page.mouse.click(pad[0] + x, pad[1] + 30, button="right")
+        heights |= {box(row)[3] for row in page.locator(".glid-menu button").all()}
+        book.screenshot(f"menu-{x:.0f}")
+        page.keyboard.press("Escape")
+    assert len(heights) == 1
+
+    # The arrow to a pin beyond the upper right corner lies beside the corner's buttons.
+    book.value("model.set_pins([0])", setup="model.move_target(0, (40.0, 20.0))")
+    hand.settle()
+    corner = box(page.locator(".glid-corner").first)
+    page.mouse.click(corner[0] - 12, corner[1] + 8)
+    book.wait_for("abs(np.array(canvas.pane.stage.view[:2]) - (40.0, 20.0)).max() < 1e-6")
+
+    # The largest depth can be read.
+    book.value("None", setup="model.set_depths([0], 100.0)")
+    depth = page.get_by_label("Depth")
+    page.wait_for_function("one => one.value === '100'", arg=depth.element_handle())
+    assert depth.evaluate("one => one.scrollWidth <= one.clientWidth")

@@ -5,7 +5,7 @@ import { make } from "../pad/dom.js";
 import { circle, disk, fillPath, strokePath, tracePath } from "../pad/pen.js";
 
 const TARGET = 7.5, IMAGE = 3.5, RING = 12; // radii, CSS pixels
-const DIAL = 42, KNOB = 6, EDGE = 14; // of a scale of 1; CSS pixels
+const DIAL = 42, KNOB = 6, EDGE = 14, CORNER = [36, 112]; // of a scale of 1; of the buttons; CSS pixels
 const WANTED = "#d55e00", FREE = "rgba(40,40,40,0.75)", BORDER = "rgba(255,255,255,0.85)";
 
 // Lines between pairs of points, with a border.
@@ -92,7 +92,7 @@ export function lostMarks(view, marks) {
     const place = view.toScreen(target), [x, y] = place;
     if (x >= 0 && y >= 0 && x <= view.width && y <= view.height) return [];
     const within = (value, size) => Math.min(size - EDGE, Math.max(EDGE, value));
-    const at = [within(x, view.width), within(y, view.height)];
+    const height = within(y, view.height), at = [within(x, view.width - (height < CORNER[1] ? CORNER[0] : 0)), height];
     return [{ at, target, angle: Math.atan2(y - at[1], x - at[0]) }];
   });
 }
