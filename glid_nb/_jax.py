@@ -49,6 +49,7 @@ if TYPE_CHECKING:
     import jax
     import jax.numpy as jnp
     from jax import Array, jit, lax
+    from jax.experimental import serialize_executable
     from jaxtyping import Bool, Complex, Float, Int
 else:
     # Nobody evaluates the shapes in annotations, and importing jaxtyping takes 0.1 s.
@@ -88,3 +89,4 @@ else:
         return _Compiled(function, options)
 
     jax, jnp, lax = _Module("jax"), _Module("jax.numpy"), _Module("jax.lax")
+    serialize_executable = _Module("jax.experimental.serialize_executable")

@@ -7,7 +7,6 @@ files are the same, and else by its lowered text. Its stages can be watched (`_r
 
 import functools
 import hashlib
-import importlib
 import os
 import pickle
 import threading
@@ -22,7 +21,7 @@ from typing import Any
 import numpy as np
 
 from glid_nb._files import write_bytes_atomically
-from glid_nb._jax import jax
+from glid_nb._jax import jax, serialize_executable
 from glid_nb._runtime import COMPILER_OPTIONS, jax_option, stage
 
 
@@ -69,7 +68,7 @@ class Program:
         if kept is None:
             stage("compile")
             kept = lowered.compile()
-            content = zlib.compress(pickle.dumps(_serialization().serialize(kept)), 1)
+            content = zlib.compress(pickle.dumps(serialize_executable.serialize(kept)), 1)
             path.parent.mkdir(parents=True, exist_ok=True)
             write_bytes_atomically(path, hashlib.sha256(content).digest() + content)
         write_bytes_atomically(known_as, path.name.encode())
@@ -98,11 +97,7 @@ def _kept(path: Path) -> Any:
         parts = pickle.loads(zlib.decompress(content))
     except (ImportError, AttributeError):  # a version kept it whose classes were in other modules
         return None
-    return _serialization().deserialize_and_load(*parts)
-
-
-def _serialization() -> Any:
-    return importlib.import_module("jax.experimental.serialize_executable")
+    return serialize_executable.deserialize_and_load(*parts)
 
 
 def _digest(text: str) -> str:

@@ -206,10 +206,9 @@ def _values(z: Any, coefficients: Any, singularities: Singularities) -> Any:
     return c @ coefficients[0] + np.conj(c @ coefficients[1])
 
 
-def _first(z: Any, coefficients: Any, singularities: Singularities) -> tuple[Any, Any]:
+def _first(z: Any, coefficients: Any, singularities: Singularities) -> tuple[Any, ...]:
     edges = cauchy.edge_coefficients(coefficients, singularities)
-    fz, fzb_conj = (cauchy.first_by_edges(z, singularities) @ edges.T).T
-    return fz, fzb_conj
+    return tuple((cauchy.first_by_edges(z, singularities) @ edges.T).T)
 
 
 def _higher(z: Any, coefficients: Any, singularities: Singularities, order: int) -> Any:

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from glid_nb._arrays import Array
-from glid_nb._jax import jit, jnp
+from glid_nb._jax import jax, jnp
 from glid_nb._runtime import double_precision
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.solvers import evaluation, line_search, step
@@ -101,7 +101,7 @@ class NewtonDescent(SubspaceDescent):
         """One compiled call; with nothing left it still evaluates the energies."""
         watch = Stopwatch()
         if self.factor is None:
-            self.factor, self.reuse = _no_factor(len(self.problem.unknowns.free)), False
+            self.factor, self.reuse = np.zeros(self.problem.p2p_hessian.shape), False
         settings = self.settings(may_refine)
         state = step.run(self.problem, self.coefficients, self.factor, settings)
         int(state.outcome)  # waits for the device
@@ -197,7 +197,7 @@ def _p2p_hessian(problem: SubspaceProblem) -> Any:
         rows = restrict_rows(rows, unknowns)
         h = rows.T @ (positional.weights[:, None] * rows)
         h[np.diag_indices_from(h)] += 1 - unknowns.free
-        _latest = known = inputs, jnp.asarray(h)
+        _latest = known = inputs, jax.device_put(h)
     return known[1]
 
 
@@ -217,7 +217,3 @@ def _has_stalled(history: Sequence[Iteration]) -> bool:
     tiny = all((entry.step or 0.0) < _CREEPING for entry in recent)
     least = (_CREEPING if tiny else _STALL_GAIN) * abs(recent[-1].energy)
     return before.energy - recent[-1].energy <= least
-
-
-_no_factor = jit(lambda size: jnp.zeros((size, size)), static_argnums=0)
-"""What a call without a factor is given: compiled, for JAX's own zeros take four times as long."""

@@ -106,9 +106,11 @@ class DeformCanvas(ClosingWidget, ipywidgets.HBox):
         self.pane.stage.observe(self._resize, ["width", "height"])
         self.pane.stage.observe(self._take_room, ["room"])
         # Frames come from the solver's thread, events from the page's; both hold the model's lock.
-        # While the solver works, its next frame acknowledges events, so it sets the pace.
+        # Its next frame acknowledges events and so sets the pace, but not while it is prepared.
         with model.locked():
-            self.pane.stage.serve(model, self.handle, busy=self._is_behind)
+            self.pane.stage.serve(
+                model, self.handle, lambda: (now := model.moment).busy and now.prepared == 1
+            )
             self._endings = (model.observe(self._on_model), *((model.close,) if owned else ()))
             self._draw("state")
             if len(model.state.pose):
@@ -180,11 +182,6 @@ class DeformCanvas(ClosingWidget, ipywidgets.HBox):
             with self.deformation.locked():
                 self.pane.stage.prepared = self.deformation.moment.prepared
             self.pane.stage.acknowledge()
-
-    def _is_behind(self) -> bool:
-        """Whether frames will follow. While the solver is prepared the hand can go on."""
-        moment = self.deformation.moment
-        return moment.busy and moment.prepared == 1
 
     def _repr_mimebundle_(self, **kwargs: Any) -> Any:
         self.deformation.begin()  # before the page has drawn anything

@@ -160,7 +160,7 @@ class Editor(ClosingWidget, ipywidgets.VBox):
         picture.thumbnail(self._size)
         return png(np.asarray(picture))
 
-    # These parts are made once the canvas is drawn, or when asked for.
+    # These parts are made once the canvas is drawn and the model at rest, or when asked for.
 
     @property
     def tracer(self) -> CageTracer:
@@ -317,8 +317,6 @@ class Editor(ClosingWidget, ipywidgets.VBox):
             self._begin()
             if self.canvas is None:
                 self._fill()
-            else:
-                self.canvas.pane.stage.observe(self._fill, ["drawn"])
 
     def _begin(self) -> None:
         """Prepare the solver for the shape, once there is one and somebody looks at it."""
@@ -356,9 +354,12 @@ class Editor(ClosingWidget, ipywidgets.VBox):
     def _deform_tab(self) -> ipywidgets.Widget:
         model, image = self.model.deformation, self.model.image
         assert image is not None
-        self.canvas = DeformCanvas(image, model, **self._asked)
+        self.canvas = canvas = DeformCanvas(image, model, **self._asked)
         self.toolbar = Toolbar(self.canvas)
-        self.monitor = SolverMonitor(model, _SIDE_WIDTH, _PLOTS_HEIGHT)
+        self.monitor = monitor = SolverMonitor(model, _SIDE_WIDTH, _PLOTS_HEIGHT)
+        # A first drag has the processor before hidden parts, which delay it on the page, too.
+        canvas.pane.stage.observe(lambda _: monitor.rested and self._fill(), ["drawn"])
+        monitor.observe(lambda _: canvas.drawn and self._fill(), ["rested"])
         self.timeline = TimelinePanel(self.canvas, self._open_files)
         # Boxes to be filled: if the children changed, the page would select another tab.
         self._boxes |= {"solver": ipywidgets.VBox(), "files": ipywidgets.VBox()}

@@ -170,8 +170,7 @@ def picture_texture(image: NDArray[np.uint8]) -> Any:
     height, width = (min(1 << round(math.log2(n)), _LARGEST_SIDE) for n in image.shape[:2])
     picture = Image.fromarray(image).convert("RGBa").resize((width, height))  # bicubic
     # A DataTexture begins at the bottom.
-    pixels = np.frombuffer(picture.tobytes(), dtype=np.uint8).reshape(height, width, 4)
-    data = np.ascontiguousarray(pixels[::-1])
+    data = np.asarray(picture)[::-1].copy()
     kind = {"format": "RGBAFormat", "type": "UnsignedByteType"}
     filters = {"minFilter": "LinearMipMapLinearFilter", "magFilter": "LinearFilter"}
     return three.DataTexture(data=data, **kind, **filters, generateMipmaps=True, anisotropy=4)
@@ -179,14 +178,12 @@ def picture_texture(image: NDArray[np.uint8]) -> Any:
 
 def cage_ribbon(domain: Domain) -> Ribbon:
     """The cage's loops."""
-    cage = domain.cage
-    return _loops_ribbon(shapely.Polygon(cage.exterior, cage.holes), cage.longer_side)
+    return _loops_ribbon(domain.cage.polygon, domain.cage.longer_side)
 
 
 def offset_ribbon(domain: Domain) -> Ribbon:
     """The offset cage's loops, moved slightly towards the cage."""
-    cages = domain.offset_cage, domain.cage
-    offset, shape = (shapely.Polygon(cage.exterior, cage.holes) for cage in cages)
+    offset, shape = domain.offset_cage.polygon, domain.cage.polygon
     gap = float(shapely.distance(offset.boundary, shape.boundary))
     inner = shapely.buffer(offset, -_INSIDE * gap, join_style="mitre")
     return _loops_ribbon(inner, domain.cage.longer_side)

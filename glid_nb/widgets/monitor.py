@@ -8,6 +8,7 @@ from collections import deque
 from typing import TYPE_CHECKING, Any
 
 import ipywidgets
+import traitlets
 
 from glid_nb.certificate import certificate_of
 from glid_nb.figures.style import BLUE, FAINT, GREEN, GREY, ORANGE, VERMILION
@@ -22,6 +23,7 @@ if TYPE_CHECKING:
     from glid_nb.widgets.live_plots import LivePlots
 
 _INTERVAL = 0.1  # least number of seconds between two drawings of the plots
+_REST = 1.0  # seconds; where nothing has changed for so long, work that may wait is done
 _TONES = {"idle": GREY, "working": BLUE, "good": GREEN, "blocked": ORANGE, "error": VERMILION}
 _RATE_WINDOW = 1.0  # seconds over which frames are counted
 PLOTS = {  # by a plot's name what it shows, and where in the paper that is
@@ -72,6 +74,8 @@ class SolverMonitor(ClosingWidget, ipywidgets.VBox):
     The plots, if there are to be any, are ``width`` by ``height`` CSS pixels.
     """
 
+    rested = traitlets.Bool(False)  # whether the model, once begun, has been at rest for a while
+
     def __init__(
         self,
         deformation: Deformation,
@@ -90,6 +94,7 @@ class SolverMonitor(ClosingWidget, ipywidgets.VBox):
         self._size, self._with_plots = (width, height), plots
         self._plots: LivePlots | None = None
         self._frames: deque[float] = deque()
+        self._changed = time.monotonic()
         how: Any = {"interval": _INTERVAL, "waits": False}  # it may be importing matplotlib
         self._worker = LatestWins[None](weakly(self._update), self, "monitor", **how)
         self._drawn: Any = None
@@ -111,8 +116,9 @@ class SolverMonitor(ClosingWidget, ipywidgets.VBox):
         return self._worker.wait(timeout)
 
     def _on_model(self, what: str) -> None:
+        self._changed = time.monotonic()
         if what == "frame":
-            self._frames.append(time.monotonic())
+            self._frames.append(self._changed)
         if what != "selection":
             self._worker.submit(None)
 
@@ -128,11 +134,15 @@ class SolverMonitor(ClosingWidget, ipywidgets.VBox):
                 f'background:{_TONES[status.level]}"></span>'
                 f"<span>{html.escape(status.text)}</span></div>"
             )
+        begun, moves = self.deformation.begun, moment.busy or moment.dragged
+        now_rests = begun and not moves and time.monotonic() - self._changed > _REST
+        self.rested = self.rested or now_rests
         # The solver comes to rest after its last frame was announced.
-        if moment.busy:
+        if moment.busy or (begun and not self.rested):
             self._worker.submit(None)
-        # The first canvas does not wait for matplotlib.
-        if self._with_plots and self.deformation.begun:
+        # Neither the first canvas nor the first drag waits for matplotlib.
+        pulled = moment.frame is not None and moment.frame.history and not moment.dragged
+        if self._with_plots and (self._plots or self.rested or pulled):
             self._draw(moment)
 
     def _status(self, moment: Moment) -> StatusLine:

@@ -9,8 +9,9 @@ import traitlets
 from glid_nb._arrays import Array
 from glid_nb._scripts import bundle, stylesheet
 from glid_nb.harmonic import HarmonicMap
+from glid_nb.imaging import PixelFrame
 from glid_nb.widgets.closing import ClosingWidget
-from glid_nb.widgets.layers import EvaluatedIn
+from glid_nb.widgets.layers import EvaluatedIn, picture_texture
 from glid_nb.widgets.overlays import PANEL_LEGEND, legend
 from glid_nb.widgets.pad import Pad
 from glid_nb.widgets.scene import N_VERTICES, UNIFORM_VECTORS, Drawing, Scene, renderer
@@ -22,9 +23,10 @@ _MARKS = ("targets", "images", "selected", "hidden", "ring")
 _REFERENCE: dict[str, Any] = ipywidgets.widget_serialization
 _SHARES = (0.0, 0.25, 0.5, 0.75)  # of an edge
 _ROOM = 1.12  # what is fitted leaves a border
-# Without a graphics processor a vertex costs tens of microseconds, so the mesh gets coarser; with
-# fewer vertices than these its edges would be visible.
+# Without a graphics processor a vertex costs tens of microseconds, so the mesh is coarse until the
+# page has said how long it draws; with fewer vertices than these its edges would be visible.
 _DRAWING_TIME, _FEWEST_VERTICES = 40.0, 1500  # ms, vertices
+_FINER = 2.0  # times as many vertices are worth another mesh
 
 
 class Stage(Pad):
@@ -84,9 +86,9 @@ class Pane(ClosingWidget, ipywidgets.GridBox):
         n_vertices: int | None,
         evaluated_in: EvaluatedIn | None,
     ) -> None:
-        self._image = image
-        self._n_vertices = N_VERTICES if n_vertices is None else n_vertices
-        self._fewest_vertices = _FEWEST_VERTICES if n_vertices is None else n_vertices
+        self._picture = PixelFrame(*image.shape[1::-1]), picture_texture(image)
+        self._n_vertices = self._fewest = n_vertices or _FEWEST_VERTICES  # at first
+        self._most = n_vertices or N_VERTICES
         self._evaluated_in: EvaluatedIn | None = evaluated_in
         self._drawing = Drawing(map)
         self.scene = self._new_scene(0)  # what pythreejs draws
@@ -106,7 +108,7 @@ class Pane(ClosingWidget, ipywidgets.GridBox):
             ipywidgets.dlink((self.stage, side), (self._renderer, side))
             ipywidgets.dlink((self.stage, side), (self.layout, side), "{}px".format)
         self.fit()
-        self._endings = (lambda: self.scene.close(),)
+        self._endings = (lambda: self.scene.close(), self._picture[1].close)
 
     def show(self, drawing: Drawing) -> None:
         """Draw this, in one message if only the map and the marks have changed."""
@@ -116,15 +118,15 @@ class Pane(ClosingWidget, ipywidgets.GridBox):
         self._show(old)
 
     def adapt(self) -> None:
-        """Evaluate in the kernel, or coarsen the mesh, where the page says that it is too weak."""
+        """Evaluate in the kernel where the page says that it must; take the mesh it can draw."""
         stage, scene = self.stage, self.scene
         vectors, time = stage.uniform_vectors, stage.drawing_time
         in_shader = scene.evaluated_in == "shader"
         overflows = vectors != 0 and in_shader and not scene.shader_map.fits(vectors)
         affordable = int(self._n_vertices * _DRAWING_TIME / time) if time else self._n_vertices
-        wanted = max(affordable, self._fewest_vertices)
-        if overflows or wanted < self._n_vertices:
-            self._n_vertices = min(wanted, self._n_vertices)
+        wanted = max(min(affordable, self._most), self._fewest)
+        if overflows or wanted < self._n_vertices or wanted >= _FINER * self._n_vertices:
+            self._n_vertices, self._most = wanted, wanted if time else self._most
             stage.drawing_time = 0.0  # it was the old scene's
             self.scene = self._new_scene(vectors)
             self._show(scene)
@@ -191,7 +193,8 @@ class Pane(ClosingWidget, ipywidgets.GridBox):
 
     def _new_scene(self, uniform_vectors: int) -> Scene:
         vectors = uniform_vectors or UNIFORM_VECTORS  # 0 while no page has said
-        return Scene(self._image, self._drawing.map, self._n_vertices, self._evaluated_in, vectors)
+        mesh = self._n_vertices, self._evaluated_in, vectors
+        return Scene(*self._picture, self._drawing.map, *mesh)
 
     def _wire(self) -> bytes:
         scene = self.scene

@@ -62,13 +62,14 @@ class Drawing:
 class Scene:
     """The picture and the lines of one domain, under one map; at first ``map``.
 
-    The image is (h, w, 4) uint8 with straight alpha; its mesh has about ``n_vertices``. By default
-    the shader computes the vertices if ``uniform_vectors`` suffice for the domain.
+    The picture is `layers.picture_texture`, which its other scenes share; its mesh has about
+    ``n_vertices``. By default the shader computes them if ``uniform_vectors`` suffice.
     """
 
     def __init__(
         self,
-        image: Array,
+        frame: PixelFrame,
+        texture: Any,
         map: HarmonicMap,
         n_vertices: int = N_VERTICES,
         evaluated_in: EvaluatedIn | None = None,
@@ -82,12 +83,11 @@ class Scene:
         self._shown = Drawing(map)
         self.color_range = color_range(self._shown.overlay, self._shown.energy)
         """The values at the ends of the overlay's colour map."""
-        self.frame = PixelFrame(*image.shape[1::-1])
-        self._texture = layers.picture_texture(image)
-        mesh = triangulate(self.domain.cage, n_vertices)
-        self._mesh, self._order = mesh, order_of(self.domain.cage)
-        textured = self._textured_uniforms()
-        self.picture = self._layer("picture", textured, *_stacked(mesh, self._order))
+        self.frame, self._texture = frame, texture
+        self._mesh = triangulate(self.domain.cage, n_vertices)
+        self._order = order_of(self.domain.cage)
+        stacked = _stacked(self._mesh, self._order)
+        self.picture = self._layer("picture", self._textured_uniforms(), *stacked)
         self.lines: dict[str, Layer] = {}  # those of _LINES that have been shown
         self.comparison: Layer | None = None
         self._sources: dict[str, Any] = {}  # what lines and comparison were made of
@@ -135,7 +135,6 @@ class Scene:
         """Free what the page holds."""
         for layer in {*self.layers, *self.drawn, *self._replaced}:
             layer.close()
-        self._texture.close()
 
     def _show_order(self, order: Order) -> None:
         if order is self._order:

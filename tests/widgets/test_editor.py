@@ -340,11 +340,20 @@ assert clock.programs == 0, clock.programs
 assert editor.monitor.image.format == "svg+xml"
 assert b"Certificate" in bytes(editor.monitor.image.value)
 assert len(widget._instances) <= 100, len(widget._instances)
-editor.canvas.pane.stage.drawn = True
 boxes = [editor.tabs.children[0], *editor._side.children[1:]]
+editor.canvas.pane.stage.drawn = True
+# The first drag comes before plots and hidden tabs.
+editor.deformation.begin_drag([editor.deformation.add_handles([[4, 0], [-4, 0]])[0]])
+editor.deformation.drag_to([[4.5, 0.5]])
+assert editor.solve(120)
+assert editor.deformation.moment.frame.history
+assert editor.monitor._worker.wait(0.5) is False
+assert "matplotlib" not in sys.modules
+assert not any(box.children for box in boxes)
+editor.deformation.end_drag()
+assert editor.monitor.refresh(60)
 made = [type(box.children[0]).__name__ for box in boxes]
 assert made == ["CageTracer", "SolverPanel", "FilePanel"]
-assert editor.monitor.refresh(60)
 assert editor.monitor.image.format == "png"
 assert bytes(editor.monitor.image.value).startswith(b"\\x89PNG")
 editor.close()

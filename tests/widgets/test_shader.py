@@ -13,8 +13,9 @@ from glid_nb._scripts import glsl
 from glid_nb.energies import ENERGIES
 from glid_nb.geometry import triangulate
 from glid_nb.harmonic import ShaderMap
+from glid_nb.imaging import PixelFrame
 from glid_nb.imaging.order import order_of
-from glid_nb.widgets.layers import energy_defines
+from glid_nb.widgets.layers import energy_defines, picture_texture
 from glid_nb.widgets.scene import Drawing, Scene, _stacked, drawing_order, energy_uniform
 
 from ..domains import NAMES, domain, random_map
@@ -176,7 +177,8 @@ def test_a_frame_is_small_at_any_resolution(n_vertices: int, sent: list[Any]) ->
 
 def test_the_kernel_evaluates_what_a_shader_cannot_hold(sent: list[Any]) -> None:
     map_ = random_map("annulus", 0.01, seed=2)
-    scene = Scene(PICTURE, map_, 500, uniform_vectors=100)
+    frame, texture = PixelFrame(*PICTURE.shape[1::-1]), picture_texture(PICTURE)
+    scene = Scene(frame, texture, map_, 500, uniform_vectors=100)
     assert scene.evaluated_in == "kernel"
     image = scene.picture.attributes["image"].array
     points = scene.picture.attributes["position"].array[:, :2]
