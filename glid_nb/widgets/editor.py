@@ -145,11 +145,11 @@ class Editor(ClosingWidget, ipywidgets.VBox):
 
     def _repr_mimebundle_(self, **kwargs: Any) -> Any:
         """The widget, and the picture as it is now for pages where no kernel runs."""
+        self._displayed = True
+        self._begin()  # JAX is imported while the picture is compressed
         bundle, image = super()._repr_mimebundle_(**kwargs), self.model.tracing.image
         if bundle is not None and image is not None:
             bundle["image/png"] = base64.b64encode(self._snapshot(image)).decode()
-        self._displayed = True
-        self._begin()
         return bundle
 
     def _snapshot(self, image: NDArray[np.uint8]) -> bytes:
