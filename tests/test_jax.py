@@ -19,6 +19,7 @@ def run_python(source: str) -> list[str]:
 def test_an_editor_is_made_and_maps_are_evaluated_and_proved_without_jax() -> None:
     source = """
 import sys, glid_nb
+glid_nb.Editor(glid_nb.samples.image("gecko"), n_vertices=300).close()  # of more vertices
 editor = glid_nb.Editor(glid_nb.samples.image("bar"), n_vertices=300)
 print(sorted({"jax", "matplotlib"} & set(sys.modules)))
 print(editor.map([[1.0, 0.5]]).round(6).tolist(), editor.certificate.certified)
