@@ -87,10 +87,10 @@ class BrushBar(EditControls):
     def __init__(self, deformation: Deformation, brush: Brush, other: ipywidgets.DOMWidget) -> None:
         look: Any = {"layout": {"width": "210px"}, "style": {"description_width": "68px"}}
         most = _LARGEST_RADIUS * deformation.state.domain.cage.longer_side
-        size = {"min": most / 50, "max": most, "step": most / 50, "readout": False}
-        self.size = ipywidgets.FloatSlider(description="Size", **size, **look)
-        share = {"min": 0.1, "max": 1.0, "step": 0.1, "readout_format": ".1f"}
-        self.strength = ipywidgets.FloatSlider(description="Strength", **share, **look)
+        size = {"min": most / 50, "max": most, "step": most / 50, "tooltip": "Of the brush"}
+        self.size = ipywidgets.FloatSlider(description="Size", readout=False, **size, **look)
+        look |= {"min": 0.1, "max": 1.0, "step": 0.1, "tooltip": "How stiff it makes the shape"}
+        self.strength = ipywidgets.FloatSlider(description="Strength", readout_format=".1f", **look)
         ipywidgets.link((brush, "radius"), (self.size, "value"))
         ipywidgets.link((brush, "strength"), (self.strength, "value"))
         self.erase = toggle("", "eraser", "Erase (E)", {"width": "auto"})

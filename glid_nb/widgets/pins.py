@@ -42,11 +42,12 @@ class PinBar(EditControls):
         self.name = ipywidgets.Text(placeholder="name", **shown, **late)
         self.x = ipywidgets.FloatText(description="x", step=0.1, tooltip="Target", **look)
         self.y = ipywidgets.FloatText(description="y", step=0.1, tooltip="Target", **look)
-        free: Any = {"placeholder": "free", "layout": {"width": "124px"}, **late}
-        tooltip = "By how much the shape is turned at the pin; empty: free (< and >, X)"
-        self.angle = ipywidgets.Text(description="Angle °", tooltip=tooltip, **free)
-        tooltip = "By how much the shape is scaled at the pin; empty: free (+ and -, X)"
-        self.scale = ipywidgets.Text(description="Scale", tooltip=tooltip, **free)
+        # A text field that has a description shows no tooltip, but that of a span in it.
+        free: Any = {"placeholder": "free", "description_allow_html": True, **late}
+        tip = "<span title='By how much the shape is {} at the pin; empty: free ({}, X)'>{}</span>"
+        tips = (("turned", "&lt; and &gt;", "Angle °"), ("scaled", "+ and -", "Scale"))
+        self.angle, self.scale = (ipywidgets.Text(description=tip.format(*w), **free) for w in tips)
+        self.angle.layout.width = self.scale.layout.width = "124px"
         tooltip = "How firmly the pin is held: soft to the left, firm to the right"
         scale: Any = {"min": -6, "max": 2, "step": 0.25, "value": 1, "readout_format": ".2g"}
         scale |= {"tooltip": tooltip, "layout": {"width": "196px"}}

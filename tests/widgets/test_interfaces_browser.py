@@ -67,6 +67,8 @@ def test_no_key_in_the_editor_is_the_notebooks(
         page.locator(".glid-pad").first,
     )
     for place in places:
+        # Also where the focus was on another cell, as after Shift+Enter.
+        page.evaluate("() => document.querySelector('.jp-Cell').focus()")
         place.click(position={"x": 5, "y": 5})
         for key in "xmd":
             page.keyboard.press(key)

@@ -23,7 +23,10 @@ export function keysAround(element, act, whole = element) {
   const on = (e) => {
     const editor = element.closest(".glid-editor") ?? whole, { target } = e;
     if (!editor.contains(target) || !element.checkVisibility()) return;
-    if (e.type === "pointerdown") return void (editor.tabIndex = -1); // so that a click on any part of it focuses it
+    if (e.type === "pointerdown") { // a click on any part of it focuses it; one on a tab would leave the focus elsewhere
+      editor.tabIndex = -1;
+      return void (editor.contains(document.activeElement) || editor.focus({ preventScroll: true }));
+    }
     const command = e.ctrlKey || e.metaKey, outside = !element.contains(target);
     const ours = isUndo(e) || !(command || (outside && e.shiftKey && e.key === "Enter"));
     target.toggleAttribute("data-lm-suppress-shortcuts", ours);
