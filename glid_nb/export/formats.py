@@ -36,7 +36,7 @@ MOTION_FORMATS = {  # a motion's name without one of these is a folder of frames
     ".glb": Format("Moving mesh (glTF)"),
     ".sheet.png": Format("Sprite sheet (PNG and JSON)", (".sheet.json",)),
     ".zip": Format("Frames (PNG in a zip)"),
-    ".motion.json": Format("Motion and proof for glid-check (JSON)", (".motion.proof.json",)),
+    ".motion.json": Format("Proof for glid-check (JSON)", (".motion.proof.json",)),
 }
 
 

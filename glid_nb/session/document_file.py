@@ -147,7 +147,7 @@ def _read_archive(path: Path) -> dict[str, bytes]:
         elif zipfile.is_zipfile(io.BytesIO(data)):
             what = f"it is no intact zip file: {error}"
         else:
-            what = "it is no zip file, so no session that was saved, or only a part of one"
+            what = "it is not a saved session, which is a zip file, or only a part of one"
         raise InputFileError(what) from None
     return members
 

@@ -490,7 +490,7 @@ def test_a_file_of_another_kind_is_named(tmp_path: Path) -> None:
     buffer = io.BytesIO()
     Image.new("RGB", (40, 30)).save(buffer, format="JPEG")
     refuse(tmp_path, buffer.getvalue(), "it is a JPEG picture; open it as the picture instead")
-    refuse(tmp_path, b'{"cage": []}', "it is no zip file, so no session that was saved")
+    refuse(tmp_path, b'{"cage": []}', "it is not a saved session")
 
 
 def test_a_wrong_file_is_refused_in_one_sentence(tmp_path: Path) -> None:

@@ -134,7 +134,7 @@ def test_what_cannot_be_opened_is_named(panel: FilePanel) -> None:
     panel.path.value = "away.glid"
     assert f"The file {path} does not exist" in click(panel, panel.open_button)
     path.write_bytes(THEIRS)
-    assert "it is no zip file, so no session" in click(panel, panel.open_button)
+    assert "it is not a saved session" in click(panel, panel.open_button)
 
 
 def test_a_file_of_others_is_replaced_by_a_second_click(panel: FilePanel) -> None:
