@@ -23,9 +23,9 @@ export function keysAround(element, act, whole = element) {
   const on = (e) => {
     const editor = element.closest(".glid-editor") ?? whole, { target } = e;
     if (!editor.contains(target) || !element.checkVisibility()) return;
-    if (e.type === "pointerdown") { // a click on any part of it focuses it; one on a tab would leave the focus elsewhere
+    if (e.type === "pointerdown") { // a click on any part of it focuses it; after one on a tab, so does this
       editor.tabIndex = -1;
-      return void (editor.contains(document.activeElement) || editor.focus({ preventScroll: true }));
+      return void (target.closest("[role=tab]") && editor.focus({ preventScroll: true }));
     }
     const command = e.ctrlKey || e.metaKey, outside = !element.contains(target);
     const ours = isUndo(e) || !(command || (outside && e.shiftKey && e.key === "Enter"));
