@@ -75,13 +75,12 @@ class PinBar(EditControls):
         def acting(icon: str, tooltip: str, act: Any) -> ipywidgets.Button:
             return button("", icon, tooltip, lambda: self._act(act), narrow)
 
-        self.back, self.front = (
-            acting(icon, tip, lambda steps=steps: model.bring_forward(model.selection, steps))
-            for icon, tip, steps in (
-                ("level-down", "Send selected pins, and what is around them, back (Page Down)", -1),
-                ("level-up", "Bring selected pins forward (Page Up)", 1),
-            )
-        )
+        def moving(icon: str, tooltip: str, steps: int) -> ipywidgets.Button:
+            return acting(icon, tooltip, lambda: model.bring_forward(model.selection, steps))
+
+        tooltip = "Send selected pins, and what is around them, back (Page Down)"
+        self.back = moving("level-down", tooltip, -1)
+        self.front = moving("level-up", "Bring selected pins forward (Page Up)", 1)
         self.release = acting(
             "unlink",
             "Remove selected pins and keep the shape until the next change",
