@@ -80,7 +80,7 @@ def positional_energy(
     size = _HANDLE_BUCKET * max(1, -(-(count + len(turned)) // _HANDLE_BUCKET))
     aims, weights = np.zeros((2, size)), np.zeros((2, size))
     aims[:, :count], weights[:, :count] = pose.targets.T, weight * pose.weights
-    matrix = _matrix_at(domain, pose.handles.tobytes(), size)
+    matrix = matrix_at(domain, pose.handles.tobytes(), size)
     if len(turned):
         basis, pinned = basis_of(domain), slice(count, count + len(turned))
         d = _basis_at(domain, pose.handles[turned].tobytes(), cauchy.first_derivatives)
@@ -116,7 +116,7 @@ def _basis_at(domain: Domain, points: bytes, kernel: Any) -> NDArray[Any]:
 
 
 @functools.lru_cache(maxsize=32)
-def _matrix_at(domain: Domain, handles: bytes, size: int) -> NDArray[Any]:
+def matrix_at(domain: Domain, handles: bytes, size: int) -> NDArray[Any]:
     own = _basis_at(domain, handles, cauchy.cauchy_coordinates)
     rows = np.zeros((size, own.shape[1]), dtype=complex)
     rows[: len(own)] = own

@@ -2,9 +2,9 @@
 
 Handles hang together in the shortest tree of ways inside the shape. A map turns the line from each
 to the one that it hangs at by an angle beyond 180 degrees too: ``f_z`` tells along the way inside.
-Maps that turn all lines alike lead to the same minimum, and what a shape costs grows with the
-square of its turns. So the other minimum worth looking for is where a line that turns by about half
-a circle turns the other way round.
+Maps that turn all lines alike mostly lead to the same minimum. What turns cost is known exactly for
+small ones, in which it is a quadratic form, and for large ones about so, relative to each other: so
+it is known beforehand which lines may as well turn the other way round.
 """
 
 import functools
@@ -17,17 +17,24 @@ from scipy.sparse import csgraph
 from scipy.spatial.distance import cdist
 
 from glid_nb._arrays import Array
+from glid_nb._runtime import single_blas_thread
 from glid_nb.geometry import Domain, as_points, triangulate
 from glid_nb.harmonic import HarmonicMap, as_complex
 from glid_nb.harmonic.basis import basis_of
 from glid_nb.harmonic.cauchy import edge_coefficients, first_by_edges
+from glid_nb.solvers.discretisation import discretise
 from glid_nb.solvers.pose import Pose
+from glid_nb.solvers.problem import matrix_at, unknowns_of
+from glid_nb.solvers.whitening import pulled_back
 
 _VERTICES = 300
-_STAGE, _ALIKE = np.deg2rad(40), np.deg2rad(20)
+_LEAST_STRAIN, _SMALL = 1e-6, 1e-6  # so that rigid motions cost something; a time
+_STAGE, _ALIKE = np.deg2rad(60), np.deg2rad(20)
 _SQUEEZED, _STRAIGHT = 0.95, np.deg2rad(10)
 _BENT = np.deg2rad(40)  # lines that turn by less, or nearly by half a circle, make no arc
+_WOUND = np.deg2rad(110)
 MOST_TURNED = 3  # lines, or groups of them, that are turned the other way round
+Stages = list[tuple[float, Pose]]  # times from 0 to 1, and targets on the way from the handles
 
 
 class Link(NamedTuple):
@@ -36,42 +43,27 @@ class Link(NamedTuple):
     child: int
     parent: int
     turn: float  # against the parent's line; at the root against the shape, or the other of two
-    squeezed: bool
-    """Whether its targets are closer than its handles, and what lies between stays straight."""
-    curled: bool
-    """Whether it ends free and turns, but its end is turned far from twice as much."""
-
-
-class Stage(NamedTuple):
-    """Targets on the way from the handles, at a time from 0 to 1."""
-
-    time: float
-    pose: Pose
+    squeezed: bool  # its targets are closer than its handles, and what lies between stays straight
+    curled: bool  # it ends free and turns, but its end is turned far from twice as much
+    wound: bool  # the shape is turned at its child by far more or less than it is
 
 
 class Turning(NamedTuple):
     """How a map turns the lines of the tree, which come after those that they hang at."""
 
+    domain: Domain
     pose: Pose
     root: int
     whole: float  # the turn of the shape, or of the first of two lines at the root
     lines: list[Link]
 
-    def ways(self, least: float) -> dict[str, list[Stage]]:
-        """The stages from the shape at rest to the wanted pose, by name.
-
-        Lines that turn by at least so much go the other way round, alone or together, where that
-        bends the shape no more than it would a single one; curled lines along an arc.
-        """
+    def reversals(self, least: float) -> dict[tuple[int, ...], float]:
+        """Lines that turn by so much, alone or together, and what the other way round costs of the
+        turns as they are, the cheapest first."""
         far = self._far(least)
         some = [sum(c, ()) for n in range(MOST_TURNED) for c in itertools.combinations(far, n + 1)]
-        bends, allowed = {s: self._bend(s) for s in some}, (2 * np.pi / least - 1) ** 2
-        kept = [
-            s for s in sorted(some, key=bends.__getitem__) if bends[s] <= allowed * self._bend()
-        ]
-        ways = {f"the other way round at {', '.join(map(str, s))}": self.stages(s) for s in kept}
-        curled = [line.child for line in self.lines if line.curled]
-        return ways | {f"along an arc at {i}": self.stages(bent=i) for i in curled}
+        costs = {lines: self.cost(lines) / self.cost() for lines in some}
+        return dict(sorted(costs.items(), key=lambda item: item[1]))
 
     def _far(self, least: float) -> list[tuple[int, ...]]:
         """The lines that turn most; of many, those at one handle that turn alike are one."""
@@ -84,39 +76,44 @@ class Turning(NamedTuple):
             far = [line for line in far if line.child not in groups[-1]]
         return groups[:MOST_TURNED]
 
-    def _turned(self, reversed: tuple[int, ...]) -> tuple[list[float], dict[int, float]]:
-        """Turns against the parents' lines, and those of lines by child, as of the root itself."""
-        angles, turns = {self.root: self.whole}, list[float]()
+    def _angles(self, reversed: tuple[int, ...]) -> dict[int, float]:
+        """The turns of lines by child, as of the root itself."""
+        angles = {self.root: self.whole}
         for i, j, turn, *_ in self.lines:
-            turns.append(turn - 2 * np.pi * np.sign(turn) * (i in reversed))
-            angles[i] = angles[j] + turns[-1]
-        return turns, angles
+            angles[i] = angles[j] + turn - 2 * np.pi * np.sign(turn) * (i in reversed)
+        return angles
 
-    def _bend(self, reversed: tuple[int, ...] = ()) -> float:
-        turns, angles = self._turned(reversed)
-        whole = np.median([*angles.values()])
-        return float(np.square([*turns, *(angle - whole for angle in angles.values())]).sum())
+    def cost(self, reversed: tuple[int, ...] = ()) -> float:
+        """What the turns would cost if that grew with their square, as it does in the beginning."""
+        moved = self._at(_SMALL, self._angles(reversed)) - as_complex(self.pose.handles)
+        moves = np.concatenate([np.real(moved), np.imag(moved)]) / _SMALL
+        return float(moves @ _firmness(self.domain, self.pose.handles.tobytes()) @ moves)
 
-    def stages(self, reversed: tuple[int, ...] = (), bent: int | None = None) -> list[Stage]:
-        """The poses on the way, where nothing turns by over 40 degrees from one to the next."""
-        free = replace(self.pose, angles=None, scales=None)
-        z, w = as_complex(free.handles), as_complex(free.targets)
-        turns, angles = self._turned(reversed)
-        count = max(int(np.ceil(np.abs([*angles.values(), *turns]).max() / _STAGE)), 2)
-        stages = []
-        for time in np.arange(1, count) / count:
-            at = z + time * (w[self.root] - z[self.root])
-            for i, j, turn, *_ in self.lines:
-                line, stretch = z[i] - z[j], abs((w[i] - w[j]) / (z[i] - z[j]))
-                if i == bent:  # as a bar bent to an arc: its end turns twice as far as its chord
-                    end = np.exp(2j * turn)
-                    pivot = line * (stretch * np.exp(1j * turn) - end) / (1 - end)
-                    arc = pivot + np.exp(2j * time * turn) * (line - pivot)
-                    at[i] = at[j] + np.exp(1j * time * angles[j]) * arc
-                    continue
-                at[i] = at[j] + (1 + time * (stretch - 1)) * np.exp(1j * time * angles[i]) * line
-            stages.append(Stage(float(time), free.with_targets(as_points(at))))
-        return stages
+    def stages(self, reversed: tuple[int, ...] = (), bent: int | None = None) -> Stages:
+        """The poses on the way, where nothing turns by over 60 degrees from one to the next; turned
+        as a whole in the beginning, so that no line turns by more than it must."""
+        free, angles = replace(self.pose, angles=None, scales=None), self._angles(reversed)
+        middle = (max(angles.values()) + min(angles.values())) / 2
+        turns = [*angles.values(), *(middle + angles[i] - angles[j] for i, j, *_ in self.lines)]
+        count = max(int(np.ceil(np.abs(np.array(turns) - middle).max() / _STAGE)), 2)
+        times = [i / count for i in range(1, count)]
+        at = (self._at(time, angles, middle, bent) for time in times)
+        return [(t, free.with_targets(as_points(z))) for t, z in zip(times, at, strict=True)]
+
+    def _at(
+        self, time: float, angles: dict[int, float], middle: float = 0, bent: int | None = None
+    ) -> Array:
+        z, w = as_complex(self.pose.handles), as_complex(self.pose.targets)
+        at = z + time * (w[self.root] - z[self.root])
+        turned = {i: np.exp(1j * (middle + time * (a - middle))) for i, a in angles.items()}
+        for i, j, turn, *_ in self.lines:
+            line, stretch = z[i] - z[j], abs((w[i] - w[j]) / (z[i] - z[j]))
+            at[i] = at[j] + (1 + time * (stretch - 1)) * turned[i] * line
+            if i == bent:  # as a bar bent to an arc: its end turns twice as far as its chord
+                end = np.exp(2j * turn)
+                pivot = line * (stretch * np.exp(1j * turn) - end) / (1 - end)
+                at[i] = at[j] + turned[j] * (pivot + np.exp(2j * time * turn) * (line - pivot))
+        return at
 
 
 def turning_of(map: HarmonicMap, pose: Pose) -> Turning:
@@ -127,8 +124,7 @@ def turning_of(map: HarmonicMap, pose: Pose) -> Turning:
     fz = rows @ edge_coefficients(basis.pad(map.phi), basis.singularities)
     turns, angles, squeezed = {root: float(np.angle(fz[0]))}, dict[int, float](), list[bool]()
     for i, j, way in lines:
-        along = turns[j] + np.cumsum(np.angle(fz[way][1:] / fz[way][:-1]))
-        along = np.concatenate([[turns[j]], along])
+        along = turns[j] + np.cumsum(np.angle([1, *(fz[way][1:] / fz[way][:-1])]))
         turns[i] = float(along[-1])
         # Where a line turns smoothly its ends turn by about the mean of what lies between.
         ratio = (w[i] - w[j]) / (z[i] - z[j])
@@ -144,8 +140,9 @@ def turning_of(map: HarmonicMap, pose: Pose) -> Turning:
         turn = angles[i] - angles[j]
         off = abs(turns[i] - angles[j] - 2 * turn) > np.pi
         curled = i not in parents and _BENT < abs(turn) < np.pi - _BENT and off
-        found.append(Link(i, j, turn, short, curled))
-    return Turning(pose, root, whole, found)
+        wound = abs(turns[i] - angles[i]) > _WOUND
+        found.append(Link(i, j, turn, short, curled, wound))
+    return Turning(map.domain, pose, root, whole, found)
 
 
 @functools.lru_cache(maxsize=32)
@@ -173,3 +170,16 @@ def _tree(domain: Domain, handles: bytes) -> tuple[int, list[tuple[int, int, sli
         lines.append((i, j, slice(len(along), len(along) + len(back) + 1)))
         along += [points[j], *back[::-1]]
     return root, lines, first_by_edges(as_complex(along), basis_of(domain).singularities)
+
+
+@functools.lru_cache(maxsize=32)
+@single_blas_thread()
+def _firmness(domain: Domain, handles: bytes) -> Array:
+    """The least mean of ``(Re f_z)^2 + |f_zbar|^2`` for small moves of the handles, (Re, Im): the
+    second term is the identity of whitened ``psi``."""
+    matrices, points = discretise(domain).matrices, matrix_at(domain, handles, len(handles) // 16)
+    free = unknowns_of(basis_of(domain), False, matrices.whitening).free
+    phi, psi = np.hsplit(pulled_back(points, np.asarray(matrices.whitening)) * free, 2)
+    rows = np.asarray(matrices.whitened, float) * np.sqrt(np.asarray(matrices.hessian_weights))
+    strain = rows @ rows.T + _LEAST_STRAIN * np.eye(len(rows))
+    return np.linalg.pinv(phi @ np.linalg.solve(strain, phi.T) + psi @ psi.T, hermitian=True)

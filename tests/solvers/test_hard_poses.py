@@ -167,17 +167,21 @@ def test_a_squeezed_bar_bends_instead() -> None:
     check_certified(result)
 
 
+def sample(name: str) -> tuple[Domain, np.ndarray]:
+    pose = Pose.from_dict(json.loads(samples.pose_path(name, "extreme").read_text()))
+    return Domain.from_cage(trace(samples.image(name)).cage), pose.handles
+
+
 def test_a_limb_that_curls_is_led_along_an_arc() -> None:
     """The teapot's spout, turned by 120 degrees: its line turns by 92, its tip by -36."""
-    domain = Domain.from_cage(trace(samples.image("teapot")).cage)
-    handles = Pose.from_dict(json.loads(samples.pose_path("teapot", "extreme").read_text())).handles
+    domain, handles = sample("teapot")
     z = handles @ np.array([1, 1j])
     body = z[np.argmin(np.abs(z - z.mean()))]
     tip = int(np.argmax(np.abs(z - body)))
     pivot = body + 0.4 * (z[tip] - body)
     z[tip] = pivot + np.exp(2j * np.pi / 3) * (z[tip] - pivot)
     result = solve(domain, Pose(handles, real(z)))
-    assert [attempt.name for attempt in result.attempts] == ["direct", f"along an arc at {tip}"]
+    assert [attempt.name for attempt in result.attempts][:2] == ["direct", f"along an arc at {tip}"]
     assert result.energy < 0.95 * result.attempts[0].energy
 
 
@@ -203,14 +207,44 @@ def bent_ring() -> tuple[Domain, np.ndarray, list[Turn], float]:
 
 def bent_frog() -> tuple[Domain, np.ndarray, list[Turn], float]:
     """Hands, legs and body: lines that turn alike go the other way round together."""
-    domain = Domain.from_cage(trace(samples.image("frog")).cage)
-    handles = Pose.from_dict(json.loads(samples.pose_path("frog", "extreme").read_text())).handles
+    domain, handles = sample("frog")
     z = handles @ np.array([1, 1j])
     turns = [([0, 1], z[2], 133.85), ([6, 7], z[5], -113.33)]
     return domain, handles, [*turns, ([0, 1, 2], z[5], 125)], 10.4004
 
 
-@pytest.mark.parametrize("bent", [bent_c, bent_ring, bent_frog])
+def bent_teapot() -> tuple[Domain, np.ndarray, list[Turn], float]:
+    """The handle turns by 143 degrees, and as short a part costs less by 217."""
+    domain, handles = sample("teapot")
+    return domain, handles, [([5], handles[1] @ np.array([1, 1j]), 142.5626)], 4.0723
+
+
+def wound_frog() -> tuple[Domain, np.ndarray, list[Turn], float]:
+    """The first way winds up a hand; with the same turns of the lines there is a better map."""
+    domain, handles = sample("frog")
+    turns = [([7], -0.0675 + 4.1325j, 162.6), ([3], 0.6j, -154.7), ([6, 7], 1.16j, -131.8)]
+    return domain, handles, turns, 12.013
+
+
+def bent_ell() -> tuple[Domain, np.ndarray, list[Turn], float]:
+    """One arm turns twice: its end where it is held, and half of it at the corner."""
+    outline = [
+        [-10, -8],
+        [8, -8],
+        [8, -5.5],
+        [0, -5.5],
+        [-7.5, -5.5],
+        [-7.5, 0],
+        [-7.5, 8],
+        [-10, 8],
+    ]
+    ends = [7.45 - 6.96j, -8.8 + 7.63j, -7.29 - 7.48j, -7.89 - 0.18j]
+    handles = real(np.array([*ends, -0.37 - 5.92j, -7.89 + 3.99j, 3.54 - 7.48j]))
+    turns = [([0, 6], -0.37 - 5.92j, 171.6), ([0, 4, 6], -5.24 - 7.02j, -158.1)]
+    return Domain.from_cage(Cage(outline)), handles, turns, 3.0055
+
+
+@pytest.mark.parametrize("bent", [bent_c, bent_ring, bent_frog, bent_teapot, wound_frog, bent_ell])
 def test_limbs_bent_by_over_100_degrees_end_near_the_best_minimum_known(bent: Any) -> None:
     domain, handles, turns, best = bent()
     result = solve(domain, Pose(handles, turned(handles, turns)))

@@ -11,7 +11,7 @@ from glid_nb.geometry import Cage, Domain
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.solvers import Options, Pose, solve
 from glid_nb.solvers.problem import aligned
-from glid_nb.solvers.restarts import HALF_CIRCLE
+from glid_nb.solvers.restarts import FAR
 from glid_nb.solvers.turning import turning_of
 
 DOMAIN = Domain.from_cage(Cage([[-10, -1], [10, -1], [10, 1], [-10, 1]]))
@@ -28,7 +28,7 @@ def test_a_rigid_motion_turns_no_line_and_stays_rigid(degrees: float, x: float) 
     pose = Pose(BAR, turned(BAR, degrees) + np.array([x, 0]))
     turning = turning_of(aligned(HarmonicMap.identity(DOMAIN), pose), pose)
     np.testing.assert_allclose([line.turn for line in turning.lines], 0, atol=1e-9)
-    assert not turning.ways(HALF_CIRCLE)
+    assert not turning.reversals(FAR[0])
     assert not any(line.squeezed for line in turning.lines)
     distances = [np.linalg.norm(BAR - BAR[i], axis=1) for i in range(len(BAR))]
     for _, stage in turning.stages():
@@ -59,20 +59,20 @@ def test_a_line_turns_by_as_much_as_the_map_turns_it(back: float) -> None:
     far = max(turns, key=lambda child: abs(turns[child]))
     assert abs(turns.pop(far)) == pytest.approx(170, abs=10)
     assert all(abs(turn) < 20 for turn in turns.values())
-    (name,) = turning.ways(HALF_CIRCLE)
-    assert name == f"the other way round at {far}"
-    z = BAR @ np.array([1, 1j])
-    for stages, reversed in ((turning.stages(), False), (turning.ways(HALF_CIRCLE)[name], True)):
-        line = [
-            (s.targets @ np.array([1, 1j]))[4] - (s.targets @ np.array([1, 1j]))[2]
-            for s in (pose.with_targets(BAR), *(s for _, s in stages), pose)
-        ]
-        body = np.angle(np.exp(1j * turning.whole))
-        whole = np.angle(np.array(line[1:]) / line[:-1]).sum() - body
-        assert (whole < 0) == reversed
-        assert np.exp(1j * whole) == pytest.approx(
-            np.exp(1j * (np.angle(line[-1] / (z[4] - z[2])) - body))
+    (reversed,) = turning.reversals(FAR[0])
+    assert reversed == (far,)
+    z, w = BAR @ np.array([1, 1j]), pose.targets @ np.array([1, 1j])
+    for lines in ((), reversed):
+        way = [BAR, *(stage.targets for _, stage in turning.stages(lines)), pose.targets]
+        # The line that turns, against one at the end that does not.
+        line, body = (
+            np.array([points[i] - points[j] for points in way]) @ np.array([1, 1j])
+            for i, j in ((4, 2), (2, 0))
         )
+        whole = np.angle((line / body)[1:] / (line / body)[:-1]).sum()
+        assert (whole < 0) == bool(lines)
+        wanted = (w[4] - w[2]) / (w[2] - w[0]) / ((z[4] - z[2]) / (z[2] - z[0]))
+        assert np.exp(1j * whole) == pytest.approx(wanted / abs(wanted))
 
 
 @given(seed=st.integers(0, 10**6), count=st.integers(1, 9))
@@ -81,13 +81,31 @@ def test_stages_lead_evenly_to_the_targets(seed: int, count: int) -> None:
     handles = rng.uniform([-9, -0.9], [9, 0.9], size=(count, 2))
     pose = Pose(handles, rng.normal(size=(count, 2)))
     turning = turning_of(HarmonicMap.identity(DOMAIN), pose)
-    for stages in (turning.stages(), *turning.ways(0.1).values()):
-        line = np.array([handles, *(stage.targets for _, stage in stages), pose.targets])
+    for lines in ((), *turning.reversals(0.1)):
+        # They begin turned as a whole.
+        line = np.array([*(stage.targets for _, stage in turning.stages(lines)), pose.targets])
         assert np.isfinite(line).all()
-        # No stage turns any line by more than 40 degrees.
         for i, j, *_ in turning.lines:
             z = (line[:, i] - line[:, j]) @ np.array([1, 1j])
-            assert np.abs(np.angle(z[1:] / z[:-1])).max() < np.deg2rad(40.1)
+            assert np.abs(np.angle(z[1:] / z[:-1])).max() < np.deg2rad(60.1)
+
+
+@pytest.mark.slow
+def test_turns_cost_what_the_solver_finds_while_they_are_small() -> None:
+    """Two ends of a bar, turned by degrees; reversed they would turn by nearly 360."""
+    energies, costs = list[float](), list[float]()
+    for degrees in (1, 2):
+        targets = BAR.copy()
+        targets[4:], targets[:2] = turned(BAR[4:], degrees), turned(BAR[:2], -2 * degrees)
+        pose = Pose(BAR, targets)
+        result = solve(DOMAIN, pose, options=Options(restarts=0))
+        assert isinstance(result.map, HarmonicMap)
+        turning = turning_of(result.map, pose)
+        energies.append(result.energy - 2)
+        costs.append(turning.cost())
+        around = turning.cost((max(turning.lines, key=lambda line: abs(line.turn)).child,))
+        assert around > 1e3 * costs[-1]
+    np.testing.assert_allclose(energies, 4 * np.array(costs), rtol=0.02)
 
 
 def test_targets_that_coincide_are_no_division_by_zero() -> None:
