@@ -30,9 +30,8 @@ from glid_nb.solvers.whitening import pulled_back
 _VERTICES = 300
 _LEAST_STRAIN, _SMALL = 1e-6, 1e-6  # so that rigid motions cost something; a time
 _STAGE, _ALIKE = np.deg2rad(60), np.deg2rad(20)
-_SQUEEZED, _STRAIGHT = 0.95, np.deg2rad(10)
+_SQUEEZED, _STRAIGHT, _WOUND = 0.95, np.deg2rad(10), np.deg2rad(110)
 _BENT = np.deg2rad(40)  # lines that turn by less, or nearly by half a circle, make no arc
-_WOUND = np.deg2rad(110)
 MOST_TURNED = 3  # lines, or groups of them, that are turned the other way round
 Stages = list[tuple[float, Pose]]  # times from 0 to 1, and targets on the way from the handles
 
@@ -85,9 +84,10 @@ class Turning(NamedTuple):
 
     def cost(self, reversed: tuple[int, ...] = ()) -> float:
         """What the turns would cost if that grew with their square, as it does in the beginning."""
-        moved = self._at(_SMALL, self._angles(reversed)) - as_complex(self.pose.handles)
-        moves = np.concatenate([np.real(moved), np.imag(moved)]) / _SMALL
-        return float(moves @ _firmness(self.domain, self.pose.handles.tobytes()) @ moves)
+        moved = as_points(self._at(_SMALL, self._angles(reversed))) - self.pose.handles
+        moves = moved.T.ravel() / _SMALL
+        form = _firmness(self.domain, self.pose.handles.tobytes())
+        return max(float(moves @ form @ moves), _SMALL**2)
 
     def stages(self, reversed: tuple[int, ...] = (), bent: int | None = None) -> Stages:
         """The poses on the way, where nothing turns by over 60 degrees from one to the next; turned

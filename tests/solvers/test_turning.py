@@ -114,6 +114,16 @@ def test_targets_that_coincide_are_no_division_by_zero() -> None:
     assert all(np.isfinite(stage.targets).all() for _, stage in turning.stages())
 
 
+def test_the_ways_of_handles_that_nearly_coincide_are_finite() -> None:
+    handles = np.array([[0, 0], [1e-9, 0], [5, 0.5]])
+    pose = Pose(handles, handles + np.array([[0, 1e-12], [0, 0], [0, -1e-12]]))
+    turning = turning_of(HarmonicMap.identity(DOMAIN), pose)
+    costs = np.array([turning.cost((line.child,)) for line in turning.lines])
+    assert np.isfinite(costs).all()
+    assert costs.min() > 0
+    assert turning.cost() > 0
+
+
 def test_a_line_is_squeezed_where_its_targets_are_closer_and_it_stays_straight() -> None:
     handles = np.array([[-9, 0], [0, 0], [9, 0.0]])
     identity = HarmonicMap.identity(DOMAIN)
