@@ -32,10 +32,12 @@ from playwright.sync_api import (
     ConsoleMessage,
     Locator,
     Page,
+    ViewportSize,
     sync_playwright,
 )
 
 REPOSITORY = Path(__file__).resolve().parent.parent
+WINDOW: ViewportSize = {"width": 1366, "height": 768}
 ARTEFACTS = Path(os.environ.get("GLID_NB_ARTEFACTS", REPOSITORY / "artefacts"))
 
 CHROMIUM_FLAGS = (
@@ -272,7 +274,7 @@ def watched_page(browser: Browser, script: str = "", **settings: Any) -> Iterato
     ``script`` runs in the page before anything else does; ``settings`` are those of Playwright's
     browser context, such as ``has_touch=True``.
     """
-    context = browser.new_context(**{"viewport": {"width": 1366, "height": 768}, **settings})
+    context = browser.new_context(**{"viewport": WINDOW, **settings})
     if script:
         context.add_init_script(script)
     watch = Watch(context)
@@ -416,7 +418,7 @@ class SharedLab:
     """A page of JupyterLab and one kernel, for notebooks that follow one another."""
 
     def __init__(self, browser: Browser, server: JupyterServer) -> None:
-        self._context = browser.new_context(viewport={"width": 1366, "height": 768})
+        self._context = browser.new_context(viewport=WINDOW)
         self._watch = Watch(self._context)
         self.page = self._context.new_page()
         self.page.set_default_timeout(30_000)
@@ -442,6 +444,7 @@ class SharedLab:
         raised = self.page.evaluate(_EXECUTE, {"id": self._kernel, "code": _CLEAR_KERNEL})
         assert raised is None, f"closing what the notebook had made raised {raised}"
         self.page.evaluate("() => window.jupyterapp.shell.currentWidget?.dispose()")
+        self.page.set_viewport_size(WINDOW)
         self._watch.errors.clear()
 
     def check(self) -> None:
