@@ -33,7 +33,7 @@ class Size(NamedTuple):
 SERIES = {
     "vertices": tuple(Size(n) for n in (50, 100, 200, 400, 700, 1000)),
     "holes": tuple(Size(40, holes=n) for n in (0, 5, 10, 20, 35, 50)),
-    "handles": tuple(Size(100, handles=n) for n in (1, 4, 16, 64, 200, 500)),
+    "handles": tuple(Size(100, handles=n) for n in (2, 4, 16, 64, 200, 500)),
 }
 """What grows in each series, all else being equal."""
 
