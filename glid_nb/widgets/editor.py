@@ -323,11 +323,11 @@ class Editor(ClosingWidget, ipywidgets.VBox):
         if self._displayed and self.model.has_shape:
             self.deformation.begin()
 
-    def _fill(self, _: Any = None) -> None:
-        """Make the parts behind other tabs that are still missing."""
+    def _fill(self, *names: str) -> None:
+        """Make these parts, or all, where they are still missing."""
         with self.model.locked():
             if not self._closed:
-                for name in self._boxes:
+                for name in names or self._boxes:
                     self._part(name)
 
     def _part(self, name: str) -> Any:
@@ -357,9 +357,9 @@ class Editor(ClosingWidget, ipywidgets.VBox):
         self.canvas = canvas = DeformCanvas(image, model, **self._asked)
         self.toolbar = Toolbar(self.canvas)
         self.monitor = monitor = SolverMonitor(model, _SIDE_WIDTH, _PLOTS_HEIGHT)
-        # A first drag has the processor before hidden parts, which delay it on the page, too.
-        canvas.pane.stage.observe(lambda _: monitor.rested and self._fill(), ["drawn"])
-        monitor.observe(lambda _: canvas.drawn and self._fill(), ["rested"])
+        # A first drag has the processor before hidden parts; those above the canvas would move it.
+        canvas.pane.stage.observe(lambda _: self._fill("pins"), ["drawn"])
+        monitor.observe(lambda _: self._fill(), ["rested"])
         self.timeline = TimelinePanel(self.canvas, self._open_files)
         # Boxes to be filled: if the children changed, the page would select another tab.
         self._boxes |= {"solver": ipywidgets.VBox(), "files": ipywidgets.VBox()}
@@ -369,7 +369,7 @@ class Editor(ClosingWidget, ipywidgets.VBox):
             titles=("Monitor", "Solver", "Files"),
             layout={"min_height": f"{_PLOTS_HEIGHT + 64}px"},
         )
-        self._side.observe(self._fill, ["selected_index"])
+        self._side.observe(lambda _: self._fill(), ["selected_index"])
         line = self.monitor.line
         line.layout.height, line.layout.overflow = "44px", "hidden auto"  # however long it is
         side = ipywidgets.VBox([self._side], layout={"width": f"{_SIDE_WIDTH + 38}px"})
