@@ -357,7 +357,7 @@ class Editor(ClosingWidget, ipywidgets.VBox):
         self.canvas = canvas = DeformCanvas(image, model, **self._asked)
         self.toolbar = Toolbar(self.canvas)
         self.monitor = monitor = SolverMonitor(model, _SIDE_WIDTH, _PLOTS_HEIGHT)
-        # A first drag has the processor before hidden parts; those above the canvas would move it.
+        # A first drag has the processor before what other tabs hide.
         canvas.pane.stage.observe(lambda _: self._fill("pins"), ["drawn"])
         monitor.observe(lambda _: self._fill(), ["rested"])
         self.timeline = TimelinePanel(self.canvas, self._open_files)

@@ -153,7 +153,6 @@ def test_the_tracer_takes_the_room_that_there_is(open_notebook: OpenNotebook) ->
     page.set_viewport_size({"width": 1500, "height": 768})
     page.evaluate("new Promise((go) => requestAnimationFrame(() => requestAnimationFrame(go)))")
     assert float(page.evaluate(zoomed)) > 1.1 * scales[1366]
-    page.set_viewport_size({"width": 1366, "height": 768})
 
 
 def test_nothing_wraps_jumps_or_covers_a_mark(open_notebook: OpenNotebook) -> None:
@@ -163,9 +162,17 @@ def test_nothing_wraps_jumps_or_covers_a_mark(open_notebook: OpenNotebook) -> No
     hand.click((-6.0, 0.0))
     book.wait_for("len(model.pose) == 1")
     bar, keep = page.locator(".glid-timeline .glid-bar"), page.locator(".glid-keep")
-    for width in (1366, 800):
+    numbers = page.locator(".glid-bars")
+    numbers.get_by_label("Depth").wait_for()
+    for width in (1920, 1366, 800):
         page.set_viewport_size({"width": width, "height": 900})
         hand.wait_until_still()
+        # They come after the canvas, which they must not move.
+        kept, taken = numbers.evaluate(
+            """(one) => [parseFloat(getComputedStyle(one, '::before').height),
+              one.lastElementChild.getBoundingClientRect().height]"""
+        )
+        assert box(numbers)[3] == kept >= taken > kept - 34
         heights, left = set(), set()
         for time, label in (("0.00 / 0.00 s", "Keep"), ("23.00 / 23.00 s", "Keep it")):
             page.locator(".glid-time").evaluate("(one, text) => { one.textContent = text; }", time)
@@ -198,3 +205,11 @@ def test_nothing_wraps_jumps_or_covers_a_mark(open_notebook: OpenNotebook) -> No
     depth = page.get_by_label("Depth")
     page.wait_for_function("one => one.value === '100'", arg=depth.element_handle())
     assert depth.evaluate("one => one.scrollWidth <= one.clientWidth")
+
+    # A refusal is as wide as the canvas at most.
+    scale = page.get_by_label("Scale")
+    scale.fill("-1")
+    scale.press("Enter")
+    refusal = page.get_by_text("'-1' is out of range")
+    refusal.wait_for()
+    assert sum(box(refusal)[::2]) <= sum(box(numbers)[::2])
