@@ -389,4 +389,3 @@ def test_what_is_beside_the_canvas_neither_takes_undo_nor_moves_it(
         assert above["y"] + above["height"] < below["y"]
         book.screenshot(f"editor-long-status-{width}")
         book.value("None", setup="editor.monitor.line.value = stage.notice = ''")
-    page.set_viewport_size({"width": 1366, "height": 768})

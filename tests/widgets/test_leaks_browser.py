@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from playwright.sync_api import CDPSession
 
-from ..browser import JupyterServer, NotebookPage
+from ..browser import WINDOW, JupyterServer, NotebookPage
 from .conftest import OpenNotebook
 from .editor_page import EDITOR, SETUP, Hand, line
 
@@ -58,7 +58,7 @@ def check_growth(
 def test_editing_for_long_leaves_nothing_behind(
     open_notebook: OpenNotebook, jupyter: JupyterServer, minutes: float
 ) -> None:
-    book = open_notebook([SETUP, EDITOR], viewport={"width": 1366, "height": 768})
+    book = open_notebook([SETUP, EDITOR], viewport=WINDOW)
     hand, rng = Hand(book), np.random.default_rng(0)
     tabs = book.page.get_by_role("tab", name="Trace"), book.page.get_by_role("tab", name="Deform")
 
@@ -96,7 +96,7 @@ def test_running_the_cell_again_leaves_nothing_behind(
     open_notebook: OpenNotebook, jupyter: JupyterServer
 ) -> None:
     """30 times, with a pin and a drag in each."""
-    book = open_notebook([SETUP, EDITOR], viewport={"width": 1366, "height": 768})
+    book = open_notebook([SETUP, EDITOR], viewport=WINDOW)
     session = book.page.context.new_cdp_session(book.page)
     seen = []
     for count in range(36):
@@ -151,7 +151,7 @@ def test_a_cell_that_is_run_again_does_not_wait_for_its_first_editor(
     open_notebook: OpenNotebook, wait: float
 ) -> None:
     """Whose solver is compiled for a busy picture, for these seconds."""
-    book = open_notebook([BUSY, ""], viewport={"width": 1366, "height": 768})
+    book = open_notebook([BUSY, ""], viewport=WINDOW)
     book.page.evaluate(
         "code => window.jupyterapp.shell.currentWidget.content.model.cells.get(1)"
         ".sharedModel.setSource(code)",
