@@ -11,8 +11,8 @@ from pathlib import Path
 from typing import BinaryIO, Literal
 
 
-def write_bytes_atomically(path: Path, data: bytes) -> None:
-    """Write ``data`` to a temporary file beside ``path``, then rename it over ``path``.
+def write_atomically(path: str | Path, data: bytes | str) -> None:
+    """Write ``data``, text as UTF-8, to a temporary file beside ``path``, then rename it to that.
 
     Links and permissions stay. A file that has other hard links or another owner is overwritten in
     place; if that fails its old content is put back. An OSError names ``path`` or its folder.
@@ -22,7 +22,7 @@ def write_bytes_atomically(path: Path, data: bytes) -> None:
         raise IsADirectoryError(f"{path.absolute()} is a folder; name a file")
     target = Path(os.path.realpath(path))
     try:
-        _replace(target, data)
+        _replace(target, data.encode() if isinstance(data, str) else data)
     except OSError as error:
         raise in_words(error, target if path.is_symlink() else path, "written") from None
 
@@ -70,11 +70,6 @@ def _write(file: BinaryIO, data: bytes) -> None:
     file.truncate()
     file.flush()
     os.fsync(file.fileno())
-
-
-def write_text_atomically(path: Path, text: str) -> None:
-    """:func:`write_bytes_atomically` for UTF-8 text."""
-    write_bytes_atomically(path, text.encode("utf-8"))
 
 
 def zipped(files: Mapping[str, bytes], stored: Collection[str] = ()) -> bytes:

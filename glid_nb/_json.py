@@ -8,7 +8,7 @@ from typing import Any
 
 from glid_nb._arrays import is_finite
 from glid_nb._errors import InputError, InputFileError, did_you_mean
-from glid_nb._files import write_text_atomically
+from glid_nb._files import write_atomically
 
 Check = Callable[[Any, str], None]
 """``check(value, key)`` raises InputFileError if the value is not valid for that key."""
@@ -59,7 +59,7 @@ def read_object(path: str | Path) -> dict[str, Any]:
 
 def write_json(path: str | Path, data: Mapping[str, Any]) -> None:
     """Write an object to a file, atomically: a line for each key."""
-    write_text_atomically(Path(path), json_text(data))
+    write_atomically(path, json_text(data))
 
 
 def json_text(data: Mapping[str, Any]) -> str:

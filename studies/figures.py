@@ -10,7 +10,7 @@ from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from glid_nb._files import write_bytes_atomically
+from glid_nb._files import write_atomically
 from glid_nb.figures.style import CYAN, INK, SMALL, distortion_colors, tidy
 from glid_nb.geometry import Triangulation
 from studies.distortion import densities
@@ -30,7 +30,7 @@ def save(drawn: Figure, path: Path) -> None:
     path.parent.mkdir(parents=True, exist_ok=True)
     buffer = io.BytesIO()
     drawn.savefig(buffer, format="png", facecolor="white", metadata={"Software": None})
-    write_bytes_atomically(path, buffer.getvalue())
+    write_atomically(path, buffer.getvalue())
 
 
 def draw_map(

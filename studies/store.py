@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from glid_nb._files import write_text_atomically
+from glid_nb._files import write_atomically
 from studies.processes import StudyError
 
 Measurement = dict[str, Any]
@@ -37,7 +37,7 @@ class Store:
             result = _plain({"taken": self.here, "of": of, **measure()})
             self.folder.mkdir(parents=True, exist_ok=True)
             text = json.dumps(result, indent=1, allow_nan=False)
-            write_text_atomically(self.folder / f"{name}.json", text + "\n")
+            write_atomically(self.folder / f"{name}.json", text + "\n")
             found = self.kept(name)
             assert found is not None
         return found

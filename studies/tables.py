@@ -12,7 +12,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from glid_nb._files import write_text_atomically
+from glid_nb._files import write_atomically
 
 Row = dict[str, Any]
 """Cells by the name of their column."""
@@ -27,7 +27,7 @@ def write_csv(path: Path, rows: Sequence[Row]) -> None:
     writer = csv.writer(buffer, lineterminator="\n")
     writer.writerow(columns)
     writer.writerows([cell(row.get(name)) for name in columns] for row in rows)
-    write_text_atomically(path, buffer.getvalue())
+    write_atomically(path, buffer.getvalue())
 
 
 def update_page(page: Path, folder: Path) -> None:
@@ -48,7 +48,7 @@ def update_page(page: Path, folder: Path) -> None:
         return f"<!-- table: {place[1]} -->\n\n{markdown(path)}\n<!-- end -->"
 
     text = page.read_text(encoding="utf-8")
-    write_text_atomically(page, _PLACE.sub(filled, text))
+    write_atomically(page, _PLACE.sub(filled, text))
 
 
 def markdown(path: Path) -> str:

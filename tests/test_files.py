@@ -8,13 +8,13 @@ from pathlib import Path
 
 import pytest
 
-from glid_nb._files import write_bytes_atomically, write_text_atomically
+from glid_nb._files import write_atomically
 
 
 def test_text_is_utf8_and_bytes_are_bytes(tmp_path: Path) -> None:
-    write_text_atomically(tmp_path / "a.txt", "λ₁ ≥ 0\n")
+    write_atomically(tmp_path / "a.txt", "λ₁ ≥ 0\n")
     assert (tmp_path / "a.txt").read_bytes() == "λ₁ ≥ 0\n".encode()
-    write_bytes_atomically(tmp_path / "a.txt", b"\x00\r\n")
+    write_atomically(tmp_path / "a.txt", b"\x00\r\n")
     assert (tmp_path / "a.txt").read_bytes() == b"\x00\r\n"
     assert [p.name for p in tmp_path.iterdir()] == ["a.txt"]
 
@@ -23,7 +23,7 @@ def test_text_is_utf8_and_bytes_are_bytes(tmp_path: Path) -> None:
 def test_permissions_are_those_of_a_plain_open(tmp_path: Path, mask: int) -> None:
     before = os.umask(mask)
     try:
-        write_text_atomically(tmp_path / "a.txt", "")
+        write_atomically(tmp_path / "a.txt", "")
         assert os.umask(mask) == mask
     finally:
         os.umask(before)
@@ -35,7 +35,7 @@ def test_an_existing_file_keeps_its_permissions(tmp_path: Path) -> None:
     path.write_text("old")
     for mode in (0o600, 0o666, 0o640):
         path.chmod(mode)
-        write_text_atomically(path, "new")
+        write_atomically(path, "new")
         assert stat.S_IMODE(path.stat().st_mode) == mode
     assert path.read_text() == "new"
 
@@ -46,7 +46,7 @@ def test_a_symbolic_link_stays_one(tmp_path: Path) -> None:
     link.symlink_to(Path("far") / "a.txt")
     chain.symlink_to("link")
     for text in ("made", "replaced"):
-        write_text_atomically(chain, text)
+        write_atomically(chain, text)
         assert file.read_text() == text
     assert link.is_symlink()
     assert chain.is_symlink()
@@ -58,9 +58,9 @@ def test_a_link_that_leads_nowhere_is_an_os_error(tmp_path: Path) -> None:
     link.symlink_to(tmp_path / "nowhere" / "a.txt")
     loop.symlink_to("loop")
     with pytest.raises(FileNotFoundError, match=r"^The folder .*nowhere does not exist$"):
-        write_text_atomically(link, "")
+        write_atomically(link, "")
     with pytest.raises(OSError, match=r"^\S*loop cannot be written: "):
-        write_text_atomically(loop, "")
+        write_atomically(loop, "")
     assert loop.is_symlink()
 
 
@@ -69,7 +69,7 @@ def test_hard_links_stay_one_file(tmp_path: Path) -> None:
     first.write_text("a long old text")
     second.hardlink_to(first)
     first.chmod(0o640)
-    write_text_atomically(second, "new")
+    write_atomically(second, "new")
     assert first.read_text() == "new"
     assert first.samefile(second)
     assert stat.S_IMODE(first.stat().st_mode) == 0o640
@@ -91,7 +91,7 @@ def test_a_hard_link_that_cannot_be_overwritten_keeps_what_was_there(
 
     monkeypatch.setattr("os.fsync", fail_once_in_place)
     with pytest.raises(OSError, match=r"b\.txt cannot be written: No space left"):
-        write_text_atomically(second, "something longer")
+        write_atomically(second, "something longer")
     assert first.read_text() == "old"
     assert len(list(tmp_path.iterdir())) == 2
 
@@ -101,7 +101,7 @@ def test_a_device_stays_one(tmp_path: Path) -> None:
     os.mkfifo(pipe)
     reader = os.open(pipe, os.O_RDONLY | os.O_NONBLOCK)
     try:
-        write_text_atomically(pipe, "new")
+        write_atomically(pipe, "new")
         assert os.read(reader, 10) == b"new"
     finally:
         os.close(reader)
@@ -113,7 +113,7 @@ def test_the_umask_of_the_process_is_left_alone(
 ) -> None:
     """Another thread would make files with permissions that nobody wanted."""
     monkeypatch.delattr("os.umask")
-    write_text_atomically(tmp_path / "a.txt", "")
+    write_atomically(tmp_path / "a.txt", "")
 
 
 @pytest.mark.parametrize("culprit", ["os.fsync", "pathlib.Path.chmod", "pathlib.Path.replace"])
@@ -128,7 +128,7 @@ def test_a_failure_leaves_what_was_there(
 
     monkeypatch.setattr(culprit, fail)
     with pytest.raises(KeyboardInterrupt):
-        write_text_atomically(path, "new")
+        write_atomically(path, "new")
     monkeypatch.undo()
     assert path.read_text() == "old"
     assert [p.name for p in tmp_path.iterdir()] == ["a.txt"]
@@ -137,17 +137,17 @@ def test_a_failure_leaves_what_was_there(
 def test_a_missing_folder_is_an_os_error(tmp_path: Path) -> None:
     folder = tmp_path / "nowhere"
     with pytest.raises(FileNotFoundError) as refusal:
-        write_text_atomically(folder / "a.txt", "")
+        write_atomically(folder / "a.txt", "")
     assert str(refusal.value) == f"The folder {folder} does not exist"
     (tmp_path / "file").touch()
     with pytest.raises(NotADirectoryError, match=r"^The folder .*file does not exist$"):
-        write_text_atomically(tmp_path / "file" / "a.txt", "")
+        write_atomically(tmp_path / "file" / "a.txt", "")
 
 
 @pytest.mark.parametrize("name", ["", "."])
 def test_a_folder_is_no_file(tmp_path: Path, name: str) -> None:
     with pytest.raises(IsADirectoryError, match=r" is a folder; name a file$"):
-        write_text_atomically(tmp_path / name, "")
+        write_atomically(tmp_path / name, "")
     assert list(tmp_path.iterdir()) == []
 
 
@@ -159,7 +159,7 @@ def test_an_error_names_the_file_and_never_a_temporary_one(
 
     monkeypatch.setattr("os.fsync", full)
     with pytest.raises(OSError, match="No space") as refusal:
-        write_text_atomically(tmp_path / "a.txt", "")
+        write_atomically(tmp_path / "a.txt", "")
     expected = f"{tmp_path / 'a.txt'} cannot be written: No space left on device"
     assert str(refusal.value) == expected
     assert list(tmp_path.iterdir()) == []

@@ -12,7 +12,7 @@ import numpy as np
 from glid_nb._arguments import check_type
 from glid_nb._arrays import Array
 from glid_nb._errors import InputError
-from glid_nb._files import write_text_atomically
+from glid_nb._files import write_atomically
 from glid_nb.certificate import rounding
 from glid_nb.certificate.hermite import Hermite
 from glid_nb.certificate.panels import EndValues, PanelBounds, check_tiling, modulus, split
@@ -88,7 +88,7 @@ class Certificate:
 
     def save(self, path: str | Path) -> None:
         """Write the proof file that ``glid-check`` reads; InputError if nothing is certified."""
-        write_text_atomically(Path(path), proof_text(self))
+        write_atomically(path, proof_text(self))
 
 
 def proof_text(certificate: Certificate) -> str:

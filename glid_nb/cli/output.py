@@ -13,7 +13,7 @@ from typing import Any
 
 import glid_nb
 from glid_nb._errors import InputError, InputFileError
-from glid_nb._files import same_file, write_bytes_atomically
+from glid_nb._files import same_file, write_atomically
 from glid_nb._json import json_text
 from glid_nb.certificate.rounding import rounded_down, rounded_up
 
@@ -149,7 +149,7 @@ def finish(
     Raises KeyboardInterrupt after a solve that Ctrl-C stopped, InputError where nothing is proved.
     """
     for path, data in files.items():
-        write_bytes_atomically(path, data.encode() if isinstance(data, str) else data)
+        write_atomically(path, data)
     if as_json:
         short = {key: value for key, value in report.items() if key not in _LONG}
         print(json.dumps({**extra, **short, "files": {path.name: str(path) for path in files}}))

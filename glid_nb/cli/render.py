@@ -10,7 +10,7 @@ from pathlib import Path
 
 import glid_nb
 from glid_nb._errors import InputFileError, about
-from glid_nb._files import write_bytes_atomically
+from glid_nb._files import write_atomically
 from glid_nb._json import read_object
 from glid_nb.cli.output import check_files, step
 
@@ -47,7 +47,7 @@ def run(chosen: argparse.Namespace) -> None:
     size = tuple(chosen.size or own)
     with about(chosen.map), step("rendering"):
         picture = glid_nb.export.picture_png(image, harmonic_map, size, chosen.view, pose)
-    write_bytes_atomically(chosen.out, picture)
+    write_atomically(chosen.out, picture)
     print(f"{chosen.out}: {size[0]} x {size[1]} pixels")
 
 

@@ -8,7 +8,7 @@ from numpy.typing import ArrayLike
 
 from glid_nb._arguments import check_type
 from glid_nb._errors import InputError
-from glid_nb._files import write_bytes_atomically
+from glid_nb._files import write_atomically
 from glid_nb.export import encode
 from glid_nb.export.encode import RGB
 from glid_nb.export.formats import file_names, suffix_of
@@ -45,7 +45,7 @@ def animate(
     if files and not path.suffix:
         path.mkdir(exist_ok=True)
     for name, data in files.items():
-        write_bytes_atomically(path.parent / name, data)
+        write_atomically(path.parent / name, data)
     return tuple(path.parent / name for name in files)
 
 

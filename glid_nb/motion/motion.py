@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike
 
 from glid_nb._arrays import Array, number_pairs, read_only
 from glid_nb._errors import about
-from glid_nb._files import same_file, write_text_atomically
+from glid_nb._files import same_file, write_atomically
 from glid_nb._runtime import single_blas_thread
 from glid_nb.certificate.pieces import PieceCertificate, certify_pieces
 from glid_nb.certificate.rounding import rounded_down
@@ -271,7 +271,7 @@ class Motion:
         if proof is not None and same_file(Path(path), Path(proof)):
             raise MotionError(f"the proof would overwrite the motion in {path}; name another file")
         for to, text in zip(paths, self.texts(proof is not None), strict=True):
-            write_text_atomically(Path(to), text)
+            write_atomically(to, text)
 
     def texts(self, proof: bool = True) -> tuple[str, ...]:
         """What :meth:`save` writes; MotionError if there is no proof."""

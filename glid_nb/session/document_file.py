@@ -16,7 +16,7 @@ from PIL import Image
 
 from glid_nb import _json, methods
 from glid_nb._errors import InputFileError, about
-from glid_nb._files import in_words, write_bytes_atomically, zipped
+from glid_nb._files import in_words, write_atomically, zipped
 from glid_nb.certificate import certificate_of
 from glid_nb.energies import CustomEnergy, energy_by_name
 from glid_nb.geometry import Domain, as_points
@@ -61,7 +61,7 @@ _last: tuple[weakref.ref[NDArray[np.uint8]], bytes] | None = None
 
 def save_document(document: Document, path: str | Path) -> None:
     """Write `document_bytes` to a file, atomically: if that fails, what was there before stays."""
-    write_bytes_atomically(Path(path), document_bytes(document))
+    write_atomically(Path(path), document_bytes(document))
 
 
 def document_bytes(document: Document) -> bytes:

@@ -9,7 +9,7 @@ from typing import Any
 import ipywidgets
 
 from glid_nb import export as to
-from glid_nb._files import write_bytes_atomically, zipped
+from glid_nb._files import write_atomically, zipped
 from glid_nb._json import json_text
 from glid_nb._runtime import data_directory
 from glid_nb.certificate.certify import proof_text
@@ -125,7 +125,7 @@ def write(
     if not replace:
         check_free(model, list(new), owner)
     for path, data in new.items():
-        write_bytes_atomically(path, data)
+        write_atomically(path, data)
     model.own_files.note(contents, owner)
     return list(contents)
 
@@ -150,7 +150,7 @@ def remember_export(choices: Mapping[str, Any]) -> None:
     path = _last_export()
     with contextlib.suppress(OSError):  # the export itself needs no such folder
         path.parent.mkdir(parents=True, exist_ok=True)
-        write_bytes_atomically(path, json_text(choices).encode())
+        write_atomically(path, json_text(choices))
 
 
 def _last_export() -> Path:

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from PIL import Image
 
 from glid_nb import samples
-from glid_nb._files import write_bytes_atomically
+from glid_nb._files import write_atomically
 
 
 def draw(name: str) -> NDArray[np.uint8]:
@@ -43,7 +43,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
         parser.error(str(error))
     for place in places:
         file = place if given.out is None else given.out / place.name
-        write_bytes_atomically(file, png(draw(place.stem)))
+        write_atomically(file, png(draw(place.stem)))
         print(file)
 
 
