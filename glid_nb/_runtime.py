@@ -159,9 +159,9 @@ _COMPILING = tuple(f"/jax/core/compile/{stage}_duration" for stage in _STAGES)
 class CompilationClock:
     """Counts the programs that JAX traces, lowers, and compiles or loads, and the seconds of it."""
 
+    programs, seconds = 0, 0.0
+
     def __init__(self) -> None:
-        self.programs = 0
-        self.seconds = 0.0
         jax.monitoring.register_event_duration_secs_listener(self._listen)
 
     def _listen(self, event: str, duration_secs: float, **_: str | int) -> None:

@@ -71,7 +71,6 @@ class Autosave:
         """The file that was given up because another program changed it."""
         self.error: Exception | None = None
         """What went wrong with the last save; None when it went well."""
-        self.n_saved = 0
         self._writing = threading.RLock()
         self.own.note_session(self.path)
         name = f"autosave {self.path.name}"
@@ -109,7 +108,6 @@ class Autosave:
                 self._write(document)
                 if self.own.session == self.left:
                     self.own.session = self.path
-                self.n_saved += 1
             except Exception as error:  # reported; the next submission tries again
                 self.error = error
         if self._on_done is not None:

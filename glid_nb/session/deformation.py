@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Callable, Iterable, Sequence
+from contextlib import AbstractContextManager
 from dataclasses import replace
 from numbers import Real
 from typing import Any, Concatenate, ParamSpec
@@ -40,7 +41,7 @@ def _step(
     return method
 
 
-class Deformation(Undoable[EditState]):
+class Deformation(Undoable[EditState], AbstractContextManager["Deformation"]):
     """A domain being deformed: its state, its undo history, and a thread that solves.
 
     Every method may be called from any thread. ``observe`` reports changes by name: ``"state"``
@@ -392,9 +393,6 @@ class Deformation(Undoable[EditState]):
             self._closed = True
             self._observers.clear()
         self._worker.close()
-
-    def __enter__(self) -> Deformation:
-        return self
 
     def __exit__(self, *_: object) -> None:
         self.close()

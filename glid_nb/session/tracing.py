@@ -332,7 +332,8 @@ class TracingModel(Undoable[TracingState]):
         else:
             if loops is None:
                 loops, cage = tracing.cage.loops, tracing.cage
-            elif not _shares_vertices(loops, tracing.cage.loops):
+            # Loops that were drawn anew have no vertex of the traced ones.
+            elif _vertices(loops).isdisjoint(_vertices(tracing.cage.loops)):
                 tracing = None
         try:
             cage = Cage(loops[0], loops[1:]) if cage is None else cage
@@ -365,10 +366,8 @@ class TracingModel(Undoable[TracingState]):
         return frame
 
 
-def _shares_vertices(loops: AnyLoops, others: AnyLoops) -> bool:
-    """Whether loops have a common vertex: those that were drawn anew have none with traced ones."""
-    known = {tuple(vertex) for loop in others for vertex in loop.tolist()}
-    return any(tuple(vertex) in known for loop in loops for vertex in loop.tolist())
+def _vertices(loops: AnyLoops) -> set[tuple[float, ...]]:
+    return {tuple(vertex) for loop in loops for vertex in loop.tolist()}
 
 
 def _problem(error: TraceError | GeometryError, frame: PixelFrame) -> TracingFault:

@@ -140,7 +140,10 @@ class Pane(ClosingWidget, ipywidgets.GridBox):
         with stage.hold_sync():
             stage.materials = scene.materials
             stage.coefficients = self._wire()
-            stage.marks = marks_of(drawing)
+            # Rounded to what a screen can show.
+            at = {key: np.round(getattr(drawing, key), 5).tolist() for key in ("targets", "images")}
+            chosen = {"selected": list(drawing.selected), "ring": drawing.ring}
+            stage.marks = {**at, **chosen, "hidden": np.flatnonzero(drawing.hidden).tolist()}
             stage.legend = legend(drawing.overlay, drawing.energy, scene.color_range)
             stage.panel_legend = PANEL_LEGEND if panels else {}
         if old is not scene:
@@ -211,10 +214,3 @@ def emptiest_corner(points: Any, width: int, height: int, bars: int = 1) -> str:
         return int(((across < _LEGEND_SIZE[0]) & (up < bars * _LEGEND_SIZE[1])).sum())
 
     return min(CORNERS, key=hidden)  # the first of equals
-
-
-def marks_of(drawing: Drawing) -> dict[str, Any]:
-    """The trait ``marks``: points rounded to what a screen can show."""
-    points = {name: np.round(getattr(drawing, name), 5).tolist() for name in ("targets", "images")}
-    hidden = np.flatnonzero(drawing.hidden).tolist()
-    return {**points, "selected": list(drawing.selected), "hidden": hidden, "ring": drawing.ring}

@@ -169,7 +169,7 @@ def test_work_survives_a_restart_of_the_kernel(open_notebook: OpenNotebook) -> N
     book.value("None", setup="model.paused = True")
     page.locator(".glid-pad").click(position={"x": 280, "y": 200})
     book.wait_for(
-        "len(editor.pose) == 1 and editor.model._autosave and editor.model._autosave.n_saved"
+        "len(editor.pose) == 1 and editor.model._autosave and editor.model._autosave.path.exists()"
     )
     page.evaluate(RESTART)
     page.locator(".glid-editor.jupyter-widgets-disconnected").wait_for()
