@@ -323,11 +323,11 @@ class Editor(ClosingWidget, ipywidgets.VBox):
         if self._displayed and self.model.has_shape:
             self.deformation.begin()
 
-    def _fill(self, *names: str) -> None:
-        """Make these parts, or all, where they are still missing."""
+    def _fill(self) -> None:
+        """Make the parts that are still missing."""
         with self.model.locked():
             if not self._closed:
-                for name in names or self._boxes:
+                for name in self._boxes:
                     self._part(name)
 
     def _part(self, name: str) -> Any:
@@ -354,11 +354,10 @@ class Editor(ClosingWidget, ipywidgets.VBox):
     def _deform_tab(self) -> ipywidgets.Widget:
         model, image = self.model.deformation, self.model.image
         assert image is not None
-        self.canvas = canvas = DeformCanvas(image, model, **self._asked)
+        self.canvas = DeformCanvas(image, model, **self._asked)
         self.toolbar = Toolbar(self.canvas)
         self.monitor = monitor = SolverMonitor(model, _SIDE_WIDTH, _PLOTS_HEIGHT)
-        # A first drag has the processor before what other tabs hide.
-        canvas.pane.stage.observe(lambda _: self._fill("pins"), ["drawn"])
+        # A first drag has the processor before the numbers and what other tabs hide.
         monitor.observe(lambda _: self._fill(), ["rested"])
         self.timeline = TimelinePanel(self.canvas, self._open_files)
         # Boxes to be filled: if the children changed, the page would select another tab.
