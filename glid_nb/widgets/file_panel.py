@@ -16,7 +16,7 @@ from glid_nb.export.formats import FORMATS, MOTION_FORMATS, file_names
 from glid_nb.imaging.read import MAX_SIDE, png
 from glid_nb.session.animation import Animation
 from glid_nb.session.document import DocumentError
-from glid_nb.session.editor_model import EditorModel
+from glid_nb.session.editor_model import EditorModel, open_document
 from glid_nb.session.script import python_code
 from glid_nb.widgets import exporting
 from glid_nb.widgets.controls import REFUSED, button, paragraph
@@ -134,8 +134,7 @@ class FilePanel(ipywidgets.VBox):
         self.width = ipywidgets.BoundedIntText(width, min=1, max=most, **look)
         """Width of an exported picture in pixels, at first the original's."""
         self._height = ipywidgets.Label(layout={"flex": "0 0 auto"})
-        tooltip = "What the picture shows"
-        self.view = ipywidgets.Dropdown(options=_VIEWS, tooltip=tooltip, layout=_WIDE)
+        self.view = ipywidgets.Dropdown(options=_VIEWS, tooltip="What it shows", layout=_WIDE)
         """What an exported picture shows, as in `glid_nb.render`."""
         self._picture = _row("Picture", self.width, self._height, self.view)
         self.code = ipywidgets.Textarea(rows=9, layout={"width": "auto", "display": "none"})
@@ -226,6 +225,7 @@ class FilePanel(ipywidgets.VBox):
     def _open(self, sure: bool) -> str:
         path = existing_path(self.path.value)
         if self.model.unsaved and not sure:
+            open_document(path)  # what cannot be opened needs no answer
             raise _UnsavedError(_UNSAVED)
         self.model.load(path)
         return f"Opened {path.absolute()}"

@@ -180,7 +180,13 @@ def test_opening_asks_before_it_discards(panel: FilePanel, tmp_path: Path) -> No
     panel.model.deformation.add_handle(
         panel.model.deformation.state.domain.cage.exterior.mean(axis=0)
     )
-    count = len(panel.model.deformation.pose)
+    count, there = len(panel.model.deformation.pose), panel.path.value
+    Path("wrong.glid").write_bytes(THEIRS)
+    for wrong, said in (("none.glid", "does not exist"), ("wrong.glid", "is not a saved session")):
+        panel.path.value = wrong
+        assert said in click(panel, panel.open_button)
+        assert panel.open_button.description == "Open"
+    panel.path.value = there
     assert "in no file yet" in click(panel, panel.open_button)
     assert panel.open_button.description == "Discard?"
     assert len(panel.model.deformation.pose) == count
