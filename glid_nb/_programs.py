@@ -10,6 +10,7 @@ import hashlib
 import os
 import pickle
 import threading
+import time
 import uuid
 import zlib
 from collections import defaultdict
@@ -20,13 +21,17 @@ from typing import Any
 
 import numpy as np
 
-from glid_nb._files import write_bytes_atomically
+from glid_nb._files import write_atomically
 from glid_nb._jax import jax, serialize_executable
 from glid_nb._runtime import COMPILER_OPTIONS, jax_option, stage
+
+_UNUSED = 60.0  # seconds
 
 
 class Program:
     """A function compiled once for each kind of arguments, also where several threads want it.
+
+    One in a file that was not used for a while leaves the memory, 15 MB, when another comes.
 
     The call takes its argument number ``donated``. ``may_keep(*arguments)`` says whether their
     types and our own code tell what is compiled.
@@ -36,18 +41,20 @@ class Program:
         self, function: Callable[..., Any], donated: int, may_keep: Callable[..., bool]
     ) -> None:
         self._function, self._donated, self._may_keep = function, donated, may_keep
-        self._ready: dict[Any, Any] = {}
+        self._ready, self._last_use = dict[Any, Any](), dict[Any, float]()  # of those in files
         self._locks: defaultdict[Any, threading.Lock] = defaultdict(threading.Lock)
 
     def __call__(self, *arguments: Any) -> Any:
         leaves, tree = jax.tree.flatten(arguments)
         device = jax_option("jax_default_device") or jax.local_devices()[0]
         key = (device, tree, *map(jax.typeof, leaves))
-        if key not in self._ready:
+        if (ready := self._ready.get(key)) is None:
             with self._locks[key]:  # a second thread waits for what the first compiles
-                if key not in self._ready:
-                    self._ready[key] = self._loaded_or_made(key, arguments)
-        return self._ready[key](*arguments)
+                if (ready := self._ready.get(key)) is None:
+                    ready = self._ready[key] = self._loaded_or_made(key, arguments)
+        if key in self._last_use:
+            self._last_use[key] = time.monotonic()
+        return ready(*arguments)
 
     def _loaded_or_made(self, key: Any, arguments: Any) -> Any:
         folder = jax_option("jax_compilation_cache_dir")
@@ -56,6 +63,8 @@ class Program:
             lowered = self._lowered(arguments, "")
             stage("compile")
             return lowered.compile()
+        self._forget_unused()
+        self._last_use[key] = time.monotonic()
         known_as = Path(folder) / f"glid_nb-arguments-{_digest(repr((_files(), key)))}"
         if known_as.is_file() and (known := _kept(Path(folder) / known_as.read_text())):
             return known
@@ -70,9 +79,15 @@ class Program:
             kept = lowered.compile()
             content = zlib.compress(pickle.dumps(serialize_executable.serialize(kept)), 1)
             path.parent.mkdir(parents=True, exist_ok=True)
-            write_bytes_atomically(path, hashlib.sha256(content).digest() + content)
-        write_bytes_atomically(known_as, path.name.encode())
+            write_atomically(path, hashlib.sha256(content).digest() + content)
+        write_atomically(known_as, path.name)
         return kept
+
+    def _forget_unused(self) -> None:
+        for key, at in list(self._last_use.items()):
+            if at < time.monotonic() - _UNUSED:
+                self._ready.pop(key, None)
+                self._last_use.pop(key, None)
 
     def _lowered(self, arguments: Any, name: str) -> Any:
         def program(*arguments: Any) -> Any:

@@ -115,3 +115,24 @@ def test_whoever_watches_can_end_it() -> None:
     with pytest.raises(Ended), watched(end):
         program(ONES, ONES)
     assert stages(program, ONES, ONES) == ["trace", "lower", "compile"]
+
+
+def test_what_was_not_used_for_long_leaves_the_memory_if_it_is_in_a_file(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    now = 0.0
+    monkeypatch.setattr(_programs.time, "monotonic", lambda: now)
+    program = Program(double, donated=1, may_keep=lambda x, _: len(x) != 3)
+    threes, twos, ones = ((ONES[:n], ONES[:n]) for n in (3, 2, 1))
+    for arguments in (threes, twos):
+        assert stages(program, *arguments) == ["trace", "lower", "compile"]
+    now = 50.0
+    assert stages(program, *ones) == ["trace", "lower", "compile"]
+    assert stages(program, *twos) == []
+    now = 105.0  # the two were used 55 seconds ago
+    assert stages(program, ONES[:1], ONES) == ["trace", "lower", "compile"]
+    assert stages(program, *twos) == stages(program, *threes) == []
+    now = 120.0
+    assert stages(program, ONES[:1], ONES[:2]) == ["trace", "lower", "compile"]
+    assert stages(program, *twos) == stages(program, *threes) == []
+    assert stages(program, *ones) == ["load"]

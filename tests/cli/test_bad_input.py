@@ -11,7 +11,7 @@ import pytest
 from PIL import Image
 
 import glid_nb
-from glid_nb._files import write_bytes_atomically
+from glid_nb._files import write_atomically
 
 
 def assert_refused(outcome, *parts: object) -> None:
@@ -234,7 +234,7 @@ def test_an_interrupted_write_leaves_what_was_there(tmp_path: Path, monkeypatch)
 
     monkeypatch.setattr(Path, "replace", interrupted)
     with pytest.raises(KeyboardInterrupt):
-        write_bytes_atomically(path, b"new")
+        write_atomically(path, b"new")
     assert path.read_text() == "precious"
     assert list(tmp_path.iterdir()) == [path]
 
