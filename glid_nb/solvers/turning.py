@@ -32,6 +32,7 @@ _LEAST_STRAIN, _SMALL = 1e-6, 1e-6  # so that rigid motions cost something; a ti
 _STAGE, _ALIKE = np.deg2rad(60), np.deg2rad(20)
 _SQUEEZED, _STRAIGHT, _WOUND = 0.95, np.deg2rad(10), np.deg2rad(110)
 _BENT = np.deg2rad(40)  # lines that turn by less, or nearly by half a circle, make no arc
+_coarse_mesh = functools.lru_cache(maxsize=4)(triangulate)  # for all handles of a cage
 MOST_TURNED = 3  # lines, or groups of them, that are turned the other way round
 Stages = list[tuple[float, Pose]]  # times from 0 to 1, and targets on the way from the handles
 
@@ -152,11 +153,9 @@ def _tree(domain: Domain, handles: bytes) -> tuple[int, list[tuple[int, int, sli
     The ways follow the edges of a coarse mesh. Kept, for a drag asks for the same handles again.
     """
     points = np.frombuffer(handles).reshape(-1, 2)
-    mesh = triangulate(domain.cage, _VERTICES)
+    mesh = _coarse_mesh(domain.cage, _VERTICES)
     nearest = cdist(points, mesh.vertices).argmin(axis=1)
-    lengths, before = csgraph.dijkstra(
-        mesh.graph, directed=False, indices=nearest, return_predecessors=True
-    )
+    lengths, before = csgraph.dijkstra(mesh.graph, indices=nearest, return_predecessors=True)
     distances = np.maximum(lengths[:, nearest], cdist(points, points))
     root = int(np.argmin(distances.sum(axis=0)))
     tree = csgraph.minimum_spanning_tree(distances)

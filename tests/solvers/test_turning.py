@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from glid_nb.geometry import Cage, Domain
+from glid_nb.geometry import Cage, Domain, meshes
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.solvers import Options, Pose, solve
 from glid_nb.solvers.problem import aligned
@@ -130,3 +130,17 @@ def test_a_line_is_squeezed_where_its_targets_are_closer_and_it_stays_straight()
     for factor, expected in ((0.8, True), (1.0, False), (1.2, False)):
         turning = turning_of(identity, Pose(handles, factor * handles))
         assert [line.squeezed for line in turning.lines] == [expected] * 2
+
+
+def test_other_handles_of_a_shape_need_no_other_mesh(monkeypatch: pytest.MonkeyPatch) -> None:
+    made, delaunay = list[int](), meshes._constrained_delaunay
+
+    def counted(vertices: np.ndarray, loops: list[np.ndarray]) -> np.ndarray:
+        made.append(len(vertices))
+        return delaunay(vertices, loops)
+
+    monkeypatch.setattr(meshes, "_constrained_delaunay", counted)
+    identity = HarmonicMap.identity(Domain.from_cage(Cage([[0, 0], [3, 0], [3, 1], [0, 1]])))
+    for handles in ([[1, 0.5]], [[1, 0.5], [2, 0.5]], [[2, 0.5], [2.5, 0.4]]):
+        turning_of(identity, Pose(handles, handles))
+    assert len(made) == 1
