@@ -25,7 +25,7 @@ from glid_nb._files import write_atomically
 from glid_nb._jax import jax, serialize_executable
 from glid_nb._runtime import COMPILER_OPTIONS, jax_option, stage
 
-_UNUSED = 60.0  # seconds
+_UNUSED = 30.0  # seconds
 
 
 class Program:

@@ -126,13 +126,13 @@ def test_what_was_not_used_for_long_leaves_the_memory_if_it_is_in_a_file(
     threes, twos, ones = ((ONES[:n], ONES[:n]) for n in (3, 2, 1))
     for arguments in (threes, twos):
         assert stages(program, *arguments) == ["trace", "lower", "compile"]
-    now = 50.0
+    now = 25.0
     assert stages(program, *ones) == ["trace", "lower", "compile"]
     assert stages(program, *twos) == []
-    now = 105.0  # the two were used 55 seconds ago
+    now = 50.0  # those were used 25 seconds ago
     assert stages(program, ONES[:1], ONES) == ["trace", "lower", "compile"]
     assert stages(program, *twos) == stages(program, *threes) == []
-    now = 120.0
+    now = 58.0
     assert stages(program, ONES[:1], ONES[:2]) == ["trace", "lower", "compile"]
     assert stages(program, *twos) == stages(program, *threes) == []
     assert stages(program, *ones) == ["load"]

@@ -332,8 +332,7 @@ class TracingModel(Undoable[TracingState]):
         else:
             if loops is None:
                 loops, cage = tracing.cage.loops, tracing.cage
-            # Loops that were drawn anew have no vertex of the traced ones.
-            elif _vertices(loops).isdisjoint(_vertices(tracing.cage.loops)):
+            elif _vertices(loops).isdisjoint(_vertices(tracing.cage.loops)):  # drawn anew
                 tracing = None
         try:
             cage = Cage(loops[0], loops[1:]) if cage is None else cage
