@@ -63,16 +63,16 @@ def test_editing_for_long_leaves_nothing_behind(
     tabs = book.page.get_by_role("tab", name="Trace"), book.page.get_by_role("tab", name="Deform")
 
     def act() -> None:
-        handles = hand.handles
+        targets = hand.targets
         what = rng.choice(["drag", "drag", "drag", "pin", "keys", "wheel", "tabs"])
-        if what == "pin" or not handles:
+        if what == "pin" or not targets:
             hand.click(rng.uniform([-7, -1.5], [7, 1.5]).tolist())
         elif what == "drag":
-            chosen = hand.targets[rng.integers(len(handles))]
+            chosen = targets[rng.integers(len(targets))]
             to = np.add(chosen, rng.normal(size=2)).clip([-8, -4], [8, 4])
             hand.drag(line(chosen, to.tolist(), 12))
         elif what == "keys":
-            many = "Delete" if len(handles) > 6 else "ArrowUp"
+            many = "Delete" if len(targets) > 6 else "ArrowUp"
             for key in ("Control+z", "Control+z", "Control+Shift+z", many):
                 book.page.keyboard.press(key)
         elif what == "wheel":
