@@ -12,7 +12,7 @@ from typing import BinaryIO, Literal
 
 
 def write_atomically(path: str | Path, data: bytes | str) -> None:
-    """Write ``data``, text as UTF-8, to a temporary file beside ``path``, then rename it to that.
+    """Write ``data``, text as UTF-8, to a file beside ``path`` that is then renamed over it.
 
     Links and permissions stay. A file that has other hard links or another owner is overwritten in
     place; if that fails its old content is put back. An OSError names ``path`` or its folder.

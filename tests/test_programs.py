@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import threading
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import jax
@@ -121,7 +122,7 @@ def test_what_was_not_used_for_long_leaves_the_memory_if_it_is_in_a_file(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     now = 0.0
-    monkeypatch.setattr(_programs.time, "monotonic", lambda: now)
+    monkeypatch.setattr(_programs, "time", SimpleNamespace(monotonic=lambda: now))
     program = Program(double, donated=1, may_keep=lambda x, _: len(x) != 3)
     threes, twos, ones = ((ONES[:n], ONES[:n]) for n in (3, 2, 1))
     for arguments in (threes, twos):

@@ -61,7 +61,7 @@ _last: tuple[weakref.ref[NDArray[np.uint8]], bytes] | None = None
 
 def save_document(document: Document, path: str | Path) -> None:
     """Write `document_bytes` to a file, atomically: if that fails, what was there before stays."""
-    write_atomically(Path(path), document_bytes(document))
+    write_atomically(path, document_bytes(document))
 
 
 def document_bytes(document: Document) -> bytes:

@@ -332,7 +332,8 @@ class TracingModel(Undoable[TracingState]):
         else:
             if loops is None:
                 loops, cage = tracing.cage.loops, tracing.cage
-            elif _vertices(loops).isdisjoint(_vertices(tracing.cage.loops)):  # drawn anew
+            # Loops that were drawn anew have no vertex of the traced ones.
+            elif _vertices(loops).isdisjoint(_vertices(tracing.cage.loops)):
                 tracing = None
         try:
             cage = Cage(loops[0], loops[1:]) if cage is None else cage

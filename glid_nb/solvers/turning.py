@@ -32,9 +32,9 @@ _LEAST_STRAIN, _SMALL = 1e-6, 1e-6  # so that rigid motions cost something; a ti
 _STAGE, _ALIKE = np.deg2rad(60), np.deg2rad(20)
 _SQUEEZED, _STRAIGHT, _WOUND = 0.95, np.deg2rad(10), np.deg2rad(110)
 _BENT = np.deg2rad(40)  # lines that turn by less, or nearly by half a circle, make no arc
-_coarse_mesh = functools.lru_cache(maxsize=4)(triangulate)  # for all handles of a cage
 MOST_TURNED = 3  # lines, or groups of them, that are turned the other way round
 Stages = list[tuple[float, Pose]]  # times from 0 to 1, and targets on the way from the handles
+_coarse_mesh = functools.lru_cache(maxsize=4)(triangulate)  # for all handles of a cage
 
 
 class Link(NamedTuple):

@@ -140,6 +140,7 @@ class Pane(ClosingWidget, ipywidgets.GridBox):
         with stage.hold_sync():
             stage.materials = scene.materials
             stage.coefficients = self._wire()
+            # Rounded to what a screen can show.
             at = {key: np.round(getattr(drawing, key), 5).tolist() for key in ("targets", "images")}
             chosen = {"selected": list(drawing.selected), "ring": drawing.ring}
             stage.marks = {**at, **chosen, "hidden": np.flatnonzero(drawing.hidden).tolist()}
