@@ -69,8 +69,9 @@ def draw(cases: list[Measurement], folder: Path) -> None:
             _draw_folds(axes, data, name)
             found = data["methods"][name]
             count = f"{found['flips']:,} flipped, {percent(found['share'])}"
-            title = f"{data['name']}, {METHODS[name][0]}\n{count}"
-            axes.set_title(title, fontsize=SMALL)
+            label = METHODS[name][0].replace(" weights", "\nweights")
+            axes.set_title(f"{label}\n{count}" if data is cases[0] else count, fontsize=SMALL)
+        row[0].annotate(data["name"], (-0.1, 0.5), xycoords="axes fraction", ha="right")
     figures.save(figure, folder / "folding.png")
 
 

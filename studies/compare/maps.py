@@ -113,7 +113,7 @@ def _rows(found: list[Measurement], settings: Mapping[str, Setting]) -> list[Row
 
 
 def _bounds(values: list[float | None]) -> str:
-    return ", ".join(f"{value:.2g}" for value in values if value is not None)
+    return ", ".join(f"{value if value > 1e-9 else 0:.2g}" for value in values if value is not None)
 
 
 def _draw(name: str, settings: Mapping[str, Setting], data: Measurement, folder: Path) -> None:
@@ -127,8 +127,9 @@ def _draw(name: str, settings: Mapping[str, Setting], data: Measurement, folder:
         pose = np.hstack([arrays["targets"], arrays[f"reached_{key}"]])
         mesh = Triangulation(arrays["display"], arrays["display_triangles"], 0)
         colors = figures.draw_map(ax, mesh, arrays[f"images_{key}"], pose, most)
-        distortion = f"mean {row['mean of E_iso']}, maximum {row['its maximum']}"
-        ax.set_title(f"{row['map']}\n{distortion}\nproved: {row['proved']}", fontsize=SMALL)
+        told = f"E_iso: mean {row['mean of E_iso']}, maximum {row['its maximum']}"
+        told += f"\nk, sigma_1, sigma_2 proved: {row['proved']}"
+        ax.set_title(f"{row['map']}\n{told}", fontsize=SMALL)
     figures.color_bar(figure, colors, axes, "symmetric Dirichlet density")
     figures.save(figure, folder / f"{name}.png")
 
