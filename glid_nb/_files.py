@@ -10,6 +10,8 @@ from collections.abc import Collection, Mapping
 from pathlib import Path
 from typing import BinaryIO, Literal
 
+from glid_nb._errors import InputFileError
+
 
 def write_atomically(path: str | Path, data: bytes | str) -> None:
     """Write ``data``, text as UTF-8, to a file beside ``path`` that is then renamed over it.
@@ -17,14 +19,15 @@ def write_atomically(path: str | Path, data: bytes | str) -> None:
     Links and permissions stay. A file that has other hard links or another owner is overwritten in
     place; if that fails its old content is put back. An OSError names ``path`` or its folder.
     """
-    path = Path(path)
-    if path.is_dir():
-        raise IsADirectoryError(f"{path.absolute()} is a folder; name a file")
+    path = path_of(path)
     target = Path(os.path.realpath(path))
     try:
+        if path.is_dir():
+            raise IsADirectoryError(errno.EISDIR, "it is a folder; name a file")
         _replace(target, data.encode() if isinstance(data, str) else data)
     except OSError as error:
-        raise in_words(error, target if path.is_symlink() else path, "written") from None
+        linked = os.path.islink(path)  # noqa: PTH114 - Path's may raise
+        raise in_words(error, target if linked else path, "written") from None
 
 
 def _replace(target: Path, data: bytes) -> None:
@@ -86,6 +89,28 @@ def same_file(path: Path, other: Path) -> bool:
     """Whether two paths name one file, by whatever link, or will once it is made."""
     linked = path.is_file() and other.exists() and path.samefile(other)
     return linked or os.path.realpath(path) == os.path.realpath(other)
+
+
+def read_file(path: str | os.PathLike[str], most: int | None = None) -> bytes:
+    """The bytes of a file; an InputFileError over ``most``, an OSError that names the file."""
+    path = path_of(path)
+    try:
+        if most is not None and (size := path.stat().st_size) > most:
+            raise InputFileError(f"the file has {size:,} bytes; {most:,} are allowed")
+        return path.read_bytes()
+    except OSError as error:
+        raise in_words(error, path, "read") from None
+
+
+def path_of(name: str | os.PathLike[str]) -> Path:
+    """A path that can be a file's; an InputFileError for a null byte or half a character."""
+    try:
+        possible = b"\0" not in os.fsencode(name)
+    except UnicodeEncodeError:
+        possible = False
+    if not possible:
+        raise InputFileError(f"{str(name)!r:.80} has a character that no file's name can have")
+    return Path(name)
 
 
 def in_words(error: OSError, path: Path, done: Literal["read", "written"]) -> OSError:

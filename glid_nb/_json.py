@@ -8,7 +8,7 @@ from typing import Any
 
 from glid_nb._arrays import is_finite
 from glid_nb._errors import InputError, InputFileError, did_you_mean
-from glid_nb._files import write_atomically
+from glid_nb._files import read_file, write_atomically
 
 Check = Callable[[Any, str], None]
 """``check(value, key)`` raises InputFileError if the value is not valid for that key."""
@@ -44,9 +44,10 @@ def parse_json(raw: bytes, name: str, kind: str = "a JSON file", *, nan: bool = 
 
 def read_json(path: str | Path) -> Any:
     """The JSON value in a file; InputFileError for a folder or other content, OSError for none."""
-    if Path(path).is_dir():
-        raise InputFileError(f"{path} is a folder; name a file")
-    return parse_json(Path(path).read_bytes(), str(path))
+    try:
+        return parse_json(read_file(path), str(path))
+    except IsADirectoryError:
+        raise InputFileError(f"{path} is a folder; name a file") from None
 
 
 def read_object(path: str | Path) -> dict[str, Any]:

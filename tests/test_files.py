@@ -8,6 +8,8 @@ from pathlib import Path
 
 import pytest
 
+import glid_nb
+from glid_nb import InputError
 from glid_nb._files import write_atomically
 
 
@@ -163,3 +165,22 @@ def test_an_error_names_the_file_and_never_a_temporary_one(
     expected = f"{tmp_path / 'a.txt'} cannot be written: No space left on device"
     assert str(refusal.value) == expected
     assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize("name", ["a\0b.json", "\ud800.json"])
+def test_a_name_that_no_file_can_have(name: str) -> None:
+    told = r"\.json' has a character that no file's name can have$"
+    with pytest.raises(InputError, match=told):
+        write_atomically(name, "")
+    for read in (glid_nb.HarmonicMap.load, glid_nb.load_pose, glid_nb.load_document):
+        with pytest.raises(InputError, match=told):
+            read(name)
+
+
+def test_a_name_that_is_too_long() -> None:
+    name = 300 * "x"
+    with pytest.raises(OSError, match="x cannot be written: File name too long"):
+        write_atomically(name, "")
+    for read in (glid_nb.HarmonicMap.load, glid_nb.load_pose, glid_nb.load_document):
+        with pytest.raises(OSError, match="x cannot be read: File name too long"):
+            read(name)

@@ -16,7 +16,7 @@ from PIL import Image
 
 from glid_nb import _json, methods
 from glid_nb._errors import InputFileError, about
-from glid_nb._files import in_words, write_atomically, zipped
+from glid_nb._files import read_file, write_atomically, zipped
 from glid_nb.certificate import certificate_of
 from glid_nb.energies import CustomEnergy, energy_by_name
 from glid_nb.geometry import Domain, as_points
@@ -97,7 +97,7 @@ def load_document(path: str | Path) -> Document:
     A DocumentError names the file and the culprit if it is no valid document.
     """
     with about(path, DocumentError):
-        members = _read_archive(Path(path))
+        members = _read_archive(path)
         for name in (_JSON, _IMAGE):
             if name not in members:
                 raise DocumentError(f"{name} is missing; this is no glid_nb document")
@@ -122,15 +122,8 @@ def load_document(path: str | Path) -> Document:
         return Document(image, domain.cage, domain, options, scribbles, *posed)
 
 
-def _read_archive(path: Path) -> dict[str, bytes]:
-    most = sum(_MOST_BYTES.values()) + _DIRECTORY_BYTES
-    try:
-        size = path.stat().st_size
-        data = path.read_bytes() if size <= most else b""
-    except OSError as error:
-        raise in_words(error, path, "read") from None
-    if size > most:
-        raise InputFileError(f"the file has {size:,} bytes; {most:,} are allowed")
+def _read_archive(path: str | Path) -> dict[str, bytes]:
+    data = read_file(path, most=sum(_MOST_BYTES.values()) + _DIRECTORY_BYTES)
     members: dict[str, bytes] = {}
     try:
         with zipfile.ZipFile(io.BytesIO(data)) as archive:

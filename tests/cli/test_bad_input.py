@@ -86,7 +86,8 @@ def test_a_file_that_is_missing(run, tmp_path: Path, command: str) -> None:
     words = {"render": [missing, *out], "trace": out, "solve": [], "demo": []}[command]
     outcome = run(command, missing, *words)
     assert_refused(outcome, missing)
-    assert "no such file" in outcome.err.lower()
+    told = "no such file" if command == "demo" else "does not exist"
+    assert told in outcome.err.lower()
 
 
 def _picture(path: Path, rgba: np.ndarray) -> Path:

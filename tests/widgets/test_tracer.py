@@ -330,7 +330,7 @@ def test_a_slider_drag_is_one_step(tracer: CageTracer, page: Page) -> None:
 def test_wrong_arguments() -> None:
     with pytest.raises(ValueError, match="not both"):
         CageTracer(DRAWING, model=TracingModel())
-    with pytest.raises(TraceError, match="no such file"):
+    with pytest.raises(TraceError, match="does not exist"):
         CageTracer("nowhere.png")
     assert CageTracer(DRAWING, TraceOptions(offset=2)).options.offset == 2
 
