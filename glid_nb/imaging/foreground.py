@@ -107,13 +107,15 @@ def find_foreground(
 
 def smoothed(foreground: Foreground, sigma: float | None) -> Foreground:
     """The field after a Gaussian filter of `TraceOptions.smoothing`."""
-    score = foreground.score
+    score, automatic = foreground.score, sigma is None
     if sigma is None:
         own = 0.0 if foreground.method in ("alpha", "scribbles") else _SMOOTHING * max(score.shape)
         sigma = own if own >= _LEAST_SMOOTHING else 0.0
     if sigma == 0:
         return foreground
     score = np.asarray(gaussian_filter(score, sigma, mode="nearest", truncate=3.0), np.float32)
+    if automatic and not (score > foreground.level()).any():
+        return foreground  # of a thin shape nothing would be left
     return replace(foreground, score=read_only(score))
 
 

@@ -11,7 +11,8 @@ from numpy.typing import ArrayLike, NDArray
 from PIL import Image, ImageOps, UnidentifiedImageError
 from PIL.TiffImagePlugin import TiffImageFile
 
-from glid_nb._errors import about
+from glid_nb._errors import InputFileError, about
+from glid_nb._files import read_file
 from glid_nb.imaging.frame import TraceError
 
 MAX_SIDE = 8000  # longest side in pixels that is accepted
@@ -146,13 +147,10 @@ def _bytes_of(path: str | os.PathLike[str]) -> bytes:
         scheme, rest = address.groups()  # a Path keeps one slash of two
         what = f"{scheme}://{rest} is an address, and only files are read"
         raise TraceError(f"{what}; download the picture, and give its file's path or its bytes")
-    path = Path(path)
     try:
-        return path.read_bytes()
-    except FileNotFoundError:
-        raise TraceError(f"{path}: there is no such file") from None
-    except OSError as error:
-        raise TraceError(f"{path} cannot be read: {error.strerror or error}") from None
+        return read_file(path)
+    except (OSError, InputFileError) as error:
+        raise TraceError(str(error)) from None
 
 
 def _decode(data: bytes, name: str) -> RGBA:
@@ -204,11 +202,11 @@ def _from_tifffile(data: bytes, name: str) -> RGBA:
 
 
 def _from_array(array: NDArray[Any], name: str) -> RGBA:
-    # Pillow gives 16-bit pixels as 32-bit integers.
+    # Pillow gives 16-bit pixels, and 8-bit ones that came from an array, as 32-bit integers.
     if array.dtype in (np.int32, np.uint16):
         low, high = int(array.min()), int(array.max())
         if low < 0 or high > 65535:
             raise TraceError(f"{name}: values run from {low} to {high}; only 8 and 16 bit are read")
-        array = array.astype(np.uint16)
+        array = array.astype(np.uint8 if array.dtype == np.int32 and high < 256 else np.uint16)
     with about(name, TraceError):
         return as_rgba(array)

@@ -326,6 +326,13 @@ class TestLevels:
         np.testing.assert_allclose(shares, 1 / 256, rtol=0.3)
 
 
+def test_smoothing_by_default_leaves_a_thin_bar():
+    bar = np.pad(np.zeros((3, 3000), np.uint8), 5, constant_values=255)
+    assert find(bar, "color").mask().sum() == 9000
+    with pytest.raises(TraceError, match="no foreground"):
+        find(bar, "color", smoothing=3).mask()
+
+
 def test_smoothing_removes_noise():
     noisy = (blended([0.35], [0.65])[..., 0] + RNG.normal(0, 0.15, (SIZE, SIZE))).clip(0, 1)
     rough = find(noisy, "threshold", smoothing=0)

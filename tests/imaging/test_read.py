@@ -234,7 +234,7 @@ class TestFiles:
 
 class TestWrongFiles:
     def test_missing(self, tmp_path):
-        with pytest.raises(TraceError, match=r"nothing\.png: there is no such file"):
+        with pytest.raises(TraceError, match=r"nothing\.png does not exist"):
             read_image(tmp_path / "nothing.png")
 
     @pytest.mark.parametrize(
@@ -251,8 +251,17 @@ class TestWrongFiles:
             read_image(Path("https://example.com/a.png"))
 
     def test_a_colon_makes_no_address(self):
-        with pytest.raises(TraceError, match="no such file"):
+        with pytest.raises(TraceError, match="nowhere/12: does not exist"):
             read_image("nowhere/12:/a.png")
+
+    @pytest.mark.parametrize("name", ["a\0b.png", "\ud800.png"])
+    def test_a_name_that_no_file_can_have(self, name):
+        with pytest.raises(TraceError, match="has a character that no file's name can have"):
+            read_image(name)
+
+    def test_a_name_that_is_too_long(self):
+        with pytest.raises(TraceError, match="x cannot be read: File name too long"):
+            read_image(300 * "x")
 
     def test_a_folder(self, tmp_path):
         with pytest.raises(TraceError, match="cannot be read"):
@@ -316,3 +325,8 @@ class TestWrongFiles:
         values = np.array([[0, 70000]], dtype=np.int32)
         with pytest.raises(TraceError, match="from 0 to 70000"):
             read_image(encoded(Image.fromarray(values), "TIFF"))
+
+    def test_eight_bit_values_in_32_bit_integers(self):
+        values = np.array([[0, 200, 255]], dtype=np.int32)
+        assert read_image(Image.fromarray(values))[0, :, 0].tolist() == [0, 200, 255]
+        assert read_image(Image.fromarray(values + 1))[0, :, 0].tolist() == [1, 201, 256]
