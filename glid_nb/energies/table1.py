@@ -107,7 +107,8 @@ class MIPS(Energy):
     """``(sigma_1 / sigma_2 + sigma_2 / sigma_1) / 2`` [Hormann and Greiner 2000].
 
     In Wirtinger terms ``(x + y) / (x - y)``. It is 1 at every conformal map, whatever its scale,
-    and infinite where the map degenerates.
+    and infinite where the map degenerates. Parts may shrink towards nothing while it falls to 1; a
+    solve then ends as BLOCKED.
     """
 
     name: ClassVar[str] = "mips"

@@ -260,11 +260,8 @@ def bucket(count: int) -> int:
 
 
 def _rung(count: int) -> int:
-    """The padded size for panels that were split: two sizes an octave, with room for more."""
-    wanted = int(_GROWTH * count)
-    octave = 1 << wanted.bit_length()
-    size = octave if wanted > 3 * octave // 4 else 3 * octave // 4
-    return -(-size // 128) * 128
+    """The padded size for panels that were split: one size an octave, with room for more."""
+    return max(1 << int(_GROWTH * count).bit_length(), 128)
 
 
 def padded(array: np.ndarray, size: int, fill: float | None = None) -> np.ndarray:

@@ -32,6 +32,7 @@ _SLOW_STEP, _SLOW_GAIN = 0.5, 0.05
 _STALLED, _STALL_GAIN = 4, 1e-10
 # If all of them are shorter than this, it need only be less than this.
 _CREEPING = 1e-6
+_WORK_PER_CALL = 10**10  # products of a Hessian: some seconds, after which a callback may stop it
 _ROUNDING = 1e-8  # a decrease promised by the Newton decrement that rounding of the energy can hide
 
 
@@ -88,7 +89,7 @@ class NewtonDescent(SubspaceDescent):
         options = self.inputs.options
         return step.Settings(
             tolerance=options.tolerance,
-            iterations=min(options.iterations_per_call, self.left),
+            iterations=min(options.iterations_per_call, self.left, self._most_at_once()),
             may_refine=may_refine and self.discretisation.can_refine,
             ridge=self.ridge,
             reuse=self.reuse,
@@ -96,6 +97,10 @@ class NewtonDescent(SubspaceDescent):
             projects_first=options.hessian == "projected",
             attempts=2 if options.hessian == "adaptive" else 1,
         )
+
+    def _most_at_once(self) -> int:
+        rows, nodes = self.problem.matrices.whitened.shape
+        return max(_WORK_PER_CALL // (rows**2 * nodes), 1)
 
     def advance(self, may_refine: bool) -> Advance:
         """One compiled call; with nothing left it still evaluates the energies."""

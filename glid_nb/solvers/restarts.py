@@ -6,8 +6,9 @@ are led along them in stages; where the shape is wound up beside a line, along t
 identity as start, instead of the rigidly aligned one, frees a line that is squeezed though it could
 bend. Where the first way does not converge or ends very high, everything is tried: ``lambda``
 raised in stages, too, for with the usual ``1e5`` the first Newton steps rush the handles to their
-targets, whatever that does to the shape. An energy that is no barrier (ARAP) can run against the
-limit of local injectivity far from its targets; it then starts at the symmetric Dirichlet minimum.
+targets, whatever that does to the shape. An energy that is no barrier (ARAP), or none against a
+shape that shrinks to nothing (MIPS), can run against the limit of local injectivity far from its
+targets; it then starts at the symmetric Dirichlet minimum.
 """
 
 import functools
@@ -20,7 +21,7 @@ import numpy as np
 
 from glid_nb._jax import jnp
 from glid_nb._runtime import double_precision
-from glid_nb.energies import Energy, SymmetricDirichlet
+from glid_nb.energies import MIPS, Energy, SymmetricDirichlet
 from glid_nb.harmonic import HarmonicMap, as_complex
 from glid_nb.solvers.method import Inputs
 from glid_nb.solvers.result import Attempt, Result, Status
@@ -89,9 +90,11 @@ def _ways(first: Result, inputs: Inputs, best: Callable[[], Result]) -> Iterator
         problems = [*(replace(loose, pose=pose) for _, pose in stages), inputs]
         return name, problems, [time**GROWTH / min(ratio, 1) for time, _ in stages]
 
-    if hopeless and not inputs.energy.is_barrier:
+    if hopeless and (not inputs.energy.is_barrier or isinstance(inputs.energy, MIPS)):
         barrier = replace(inputs, energy=SymmetricDirichlet())
         yield "from the symmetric Dirichlet minimum", [barrier, inputs], []
+        if best().energy <= HIGH_ENERGY * isometry:
+            return
     misses, unsure = 0, max(first.energy / max(isometry, LEAST_ISOMETRY) / UNSURE, 1)
     for lines, ratio in turning.reversals(FAR[int(high)]).items():
         if misses < MOST_MISSES and may_cost(REVERSED * ratio / unsure):

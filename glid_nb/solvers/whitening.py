@@ -103,7 +103,7 @@ def coefficients(x: Float[Array, " 4u"], t: Float[Array, "2 c u"]) -> Float[Arra
 def pulled_back(rows: Float[AnyArray, "*r 4c"], t: Float[Array, "2 c u"]) -> Float[Array, "*r 4u"]:
     """Derivatives with respect to coordinates from those with respect to coefficients."""
     xp = t.__array_namespace__()
-    parts = rows.reshape(*rows.shape[:-1], 2, 2, -1)
-    re, im = parts[..., 0, :], parts[..., 1, :]
+    parts = rows.reshape(-1, 2, t.shape[1])
+    re, im = parts[:, 0], parts[:, 1]  # one product for all rows, not one for each
     pulled = xp.stack([re @ t[0] + im @ t[1], im @ t[0] - re @ t[1]], axis=-2)
     return pulled.reshape(*rows.shape[:-1], -1)

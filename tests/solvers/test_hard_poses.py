@@ -298,3 +298,15 @@ def test_arap_meets_its_targets_where_the_direct_way_is_blocked() -> None:
         "from the symmetric Dirichlet minimum",
     ]
     assert result.energy < 0.01 * direct.energy
+
+
+def test_mips_meets_its_targets_where_the_direct_way_is_blocked() -> None:
+    """Nothing keeps it from shrinking a limb to nothing on the way; then other ways end lower."""
+    pose = Pose([[-8, 0], [0, 0], [8, 0]], [[4.5, 6.0], [0, 0], [8, 0]])
+    direct = solve(bar(), pose, "mips", Options(restarts=0))
+    result = solve(bar(), pose, "mips")
+    check_certified(result)
+    assert direct.status is Status.BLOCKED
+    assert direct.energy > 1000
+    assert len(result.attempts) == 2
+    assert result.energy < 1.1

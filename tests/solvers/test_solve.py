@@ -268,6 +268,18 @@ def test_callback_sees_certified_maps_and_stops_the_solve() -> None:
     assert np.array_equal(seen[-1].map.phi, result.map.phi)
 
 
+def test_a_slow_problem_lets_a_callback_in_after_each_iteration(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    pose = Pose(ELL_HANDLES, ELL_TARGETS)
+    fast = solve(domain("ell"), pose)
+    monkeypatch.setattr(newton, "_WORK_PER_CALL", 1)
+    seen: list[int] = []
+    slow = solve(domain("ell"), pose, callback=lambda p: bool(seen.append(len(p.history))))
+    assert seen == list(range(1, slow.iterations + 1))
+    assert slow.energy == pytest.approx(fast.energy, rel=1e-9)
+
+
 def test_exact_hessian_halts_where_it_is_indefinite() -> None:
     far = Pose(ELL_HANDLES, ELL_HANDLES * [[1, -1]] * 1.5)
     result = solve(domain("ell"), far, options=Options(hessian="exact", align=False, restarts=0))
