@@ -266,7 +266,7 @@ class CertificatePlot(Plot):
         axes, end = self.axes, float(starts[-1])
         axes.set_xlim(0.0, end)
         if len(starts) == 2:
-            axes.set_xlabel("arc length", fontsize=SMALL, labelpad=2)
+            axes.set_xlabel("arc length", fontsize=SMALL, labelpad=2, loc="right")
             axes.xaxis.set_major_locator(MaxNLocator(5))
             return
         for loop, (left, right) in enumerate(itertools.pairwise(starts)):
