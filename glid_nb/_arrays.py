@@ -55,9 +55,15 @@ def read_only(array: A) -> A:
     return array
 
 
+class _Frozen(bytes):
+    """What nobody can write to; an array that comes from a pickle lies in writable bytes."""
+
+
 def frozen(array: A) -> A:
-    """A copy that nobody can write to, whatever flags are set: it lies in bytes."""
-    return np.ndarray(array.shape, array.dtype, array.tobytes())  # type: ignore[return-value]
+    """A copy that nobody can write to, whatever flags are set; of such a copy, itself."""
+    if type(array) is np.ndarray and isinstance(array.base, _Frozen):
+        return array
+    return np.ndarray(array.shape, array.dtype, _Frozen(array.tobytes()))  # type: ignore[return-value]
 
 
 class Rebuilt:

@@ -16,6 +16,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from glid_nb._arrays import frozen
 from glid_nb.certificate import certificate_of
 from glid_nb.geometry import graded_panels
 from glid_nb.harmonic import HarmonicMap, MapError, as_complex
@@ -268,3 +269,14 @@ def test_coefficients_that_squares_would_overflow_are_refused() -> None:
         phi[3] = value
         with pytest.raises(MapError, match=r"phi\[3\] is .*; it must be finite and at most"):
             HarmonicMap(d, phi, np.zeros_like(phi))
+
+
+def test_frozen_arrays_are_shared_and_others_copied() -> None:
+    start = graded_panels(random_map("ring", 0.05, 1).domain).start
+    assert frozen(start) is start
+    for other in (start[1:], pickle.loads(pickle.dumps(start)), start.copy()):
+        kept = frozen(other)
+        assert kept is not other
+        assert kept.tobytes() == other.tobytes()
+        with pytest.raises(ValueError, match="WRITEABLE"):
+            kept.setflags(write=True)
