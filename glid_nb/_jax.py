@@ -4,8 +4,6 @@ An editor shows its canvas before JAX is imported. Modules import ``jax``, ``jnp
 here; at module level they use :func:`jit` for ``jax.jit``, and :func:`once_loaded` for the rest.
 """
 
-from __future__ import annotations
-
 import functools
 import importlib
 import sys

@@ -1,8 +1,6 @@
 """Enclosures of the images of panels: how far the image of a straight panel is from its chord."""
 
-from __future__ import annotations
-
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, Self
 
 import numpy as np
 
@@ -34,8 +32,8 @@ class Jets(NamedTuple):
     second_error: Array
     third: Array
 
-    def at(self, index: Any) -> Jets:
-        return Jets(*(values[index] for values in self))
+    def at(self, index: Any) -> Self:
+        return self._make(values[index] for values in self)
 
     def first(self, direction: Array) -> Array:
         return self.fz * direction + np.conj(self.fzb_conj * direction)
@@ -60,7 +58,7 @@ class Arcs(NamedTuple):
     tangent_error: Array
 
     @classmethod
-    def between(cls, start: Array, end: Array, at_start: Jets, at_end: Jets) -> Arcs:
+    def between(cls, start: Array, end: Array, at_start: Jets, at_end: Jets) -> Self:
         """Images of the panels from ``start`` to ``end``, to which ``at_start.third`` applies."""
         length = np.abs(end - start)
         direction = (end - start) / np.where(length > 0, length, 1)
@@ -79,8 +77,8 @@ class Arcs(NamedTuple):
             np.maximum(at_start.first_error, at_end.first_error),
         )
 
-    def at(self, index: Any) -> Arcs:
-        return Arcs(*(values[index] for values in self))
+    def at(self, index: Any) -> Self:
+        return self._make(values[index] for values in self)
 
     @property
     def sagitta(self) -> Array:

@@ -5,12 +5,10 @@ concave in time. Panels are halved as in the proof of one map; where at a panel'
 serves both times, time is.
 """
 
-from __future__ import annotations
-
 import itertools
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, Self
 
 import numpy as np
 
@@ -53,8 +51,8 @@ class _Values(NamedTuple):
     ends: Array  # (p, k, 2, 4): `EndValues` of f_z and conj(f_zbar) of each map
     errors: Array  # (p, k, 2, 2): their remainders, and bounds on the errors at the ends
 
-    def pair(self, first: int) -> _Values:
-        return _Values(*(values[:, first : first + 2] for values in self))
+    def pair(self, first: int) -> Self:
+        return self._make(values[:, first : first + 2] for values in self)
 
     @property
     def seen(self) -> tuple[float, float]:

@@ -1,10 +1,9 @@
 """A motion on one mesh: its shape and picture at any time."""
 
-from __future__ import annotations
-
 import functools
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
+from typing import Self
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -58,7 +57,7 @@ class MovingMesh:
         pose: Sequence[Pose] | Pose | None,
         n_vertices: int,
         tolerance: float | None = None,
-    ) -> MovingMesh:
+    ) -> Self:
         """The mesh that is fine enough for all maps; each keyframe's pose says what is in front."""
         check_type("the motion", shown, Motion | HarmonicMap, "give what moves", InputError)
         poses = list(pose) if isinstance(pose, Sequence) else [pose]

@@ -1,8 +1,6 @@
 """The overview figure: a picture, its deformation, and how the solver got there."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -16,10 +14,8 @@ from glid_nb.figures.shapes import DrawnMap, draw_deformed, draw_distortion, hol
 from glid_nb.figures.style import BLUE, FONT_SIZE, GREY, INK, LEGEND, SMALL
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging import PixelFrame, as_rgba8
+from glid_nb.solvers import Pose, Result
 from glid_nb.solvers.restarts import isometry_energy
-
-if TYPE_CHECKING:
-    from glid_nb.solvers import Pose, Result
 
 # Inches.
 _NARROWEST = 4.5  # figure

@@ -4,11 +4,9 @@ Each is drawn once and then updated, so the same code serves a printed figure an
 plots. ``update`` says whether the axes' limits changed; if not, only ``artists`` need drawing.
 """
 
-from __future__ import annotations
-
 import itertools
 from collections.abc import Collection, Sequence
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 from matplotlib.artist import Artist
@@ -24,9 +22,7 @@ from glid_nb.figures import style
 from glid_nb.figures.style import BLUE, FAINT, GREEN, INK, ORANGE, SKY, SMALL, VERMILION
 from glid_nb.geometry import Cage, loop_name
 from glid_nb.harmonic import HarmonicMap
-
-if TYPE_CHECKING:
-    from glid_nb.solvers import Iteration
+from glid_nb.solvers import Iteration
 
 _AXIS_NAME = 13.0  # points from the axis down to its name
 _WIDE = 4.0  # inches; above narrower axes a line of text does not fit beside the legend

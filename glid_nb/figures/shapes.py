@@ -1,9 +1,7 @@
 """Figures of maps, drawn on the shapes: distortion, pictures, basis functions, panels."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Sequence
-from typing import Any, Literal, NamedTuple
+from typing import Any, Literal, NamedTuple, Self
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -59,7 +57,7 @@ class DrawnMap(NamedTuple):
     @classmethod
     def of(
         cls, map: AnyMap, pose: Pose | None = None, count: int = _VERTICES, tolerance: float = 0.03
-    ) -> DrawnMap:
+    ) -> Self:
         """A map's; of a harmonic one with ``count`` vertices, more to stay in the tolerance."""
         if isinstance(map, HarmonicMap):
             mesh = deformed_mesh(map, count, tolerance, pose)

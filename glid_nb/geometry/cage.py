@@ -1,11 +1,9 @@
 """The cage: a checked, immutable polygon with holes."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 import shapely
@@ -49,7 +47,7 @@ class Cage(Rebuilt):
         vars(self).update(exterior=next(oriented), holes=tuple(oriented))
 
     @classmethod
-    def from_dict(cls, data: Mapping[str, Any]) -> Cage:
+    def from_dict(cls, data: Mapping[str, Any]) -> Self:
         """The cage of a mapping with the keys ``cage`` and, optionally, ``holes``."""
         if "cage" not in data:
             raise GeometryError("the key 'cage' is missing: give the exterior loop there")
@@ -69,7 +67,7 @@ class Cage(Rebuilt):
         """The loops as read-only complex128 arrays x + iy."""
         return tuple(frozen(loop[:, 0] + 1j * loop[:, 1]) for loop in self.loops)
 
-    def equals(self, other: Cage) -> bool:
+    def equals(self, other: Self) -> bool:
         """Whether all loops have the same vertices in the same order."""
         pairs = zip(self.loops, other.loops, strict=False)
         return self.n_holes == other.n_holes and all(np.array_equal(a, b) for a, b in pairs)

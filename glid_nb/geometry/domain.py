@@ -1,11 +1,9 @@
 """The domain of a harmonic map: the cage, its offset cage and one point per hole."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 import shapely
@@ -65,7 +63,7 @@ class Domain(Rebuilt):
         vars(self).update(made, notes=tuple(notes))
 
     @classmethod
-    def from_cage(cls, cage: Cage, offset: float | None = None) -> Domain:
+    def from_cage(cls, cage: Cage, offset: float | None = None) -> Self:
         """The domain of a cage, with chosen offset cage and hole points.
 
         `offset` is the distance between the cages, by default 0.005 of the longer side of the
@@ -77,7 +75,7 @@ class Domain(Rebuilt):
         return cls(cage, outer, notes=notes)
 
     @classmethod
-    def from_dict(cls, data: Mapping[str, Any]) -> Domain:
+    def from_dict(cls, data: Mapping[str, Any]) -> Self:
         """The domain of a mapping.
 
         Its keys are ``cage`` and ``holes`` as in `Cage.from_dict`, and optionally ``offset`` (a
@@ -110,7 +108,7 @@ class Domain(Rebuilt):
             "notes": list(self.notes),
         }
 
-    def equals(self, other: Domain) -> bool:
+    def equals(self, other: Self) -> bool:
         """Whether all parts and the notes are the same."""
         return self is other or self.to_dict() == other.to_dict()
 

@@ -1,7 +1,5 @@
 """Triangle meshes of a cage, and the piecewise linear maps on them."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any

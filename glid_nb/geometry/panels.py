@@ -1,7 +1,5 @@
 """Panels: the straight pieces of the cage on which a map is integrated and certified."""
 
-from __future__ import annotations
-
 import functools
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -32,7 +30,7 @@ class Panels(Rebuilt):
         vars(self).update({name: frozen(array) for name, array in vars(self).items()})
 
     @classmethod
-    def along(cls, loops: Sequence[Array]) -> Panels:
+    def along(cls, loops: Sequence[Array]) -> "Panels":
         """Panels from each vertex of closed complex loops to the next."""
         start = np.concatenate(loops)
         loop = np.repeat(np.arange(len(loops)), [len(points) for points in loops])
@@ -58,7 +56,7 @@ class Panels(Rebuilt):
         inside = (self.middle != self.start) & (self.middle != self.end)
         return inside & (self.depth < _MAX_SPLITS)
 
-    def split(self, chosen: Array) -> tuple[Panels, Array]:
+    def split(self, chosen: Array) -> tuple["Panels", Array]:
         """With ``chosen`` (p,) bool halved if :attr:`divisible`; (q,) which panel each is of."""
         chosen = chosen & self.divisible
         parent = np.repeat(np.arange(len(self)), np.where(chosen, 2, 1))

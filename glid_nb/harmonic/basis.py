@@ -1,7 +1,5 @@
 """The basis of a domain, padded so that domains of similar size share compiled programs."""
 
-from __future__ import annotations
-
 import functools
 from typing import NamedTuple
 

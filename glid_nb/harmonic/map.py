@@ -1,12 +1,10 @@
 """A harmonic map as a value."""
 
-from __future__ import annotations
-
 import functools
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any, Self, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -78,7 +76,7 @@ class HarmonicMap(Rebuilt):
         vars(self).update(phi=frozen(self.phi), psi=frozen(self.psi))
 
     @classmethod
-    def identity(cls, domain: Domain) -> HarmonicMap:
+    def identity(cls, domain: Domain) -> Self:
         """The identity map: ``phi`` = the exterior offset vertices, everything else 0."""
         check_type("domain", domain, Domain, "make one with Domain.from_cage(cage)")
         exterior = domain.offset_cage.loops_complex[0]
@@ -120,7 +118,7 @@ class HarmonicMap(Rebuilt):
         fz, fzb = self.wirtinger(points)
         return np.abs(fz) ** 2 - np.abs(fzb) ** 2
 
-    def distance(self, other: HarmonicMap, n_points: int = 2000) -> float:
+    def distance(self, other: Self, n_points: int = 2000) -> float:
         """Largest distance between the images under two maps, at ``n_points`` boundary points.
 
         The components of the difference are harmonic, so their extremes lie on the boundary. The
@@ -136,7 +134,7 @@ class HarmonicMap(Rebuilt):
         return {"format": FORMAT, "version": FORMAT_VERSION, **self.domain.to_dict(), **parts}
 
     @classmethod
-    def from_dict(cls, data: Mapping[str, Any]) -> HarmonicMap:
+    def from_dict(cls, data: Mapping[str, Any]) -> Self:
         """The map that :meth:`to_dict` wrote; raises MapError if the data is not valid."""
         checked_version(data, "map", FORMAT_VERSION, MapError)
         for key in (*DOMAIN_KEYS, "phi", "psi"):
@@ -159,7 +157,7 @@ class HarmonicMap(Rebuilt):
         write_json(path, self.to_dict())
 
     @classmethod
-    def load(cls, path: str | Path) -> HarmonicMap:
+    def load(cls, path: str | Path) -> Self:
         """Read a map written by :meth:`save`; MapError names the file and what is wrong there."""
         with about(path, MapError):
             return cls.from_dict(read_json(path))

@@ -1,8 +1,7 @@
 """Conversion between pixel and world coordinates."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
+from typing import Self
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -58,7 +57,7 @@ class PixelFrame:
         w, h = unit * self.width, unit * self.height
         return x - w, y - h, x + w, y + h
 
-    def showing(self, bounds: ArrayLike, margin: float = 0.0) -> PixelFrame:
+    def showing(self, bounds: ArrayLike, margin: float = 0.0) -> Self:
         """The frame of a picture of this size that shows a rectangle as large as possible, with a
         ``margin`` of a share of the picture's sides."""
         low, high = np.reshape(bounds, (2, 2))

@@ -1,12 +1,10 @@
 """Options of tracing, validated on construction."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, fields
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any, Literal, Self
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -48,7 +46,7 @@ class Scribbles:
         object.__setattr__(self, "background", _strokes(background, "background"))
 
     @classmethod
-    def load(cls, path: str | Path) -> Scribbles:
+    def load(cls, path: str | Path) -> Self:
         """Read strokes from a JSON file.
 
         It holds an object with the keys ``foreground`` and, optionally, ``background``, each a list

@@ -1,7 +1,5 @@
 """Filtered texture look-ups with premultiplied alpha and anisotropic sampling."""
 
-from __future__ import annotations
-
 import itertools
 from dataclasses import dataclass, field
 
@@ -30,7 +28,7 @@ class Texture:
     _reduced: dict[int, NDArray[np.uint16]] = field(default_factory=dict, repr=False)
 
     @classmethod
-    def from_image(cls, image: ArrayLike | Texture) -> Texture:
+    def from_image(cls, image: "ArrayLike | Texture") -> "Texture":
         """Prepare a picture, as `as_rgba` takes it; a texture stays as it is."""
         if isinstance(image, Texture):
             return image

@@ -1,7 +1,5 @@
 """A domain's boundary as motion needs it: continuous logarithms, and a projection on the basis."""
 
-from __future__ import annotations
-
 import functools
 from dataclasses import dataclass
 
@@ -17,6 +15,15 @@ from glid_nb.solvers.discretisation import complex_basis, discretise
 
 _POINTS = 200  # at which images are compared
 _ON_LINK = 128
+
+
+@dataclass(frozen=True, eq=False)
+class Branch:
+    """A loop's nodes by index, in order, and the way through the domain to one of another loop."""
+
+    indices: Array
+    linked: int = 0
+    link: Array | None = None  # (q, n) ``D`` along the way from that node to the first
 
 
 @dataclass(frozen=True, eq=False)
@@ -75,15 +82,6 @@ class Boundary:
             turns = _turns(fz[branch.indices])
             result[branch.indices] += 1j * (phase + np.append(0, np.cumsum(turns)))
         return result
-
-
-@dataclass(frozen=True, eq=False)
-class Branch:
-    """A loop's nodes by index, in order, and the way through the domain to one of another loop."""
-
-    indices: Array
-    linked: int = 0
-    link: Array | None = None  # (q, n) ``D`` along the way from that node to the first
 
 
 @functools.lru_cache(maxsize=8)

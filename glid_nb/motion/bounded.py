@@ -6,11 +6,9 @@ Chen & Weber 2016). Here the maps are first freed from their rigid motion, which
 and what the projection on the basis loses at the keyframes is added back evenly between them.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 from scipy.interpolate import CubicSpline
@@ -53,7 +51,7 @@ class Bounded:
     @classmethod
     def through(
         cls, maps: Maps, times: Sequence[float], turns: Sequence[int], closed: bool, worse: Any = ()
-    ) -> Bounded:
+    ) -> Self:
         """Through maps of one domain whose ``f_z`` turn alike; ``turns`` more ways round a piece.
 
         Where ``closed``, the last map is the first one again. Pieces are measured by ``worse``, by
@@ -109,7 +107,7 @@ class Bounded:
         span = self.times[piece + 1] - self.times[piece]
         return before, after - before, span * self.tangents[piece], span * self.tangents[piece + 1]
 
-    def _shortened(self, closed: bool) -> Bounded:
+    def _shortened(self, closed: bool) -> Self:
         """With tangents so short that on no piece k is above its ends', or sigma_2 below."""
         share, curve = np.ones((len(self.maps), 2)), self
         wild = np.ones((len(self.turns), 2, 2), dtype=bool)  # of each piece, halves, sigma_2 and k

@@ -1,7 +1,5 @@
 """The smooth motion through keyframes, also through maps solved on the way, and linear pieces."""
 
-from __future__ import annotations
-
 import bisect
 import itertools
 from collections.abc import Callable, Sequence

@@ -1,14 +1,12 @@
 """Motion through certified maps, as a value."""
 
-from __future__ import annotations
-
 import bisect
 import functools
 import itertools
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -281,7 +279,7 @@ class Motion:
         return file.texts(self.pieces_forth, known, self._proved[1] if proof else ())
 
     @classmethod
-    def load(cls, path: str | Path) -> Motion:
+    def load(cls, path: str | Path) -> Self:
         """The motion that :meth:`save` wrote, the same pieces bit for bit, proved anew.
 
         Raises MotionError, which names the file and what is wrong there.

@@ -1,7 +1,5 @@
 """What lies between the poses of a deformation: proved in the background, interval by interval."""
 
-from __future__ import annotations
-
 import bisect
 import itertools
 import time

@@ -1,13 +1,11 @@
 """The model of the deformation editor: handles, drags, undo, and the solver's thread."""
 
-from __future__ import annotations
-
 import functools
 from collections.abc import Callable, Iterable, Sequence
 from contextlib import AbstractContextManager
 from dataclasses import replace
 from numbers import Real
-from typing import Any, Concatenate, ParamSpec
+from typing import Any, Concatenate, ParamSpec, Self
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -33,9 +31,9 @@ P = ParamSpec("P")
 
 def _step(
     action: Callable[Concatenate[EditState, P], EditState],
-) -> Callable[Concatenate[Deformation, P], None]:
+) -> Callable[Concatenate["Deformation", P], None]:
     @functools.wraps(action)
-    def method(self: Deformation, *arguments: P.args, **named: P.kwargs) -> None:
+    def method(self: "Deformation", *arguments: P.args, **named: P.kwargs) -> None:
         self.apply(action, *arguments, **named)
 
     return method
@@ -87,7 +85,7 @@ class Deformation(Undoable[EditState], AbstractContextManager["Deformation"]):
             self.begin()
 
     @classmethod
-    def from_history(cls, history: History[EditState]) -> Deformation:
+    def from_history(cls, history: History[EditState]) -> Self:
         """A deformation at a state, with its undo history; the solver waits for :meth:`begin`."""
         new = cls(history.present.domain, begin=False)
         new.history = history.ended()

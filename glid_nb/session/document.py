@@ -1,10 +1,8 @@
 """A document: everything that the editor saves, as one value."""
 
-from __future__ import annotations
-
 from collections.abc import Sized
 from dataclasses import dataclass, field, replace
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -81,11 +79,11 @@ class NamedPose:
         """Whether a solve ended with ``map``; never for a method on a mesh."""
         return self.solution is not None and self.solution.ended
 
-    def changed(self, **changes: Any) -> NamedPose:
+    def changed(self, **changes: Any) -> Self:
         """A copy with another pose, energy, options, map or method; it is no longer solved."""
         return replace(self, solution=None, **changes)
 
-    def asks_the_same(self, other: NamedPose) -> bool:
+    def asks_the_same(self, other: Self) -> bool:
         """Whether pose, energy, options and method are the very same objects."""
         return all(getattr(self, key) is getattr(other, key) for key in _ASKED)
 

@@ -1,10 +1,8 @@
 """The values of the deformation editor: its state, the solver's tasks and frames, a moment."""
 
-from __future__ import annotations
-
 import functools
 from dataclasses import dataclass, field, replace
-from typing import Any
+from typing import Any, Self
 
 from glid_nb._errors import InputError
 from glid_nb.certificate import Certificate
@@ -45,7 +43,7 @@ class EditState:
         pose: Pose | None = None,
         energy: Energy | None = None,
         options: Options | None = None,
-    ) -> EditState:
+    ) -> Self:
         """One pose on a domain, at the identity map."""
         pose = Pose([], []) if pose is None else pose
         pose.check_inside(domain)
@@ -81,11 +79,11 @@ class EditState:
     def identity(self) -> HarmonicMap:
         return HarmonicMap.identity(self.domain)
 
-    def changed(self, **changes: Any) -> EditState:
+    def changed(self, **changes: Any) -> Self:
         """A copy with another pose, energy, options, map or method of the pose that is edited."""
         return self.with_current(self.current.changed(**changes))
 
-    def with_current(self, current: NamedPose) -> EditState:
+    def with_current(self, current: NamedPose) -> Self:
         """A copy with another value of the pose that is edited."""
         before, after = self.poses[: self.active], self.poses[self.active + 1 :]
         return replace(self, poses=(*before, current, *after))

@@ -1,11 +1,9 @@
 """A problem: a domain and a pose, as one value and as one JSON file."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, Self
 
 from glid_nb import _json
 from glid_nb._errors import about
@@ -34,7 +32,7 @@ class Problem:
         self.pose.check_inside(self.domain)
 
     @classmethod
-    def from_dict(cls, data: Mapping[str, Any]) -> Problem:
+    def from_dict(cls, data: Mapping[str, Any]) -> Self:
         """The problem in a JSON object.
 
         Its keys ``cage``, ``handles`` and ``targets`` are required, ``holes`` is optional, all in
@@ -59,7 +57,7 @@ class Problem:
         _json.write_json(path, self.to_dict())
 
     @classmethod
-    def load(cls, path: str | Path) -> Problem:
+    def load(cls, path: str | Path) -> Self:
         """Read a problem from a JSON file.
 
         An InputFileError names the file and the culprit if it does not hold a valid problem.

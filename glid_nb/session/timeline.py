@@ -1,11 +1,10 @@
 """When kept poses are shown: times, easing and repetition, as plain values."""
 
-from __future__ import annotations
-
 import bisect
 import itertools
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from typing import Self
 
 import numpy as np
 from scipy.interpolate import CubicSpline
@@ -51,7 +50,7 @@ class Timeline:
         vars(self).update(times=times, easing=easing, back=back)
 
     @classmethod
-    def even(cls, count: int) -> Timeline:
+    def even(cls, count: int) -> Self:
         """Keyframes a second apart."""
         return cls(tuple(_USUAL * i for i in range(count)), ("linear",) * count)
 
@@ -73,13 +72,13 @@ class Timeline:
         times = self.closed_times
         return Motion(maps, times, easing=self.easing[: len(times) - 1], repeat=self.repeat)
 
-    def lasting(self, seconds: float) -> Timeline:
+    def lasting(self, seconds: float) -> Self:
         """From 0 to an end after so many seconds; a ping-pong's way back is as long."""
         share = seconds / (self.end - self.times[0])
         times = tuple(share * (time - self.times[0]) for time in self.times)
         return replace(self, times=times, back=share * self.back)
 
-    def inserted(self, index: int, time: float | None = None) -> Timeline:
+    def inserted(self, index: int, time: float | None = None) -> Self:
         """With a keyframe more at an index, not the first; by default midway to the next one."""
         before, after = self.times[:index], self.times[index:]
         if time is None:
@@ -93,7 +92,7 @@ class Timeline:
         easing = (*self.easing[:index], eased, *self.easing[index:])
         return replace(self, times=(*before, time, *after), easing=easing)
 
-    def recorded(self, index: int, offsets: Sequence[float]) -> Timeline:
+    def recorded(self, index: int, offsets: Sequence[float]) -> Self:
         """With keyframes after one, so many seconds later each; those behind move by the last."""
         times = (*self.times[: index + 1], *(t + offsets[-1] for t in self.times[index + 1 :]))
         new = replace(self.eased(index, "linear"), times=times)
@@ -101,12 +100,12 @@ class Timeline:
             new = new.inserted(i, round(self.times[index] + offset, 6))
         return new.eased(index + len(offsets), self.easing[index])
 
-    def without(self, index: int) -> Timeline:
+    def without(self, index: int) -> Self:
         """With a keyframe less."""
         times, easing = ((*each[:index], *each[index + 1 :]) for each in (self.times, self.easing))
         return replace(self, times=times, easing=easing)
 
-    def moved(self, index: int, time: float) -> tuple[Timeline, list[int]]:
+    def moved(self, index: int, time: float) -> tuple[Self, list[int]]:
         """With a keyframe, or a loop's return, at the nearest free time; and the new order."""
         time = checked("time", float, time, least=-LATEST, most=2 * LATEST)
         if index == len(self):
@@ -121,7 +120,7 @@ class Timeline:
         times, easing = (tuple(each[i] for i in order) for each in (times, self.easing))
         return replace(self, times=times, easing=easing), order
 
-    def eased(self, index: int, easing: Easing) -> Timeline:
+    def eased(self, index: int, easing: Easing) -> Self:
         """With another easing from a keyframe to the next."""
         return replace(self, easing=(*self.easing[:index], easing, *self.easing[index + 1 :]))
 

@@ -1,13 +1,11 @@
 """The model of the cage tracer: the user's choices, the cage they give, and undo."""
 
-from __future__ import annotations
-
 import functools
 import os
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any, Literal, Self
 
 import numpy as np
 import shapely
@@ -99,7 +97,7 @@ class TracingModel(Undoable[TracingState]):
         self._outcome_of = functools.lru_cache(_KEPT_OUTCOMES)(weakly(self._evaluate))
 
     @classmethod
-    def from_document(cls, document: Document, name: str = "") -> TracingModel:
+    def from_document(cls, document: Document, name: str = "") -> Self:
         """A model with the document's picture, options, scribbles and cage."""
         model = cls()
         options, loops = document.trace_options, document.cage.loops

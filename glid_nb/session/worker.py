@@ -1,7 +1,5 @@
 """A thread that does the latest task and drops those that were replaced before they began."""
 
-from __future__ import annotations
-
 import atexit
 import functools
 import sys
@@ -9,7 +7,7 @@ import threading
 import time
 import weakref
 from collections.abc import Callable
-from typing import Any, Generic, TypeVar
+from typing import Any, Generic, Self, TypeVar
 
 T = TypeVar("T")
 
@@ -29,7 +27,7 @@ class LatestWins(Generic[T]):
 
     def __init__(
         self,
-        work: Callable[[T, LatestWins[T]], Any],
+        work: Callable[[T, Self], Any],
         owner: object,
         name: str,
         *,

@@ -1,7 +1,5 @@
 """The solver's state, live: a status line and plots."""
 
-from __future__ import annotations
-
 import html
 import time
 from collections import deque

@@ -1,7 +1,5 @@
 """The timeline below the canvas: keyframes, what is proved between them, playing, recording."""
 
-from __future__ import annotations
-
 import base64
 import io
 import weakref

@@ -3,11 +3,9 @@
 Domain and pose are linear functions of unknowns that make the energy with fixed frames round.
 """
 
-from __future__ import annotations
-
 import importlib
 from dataclasses import dataclass, field, replace
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, Self
 
 import numpy as np
 import scipy
@@ -164,19 +162,19 @@ class ActiveSet:
         k, sigma1, sigma2 = strict + self.excess * np.maximum(self.used(v) - strict, 0)
         return k * bounds.k, 1 + sigma1 * (bounds.sigma1 - 1), 1 - sigma2 * (1 - bounds.sigma2)
 
-    def around(self, v: Array) -> ActiveSet:
+    def around(self, v: Array) -> Self:
         """With the local extremes near a bound, and without samples far from it."""
         used = self.used(v)
         kept = self.chosen & (used > 1 - _LEAVE)
         return replace(self, chosen=kept | (self._peaks(used) & (used > 1 - _JOIN)))
 
-    def and_violated(self, v: Array) -> ActiveSet:
+    def and_violated(self, v: Array) -> Self:
         """With the local extremes beyond a bound; the same object where there are no new ones."""
         used = self.used(v)
         beyond = self._peaks(used) & (used > 1 - (1 - _SLACK) * MARGIN) & ~self.chosen
         return replace(self, chosen=self.chosen | beyond) if beyond.any() else self
 
-    def refined(self, certificate: Certificate) -> ActiveSet:
+    def refined(self, certificate: Certificate) -> Self:
         """With new samples on the panels, of each run of them the worst, that fail the proof."""
         panels = certificate.panels
         used = self.bounds.used(panels.k_upper, panels.sigma1_upper, panels.sigma2_lower)

@@ -1,7 +1,5 @@
 """Accelerated Quadratic Proxy (Kovalsky et al. 2016) with hard constraints."""
 
-from __future__ import annotations
-
 import itertools
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
@@ -74,7 +72,7 @@ class AQP(MeshMethod):
             yield problem.at(now.w, step)
         return proxy.without_decrease(now)
 
-    def _started(self, problem: MeshProblem, proxy: _Proxy) -> _State:
+    def _started(self, problem: MeshProblem, proxy: "_Proxy") -> _State:
         operators, w = problem.operators, problem.start
         if np.abs(w[problem.handles] - problem.targets).max(initial=0) > 0:
             for _ in range(self.arap_iterations):  # local and global steps (Liu et al. 2008)

@@ -1,11 +1,9 @@
 """A deformation problem on a triangle mesh: its operators, energies, and base of methods."""
 
-from __future__ import annotations
-
 import functools
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 import scipy
@@ -118,7 +116,7 @@ class MeshProblem:
     start: Array  # (v,) complex images, rigidly moved if that was asked for
 
     @classmethod
-    def of(cls, inputs: Inputs, n_vertices: int) -> MeshProblem:
+    def of(cls, inputs: Inputs, n_vertices: int) -> Self:
         """The problem on the start's mesh, or on a new one of about ``n_vertices`` vertices."""
         pose, start = inputs.pose, inputs.start_map
         if isinstance(start, MeshMap):

@@ -1,7 +1,5 @@
 """Methods in the harmonic subspace that choose a direction on the host, one step at a time."""
 
-from __future__ import annotations
-
 import functools
 from dataclasses import dataclass, replace
 from typing import Any, ClassVar, Literal
@@ -49,7 +47,7 @@ class SubspaceMethod(Method):
     tolerance: ClassVar[float] = 1e-9
     options = ("sampling", "certificate", "p2p_weight", "conformal", "align", "max_iterations")
 
-    def direction(self, at: DirectedDescent) -> Array | Ending:
+    def direction(self, at: "DirectedDescent") -> Array | Ending:
         """A descent direction (4c,), or the end of the method."""
         raise NotImplementedError
 
@@ -57,7 +55,7 @@ class SubspaceMethod(Method):
         """Drop what a solve remembers, after a direction that led nowhere; False for nothing."""
         return False
 
-    def started(self, inputs: Inputs) -> DirectedDescent:
+    def started(self, inputs: Inputs) -> "DirectedDescent":
         return DirectedDescent(self, inputs)
 
     def run(self, inputs: Inputs) -> Result:

@@ -1,7 +1,5 @@
 """First-order methods, and Newton's with other Hessians than ours."""
 
-from __future__ import annotations
-
 import functools
 from collections import deque
 from dataclasses import dataclass, field, replace
@@ -44,7 +42,7 @@ class LBFGS(SubspaceMethod):
     memory: int = 5
     initial: Initial = "identity"
 
-    def forget(self, memory: Pairs) -> bool:
+    def forget(self, memory: "Pairs") -> bool:
         had = bool(memory.pairs)
         memory.pairs.clear()
         memory.last = None
