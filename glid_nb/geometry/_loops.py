@@ -1,7 +1,9 @@
 """Loops of vertices: their measures, their names in messages, and the error they raise."""
 
-from collections.abc import Iterable, Mapping
-from typing import Any
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, Self
 
 import numpy as np
 import shapely
@@ -82,9 +84,70 @@ def next_index(loop: Array) -> Array:
     return following
 
 
-def segments(loop: Array) -> Array:
-    ends = np.stack([loop, np.roll(loop, -1, axis=0)], axis=1)
-    return np.asarray(shapely.linestrings(ends), dtype=object)
+@dataclass(frozen=True, eq=False)
+class Loops:
+    """Closed loops, concatenated, the exterior first; edge i is from vertex i to ``after[i]``."""
+
+    points: NDArray[np.float64]  # (n, 2)
+    number: NDArray[np.intp]  # (n,) the loop of each vertex, ascending from 0
+
+    @classmethod
+    def of(cls, loops: Sequence[Array]) -> Self:
+        return cls(np.concatenate(loops), np.repeat(np.arange(len(loops)), list(map(len, loops))))
+
+    def __getitem__(self, chosen: Array) -> "Loops":
+        return Loops(self.points[chosen], self.number[chosen])
+
+    @property
+    def starts(self) -> NDArray[np.intp]:
+        """(l + 1,) index of the first vertex of each loop, and after the last one."""
+        return np.cumsum([0, *np.bincount(self.number)])
+
+    def split(self, values: Array) -> list[Array]:
+        """Split (n, ...) values of the vertices or edges by loop."""
+        return np.split(values, self.starts[1:-1])
+
+    @cached_property
+    def after(self) -> NDArray[np.intp]:
+        """(n,) index of the next vertex of the loop."""
+        return next_index(self.number)
+
+    @cached_property
+    def before(self) -> NDArray[np.intp]:
+        """(n,) index of the previous vertex of the loop."""
+        return np.argsort(self.after)
+
+    @cached_property
+    def edges(self) -> NDArray[np.float64]:
+        """(n, 2) vectors."""
+        return self.points[self.after] - self.points
+
+    @cached_property
+    def lengths(self) -> NDArray[np.float64]:
+        return np.hypot(*self.edges.T)
+
+    @property
+    def perimeters(self) -> NDArray[np.float64]:
+        """(l,) lengths of the loops."""
+        return np.bincount(self.number, self.lengths)
+
+    @property
+    def areas(self) -> NDArray[np.float64]:
+        """(l,) signed areas of the loops."""
+        return np.array([signed_area(loop) for loop in self.split(self.points)])
+
+    @cached_property
+    def segments(self) -> NDArray[np.object_]:
+        """(n,) the edges as shapely line strings."""
+        ends = np.stack([self.points, self.points[self.after]], axis=1)
+        return np.asarray(shapely.linestrings(ends), dtype=object)
+
+    def way_between(self, e: Array, f: Array) -> NDArray[np.float64]:
+        """Lengths of the loops between edges of one loop each, on the shorter side."""
+        first, last, travelled = np.minimum(e, f), np.maximum(e, f), np.cumsum(self.lengths)
+        forth = travelled[last] - self.lengths[last] - travelled[first]
+        back = self.perimeters[self.number[e]] - forth - self.lengths[e] - self.lengths[f]
+        return np.minimum(forth, back)
 
 
 def loop_list(value: Any, key: str) -> list[Any]:

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from glid_nb._arrays import Array, Rebuilt, frozen, number_pairs
 from glid_nb.geometry import _loops
-from glid_nb.geometry._loops import GeometryError, loop_name, place, plain_name, segments
+from glid_nb.geometry._loops import GeometryError, Loops, loop_name, place, plain_name
 
 # Parts of the boundary closer than this share of the cage's size count as touching: a few thousand
 # roundings, below which neither an offset nor a normal direction can be computed.
@@ -199,7 +199,8 @@ def _check_not_flat(loop: Array, number: int, resolution: float) -> None:
 
 
 def _check_fold_back(loop: Array, number: int, resolution: float) -> None:
-    before, after = np.roll(segments(loop), 1), segments(loop)
+    after = Loops.of([loop]).segments
+    before = np.roll(after, 1)
     corner_before, corner_after = np.roll(loop, 1, axis=0), np.roll(loop, -1, axis=0)
     near_after = shapely.distance(before, shapely.points(corner_after)) <= resolution
     near_before = shapely.distance(after, shapely.points(corner_before)) <= resolution
@@ -214,11 +215,9 @@ def _check_fold_back(loop: Array, number: int, resolution: float) -> None:
 
 def _check_crossings(loops: list[Array], resolution: float) -> None:
     """Raise for the first pair of edges that cross, or else touch other than as neighbours."""
-    edges = np.concatenate([segments(loop) for loop in loops])
-    sizes = np.array([len(loop) for loop in loops])
-    number = np.repeat(np.arange(len(loops)), sizes)
-    index = np.arange(len(edges)) - (np.cumsum(sizes) - sizes)[number]
-
+    whole = Loops.of(loops)
+    edges, number, sizes = whole.segments, whole.number, np.diff(whole.starts)
+    index = np.arange(len(edges)) - whole.starts[number]
     tree, found = shapely.STRtree(edges), None
     # Some edges at a time: a tangle has millions of crossings, and the first one is enough.
     for start in range(0, len(edges), _EDGES):

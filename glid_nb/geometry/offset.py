@@ -1,5 +1,6 @@
 """The offset cage P^: the cage's loops moved outward, and one point inside every offset hole."""
 
+import itertools
 from dataclasses import dataclass
 from numbers import Real
 
@@ -8,8 +9,7 @@ import shapely
 from numpy.typing import NDArray
 
 from glid_nb._arrays import Array, read_only
-from glid_nb.geometry import _loops
-from glid_nb.geometry._loops import GeometryError, place
+from glid_nb.geometry._loops import GeometryError, Loops, loop_name, place
 from glid_nb.geometry.cage import Cage
 
 # Least distance of an offset edge from the cage, as a share of the smaller distance at its ends.
@@ -64,10 +64,10 @@ def offset_cage(cage: Cage, distance: float) -> Offset:
         i = int(np.argmin(local))
         loop = int(corners.loop[i])
         plain = "this passage is too narrow; widen it, merge its two sides or remove the point"
-        vertex = f"{_loops.loop_name(loop)}'s vertex {i - corners.starts[loop]}"
+        vertex = f"{loop_name(loop)}'s vertex {i - corners.loops.starts[loop]}"
         where = f"{vertex} at {place(corners.points[i])} lies in the passage"
         raise GeometryError(plain, corners.points[i], f"no offset cage fits: {where}")
-    loops = corners.split(corners.moved(local))
+    loops = corners.loops.split(corners.moved(local))
     try:
         outer = Cage(loops[0], loops[1:])
     except GeometryError as error:
@@ -75,7 +75,7 @@ def offset_cage(cage: Cage, distance: float) -> Offset:
         plain = f"there is no room for an offset cage here; {remedy}"
         what = f"no valid offset cage at distance {distance:.6g}: {error}"
         raise GeometryError(plain, error.point, what) from error
-    distances = tuple(map(read_only, corners.split(local * corners.height)))
+    distances = tuple(map(read_only, corners.loops.split(local * corners.height)))
     return Offset(outer, distances, _notes(corners, local, distance))
 
 
@@ -93,7 +93,7 @@ def hole_points(cage: Cage) -> NDArray[np.float64]:
         centre = shapely.get_point(circle, 0)
         candidates = [p for p in (centre, region.representative_point()) if region.contains(p)]
         if not candidates:
-            where = f"{_loops.loop_name(i + 1)} of the offset cage near {place(hole[0])}"
+            where = f"{loop_name(i + 1)} of the offset cage near {place(hole[0])}"
             plain = "this hole is too narrow; widen it or remove it"
             raise GeometryError(plain, hole[0], f"no point inside {where}")
         best = max(candidates, key=region.exterior.distance)
@@ -105,20 +105,13 @@ class _Corners:
     """The vertices of all loops in one array, with directions and mitres at each."""
 
     def __init__(self, cage: Cage, distance: float) -> None:
-        self.distance = distance
-        sizes = np.array([len(loop) for loop in cage.loops])
-        self.starts = np.concatenate([[0], np.cumsum(sizes)])
-        self.loop = np.repeat(np.arange(len(sizes)), sizes)
-        self.next = _loops.next_index(self.loop)
-        self.previous = np.argsort(self.next)
-        self.points = np.concatenate(cage.loops)
-        self.length = np.concatenate([_loops.edge_lengths(loop) for loop in cage.loops])
-        self.perimeter = np.add.reduceat(self.length, self.starts[:-1])
+        loops = self.loops = Loops.of(cage.loops)
+        self.distance, self.points, self.loop = distance, loops.points, loops.number
+        self.next, self.previous, self.length = loops.after, loops.before, loops.lengths
         self.position = np.cumsum(self.length) - self.length  # along the loop, up to a constant
-        self.along = (self.points[self.next] - self.points) / self.length[:, None]
+        self.along = loops.edges / self.length[:, None]
         self.normal = np.stack([self.along[:, 1], -self.along[:, 0]], axis=1)  # away from P
-        self.edges = np.concatenate([_loops.segments(loop) for loop in cage.loops])
-        self.tree = shapely.STRtree(self.edges)
+        self.tree = shapely.STRtree(loops.segments)
         before, after = self.along[self.previous], self.along
         bulge = before[:, 0] * after[:, 1] - before[:, 1] * after[:, 0]
         self.convex = bulge > 0
@@ -141,9 +134,6 @@ class _Corners:
     def moved(self, local: Array) -> Array:
         return self.points + local[:, None] * self.step
 
-    def split(self, values: Array) -> list[Array]:
-        return [part.copy() for part in np.split(values, self.starts[1:-1])]
-
     def passage_limits(self, min_ratio: float) -> Array:
         """(n,) greatest distances where a vertex faces an edge of its loop across the outside, the
         way along the loop being at least `min_ratio` times their gap."""
@@ -162,8 +152,9 @@ class _Corners:
         off_after = np.sum(towards * self.normal[w], axis=1) > -1e-9
         off_before = np.sum(towards * self.normal[self.previous[w]], axis=1) > -1e-9
         off_vertex = np.where(self.convex[w], off_after | off_before, off_after & off_before)
-        ahead = (self.position[w] - self.position[e]) % self.perimeter[self.loop[e]]
-        way = np.minimum(ahead - t * self.length[e], self.perimeter[self.loop[e]] - ahead)
+        around = self.loops.perimeters[self.loop[e]]
+        ahead = (self.position[w] - self.position[e]) % around
+        way = np.minimum(ahead - t * self.length[e], around - ahead)
         chosen = off_edge & off_vertex & (way >= min_ratio * gap)
         w, e, t, room = w[chosen], e[chosen], t[chosen], _PASSAGE_SHARE * gap[chosen]
         advance = np.maximum(np.sum(self.step[w] * towards[chosen], axis=1), 1.0)
@@ -176,7 +167,7 @@ class _Corners:
     def smoothed(self, local: Array) -> Array:
         """The largest distances up to `local` whose change per arc length is at most the slope."""
         result = local.copy()
-        for a, b in zip(self.starts[:-1], self.starts[1:], strict=True):
+        for a, b in itertools.pairwise(self.loops.starts):
             n = b - a
             s = _SLOPE * np.concatenate([[0.0], np.cumsum(np.tile(self.length[a:b], 3))[:-1]])
             d = np.tile(local[a:b], 3)
@@ -218,14 +209,12 @@ class _Corners:
     def _meeting_factors(self, local: Array) -> Array:
         """(n,) factors for offset edges too close to the cage or to each other."""
         factors = np.ones(len(local))
-        moved = self.moved(local)
-        height = local * self.height
+        moved, height = Loops(self.moved(local), self.loop), local * self.height
         reach = CLEARANCE * np.minimum(height, height[self.next])
-        ends = np.stack([moved, moved[self.next]], axis=1)
-        edges = np.asarray(shapely.linestrings(ends), dtype=object)
+        edges = moved.segments
 
         e, f = self.tree.query(edges, predicate="dwithin", distance=reach)
-        self._shrink_ends(factors, edges, e, self.edges[f])
+        self._shrink_ends(factors, edges, e, self.loops.segments[f])
 
         e, f = shapely.STRtree(edges).query(edges, predicate="dwithin", distance=reach)
         neighbours = (e == f) | (self.next[e] == f) | (self.next[f] == e)
@@ -233,18 +222,10 @@ class _Corners:
         e, f = e[apart], f[apart]
         gap = shapely.distance(edges[e], edges[f])
         # The neighbours of a short edge are close anyway, so the gap is compared with the way too.
-        way = self._way_round(np.hypot(*(moved[self.next] - moved).T), e, f)
+        way = moved.way_between(e, f)
         close = gap < np.minimum(np.minimum(reach[e], reach[f]), CLEARANCE * way)
         self._shrink_ends(factors, edges, e[close], edges[f[close]])
         return factors
-
-    def _way_round(self, length: Array, e: Array, f: Array) -> Array:
-        """Length of the offset loop between the edges e and f, on the shorter side."""
-        position = np.concatenate([[0.0], np.cumsum(length)])
-        total = position[self.starts[1:]] - position[self.starts[:-1]]
-        first, last = np.minimum(e, f), np.maximum(e, f)
-        inner = position[last] - position[first + 1]
-        return np.minimum(inner, total[self.loop[e]] - inner - length[first] - length[last])
 
     def _shrink_ends(self, factors: Array, edges: Array, e: Array, others: Array) -> None:
         """Lower the factors at the ends of the edges `e`, more at the end nearer to `others`."""
@@ -255,21 +236,21 @@ class _Corners:
 
     def _encloses(self, local: Array) -> bool:
         """Whether the offset loops, known not to meet the cage, lie outside the domain."""
-        pairs = zip(self.split(self.points), self.split(self.moved(local)), strict=True)
+        pairs = zip(self.loops.split(self.points), self.loops.split(self.moved(local)), strict=True)
         around = [(b, a) if i == 0 else (a, b) for i, (a, b) in enumerate(pairs)]
         return all(shapely.contains_xy(shapely.Polygon(a), *b[0]) for a, b in around)
 
 
 def _notes(corners: _Corners, local: Array, distance: float) -> tuple[str, ...]:
     notes: list[str] = []
-    for loop, distances in enumerate(corners.split(local)):
+    for loop, distances in enumerate(corners.loops.split(local)):
         reduced = int((distances < 0.9 * distance).sum())
         if reduced:
             least, count = int(np.argmin(distances)), len(distances)
             share = "everywhere" if reduced == count else f"at {reduced} of {count} vertices"
-            where = f"vertex {least} {place(corners.points[corners.starts[loop] + least])}"
+            where = f"vertex {least} {place(corners.points[corners.loops.starts[loop] + least])}"
             notes.append(
-                f"{_loops.loop_name(loop)}: the offset {distance:.4g} was reduced {share}, to "
+                f"{loop_name(loop)}: the offset {distance:.4g} was reduced {share}, to "
                 f"{distances[least]:.4g} at {where}, because there is no room for more."
             )
     return tuple(notes)

@@ -1,94 +1,37 @@
-"""The loops of a cage in one array, where they meet, and the importance of each vertex."""
-
-from __future__ import annotations
-
-from dataclasses import dataclass
-from functools import cached_property
+"""Where the loops of a cage meet, and the importance of each vertex."""
 
 import numpy as np
 import shapely
 from numpy.typing import NDArray
 
 from glid_nb._arrays import Array
-from glid_nb.geometry._loops import next_index, signed_area
+from glid_nb.geometry._loops import Loops
 
 Points = NDArray[np.float64]  # (n, 2) in pixel coordinates
 
 
-@dataclass(frozen=True, eq=False)
-class Loops:
-    """Closed loops, concatenated, the exterior first; edge i is from vertex i to ``after[i]``."""
+def passed_over(loops: Loops, kept: NDArray[np.bool_]) -> list[NDArray[np.intp]]:
+    """For each edge of ``loops[kept]`` the vertices that it skips, in order."""
+    index = np.flatnonzero(kept)
+    following, number = index[loops[index].after], loops.number[index]
+    starts, sizes = loops.starts[number], np.diff(loops.starts)[number]
+    return [
+        start + (low + 1 - start + np.arange((high - low - 1) % size)) % size
+        for low, high, start, size in zip(index, following, starts, sizes, strict=True)
+    ]
 
-    points: Points
-    number: NDArray[np.intp]  # (n,) the loop of each vertex, ascending from 0
 
-    def __getitem__(self, chosen: NDArray[np.bool_] | NDArray[np.intp]) -> Loops:
-        return Loops(self.points[chosen], self.number[chosen])
-
-    @property
-    def ends(self) -> NDArray[np.intp]:
-        """(l,) index after the last vertex of each loop."""
-        return np.cumsum(np.bincount(self.number))
-
-    def split(self, values: NDArray) -> list[NDArray]:
-        """Split (n, ...) values of the vertices or edges by loop."""
-        return np.split(values, self.ends[:-1])
-
-    @cached_property
-    def after(self) -> NDArray[np.intp]:
-        """(n,) index of the next vertex of the loop."""
-        return next_index(self.number)
-
-    @cached_property
-    def before(self) -> NDArray[np.intp]:
-        """(n,) index of the previous vertex of the loop."""
-        return np.argsort(self.after)
-
-    @cached_property
-    def edges(self) -> Points:
-        """(n, 2) vectors."""
-        return self.points[self.after] - self.points
-
-    @property
-    def lengths(self) -> NDArray[np.float64]:
-        return np.hypot(*self.edges.T)
-
-    @property
-    def areas(self) -> NDArray[np.float64]:
-        """(l,) signed areas of the loops."""
-        return np.array([signed_area(loop) for loop in self.split(self.points)])
-
-    def segments(self) -> NDArray[np.object_]:
-        """(n,) the edges as shapely line strings."""
-        ends = np.stack([self.points, self.points[self.after]], axis=1)
-        return np.asarray(shapely.linestrings(ends), dtype=object)
-
-    def passed_over(self, kept: NDArray[np.bool_]) -> list[NDArray[np.intp]]:
-        """For each edge of ``self[kept]`` the vertices that it skips, in order."""
-        index = np.flatnonzero(kept)
-        following, number = index[self[index].after], self.number[index]
-        sizes = np.bincount(self.number)[number]
-        starts = self.ends[number] - sizes
-        return [
-            start + (low + 1 - start + np.arange((high - low - 1) % size)) % size
-            for low, high, start, size in zip(index, following, starts, sizes, strict=True)
-        ]
-
-    def in_conflict(self, gap: float) -> NDArray[np.intp]:
-        """The edges that cross another edge, or come closer to it than `gap` and not just along a
-        loop, as the neighbours of a short edge do."""
-        segments, length, after = self.segments(), self.lengths, self.after
-        e, f = shapely.STRtree(segments).query(segments, predicate="dwithin", distance=gap)
-        apart = (e < f) & (after[e] != f) & (after[f] != e)
-        e, f = e[apart], f[apart]
-        same = self.number[e] == self.number[f]
-        travelled = np.cumsum(length)
-        forth = travelled[f] - length[f] - travelled[e]
-        back = np.bincount(self.number, length)[self.number[e]] - forth - length[e] - length[f]
-        near = same & (np.minimum(forth, back) < 4 * gap)
-        conflict = ~near
-        conflict[near] = shapely.intersects(segments[e[near]], segments[f[near]])
-        return np.unique(np.concatenate([e[conflict], f[conflict]]))
+def in_conflict(loops: Loops, gap: float) -> NDArray[np.intp]:
+    """The edges that cross another edge, or come closer to it than `gap` and not just along a
+    loop, as the neighbours of a short edge do."""
+    segments, after = loops.segments, loops.after
+    e, f = shapely.STRtree(segments).query(segments, predicate="dwithin", distance=gap)
+    apart = (e < f) & (after[e] != f) & (after[f] != e)
+    e, f = e[apart], f[apart]
+    near = (loops.number[e] == loops.number[f]) & (loops.way_between(e, f) < 4 * gap)
+    conflict = ~near
+    conflict[near] = shapely.intersects(segments[e[near]], segments[f[near]])
+    return np.unique(np.concatenate([e[conflict], f[conflict]]))
 
 
 def repair(loops: Loops, importance: Array, kept: Array, gap: float) -> list[str]:
@@ -96,8 +39,8 @@ def repair(loops: Loops, importance: Array, kept: Array, gap: float) -> list[str
     before = np.count_nonzero(kept)
     place = loops.points[0]
     while True:
-        simplified, over = loops[kept], loops.passed_over(kept)
-        edges = [edge for edge in simplified.in_conflict(gap) if len(over[edge])]
+        simplified, over = loops[kept], passed_over(loops, kept)
+        edges = [edge for edge in in_conflict(simplified, gap) if len(over[edge])]
         if not edges:  # containment is defined once there are no crossings
             edges = _jumped(simplified, over)
         if not edges:
@@ -118,7 +61,7 @@ def _jumped(simplified: Loops, over: list[NDArray[np.intp]]) -> list[int]:
     inside = np.array([shapely.contains_xy(shapely.Polygon(loop), *starts.T) for loop in separate])
     inside[0] = ~inside[0]  # all others lie in the exterior
     np.fill_diagonal(inside, False)
-    segments = simplified.segments()
+    segments = simplified.segments
     mendable = np.array([len(vertices) > 0 for vertices in over])
     found = []
     for pair in np.argwhere(inside):

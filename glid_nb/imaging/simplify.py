@@ -11,8 +11,8 @@ import shapely
 from numpy.typing import NDArray
 
 from glid_nb._arrays import Array, read_only
-from glid_nb.geometry._loops import as_points, subdivided
-from glid_nb.imaging.loops import Loops, Points, repair, significance
+from glid_nb.geometry._loops import Loops, as_points, subdivided
+from glid_nb.imaging.loops import Points, in_conflict, passed_over, repair, significance
 
 # Numbers of vertices for the automatic tolerance: about _VERTICES while it is below the offset, not
 # many more than _MANY while it is below a few times the offset, and never more than _MOST.
@@ -60,8 +60,7 @@ def simplify(
     possible, so that the shape stays inside. They are about ``room`` apart, and keep a part of it.
     The rest is as in `TraceOptions`.
     """
-    whole = Loops(np.concatenate(loops), np.repeat(np.arange(len(loops)), list(map(len, loops))))
-    by_loop = [significance(loop) for loop in loops]
+    whole, by_loop = Loops.of(loops), [significance(loop) for loop in loops]
     importance = np.concatenate(by_loop)
     # Three vertices of each loop are always kept.
     ranks = [np.argsort(np.argsort(-values, kind="stable")) for values in by_loop]
@@ -114,11 +113,9 @@ def _automatic_tolerance(importance: Array, n_holes: int, area: float, offset: f
 
 def _merge_short_edges(loops: Loops, kept: Array, min_edge: float | None, gap: float) -> None:
     """Drop an end of every edge shorter than `min_edge` from `kept` where nothing is in the way."""
-    length = loops[kept].lengths
     if min_edge is None:
-        min_edge = _MIN_EDGE * float(length.mean())
-    perimeter = np.array([part.sum() for part in loops[kept].split(length)])
-    shortest = np.minimum(min_edge, perimeter / _PER_LOOP)
+        min_edge = _MIN_EDGE * float(loops[kept].lengths.mean())
+    shortest = np.minimum(min_edge, loops[kept].perimeters / _PER_LOOP)
     blocked = np.zeros(len(kept), dtype=bool)
     while True:
         index = np.flatnonzero(kept)
@@ -163,7 +160,7 @@ def _clear(loops: Loops, vertices: NDArray[np.intp], gap: float) -> NDArray[np.b
     clear of other edges, and the edge that replaces the two sides folds back onto none."""
     around = _around(loops)[vertices]
     corners = loops.points[around]
-    triangle, edge = shapely.STRtree(loops.segments()).query(
+    triangle, edge = shapely.STRtree(loops.segments).query(
         shapely.polygons(corners[:, 1:4]), predicate="dwithin", distance=gap
     )
     # The two sides and the edges next to them are no obstacles.
@@ -200,7 +197,7 @@ def _enclosing(loops: Loops, kept: NDArray[np.bool_], margin: float, gap: float)
         ratio = moved.areas / areas
         still = (~((low < ratio) & (ratio < high)))[simplified.number]
         if not shifts[still].any():
-            edges = moved.in_conflict(gap)
+            edges = in_conflict(moved, gap)
             still = np.concatenate([edges, simplified.after[edges]])
             if not shifts[still].any():
                 return moved
@@ -215,7 +212,7 @@ def _shifts(loops: Loops, kept: Array, areas: Array, margin: float) -> Points:
     normal = outwards[:, np.newaxis] * np.stack([y, -x], axis=1)
     normal /= np.hypot(x, y)[:, np.newaxis]
     cut = np.zeros(len(normal))
-    for k, over in enumerate(loops.passed_over(kept)):
+    for k, over in enumerate(passed_over(loops, kept)):
         if len(over):
             beyond = (loops.points[over] - corners.points[k]) @ normal[k]
             cut[k] = max(0.0, float(beyond.max()) - margin)

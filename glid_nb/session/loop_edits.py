@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from glid_nb._arrays import number_pairs, read_only
 from glid_nb.geometry import GeometryError, loop_name
+from glid_nb.geometry._loops import Loops
 
 Loop: TypeAlias = NDArray[np.float64]
 _DRAWN = 0.002  # of a picture's longer side; drawn lines keep no finer detail
@@ -65,13 +66,11 @@ def drawn(points: ArrayLike, size: tuple[int, int]) -> Loop:
 
 def nearest_edge(loops: AnyLoops, point: ArrayLike) -> tuple[int, int, Loop]:
     """The edge (loop, index) nearest to a point, and its nearest point to that."""
-    p = shapely.Point(checked_point(point))
-    places = [(i, j) for i, loop in enumerate(loops) for j in range(len(loop))]
-    ends = [np.stack([loop, np.roll(loop, -1, axis=0)], axis=1) for loop in loops]
-    edges = np.asarray(shapely.linestrings(np.concatenate(ends)))
-    nearest = int(np.argmin(shapely.distance(edges, p)))
-    way = shapely.shortest_line(edges[nearest], p)
-    return *places[nearest], shapely.get_coordinates(way)[0]
+    p, whole = shapely.Point(checked_point(point)), Loops.of(loops)
+    nearest = int(np.argmin(shapely.distance(whole.segments, p)))
+    loop = int(whole.number[nearest])
+    way = shapely.shortest_line(whole.segments[nearest], p)
+    return loop, nearest - int(whole.starts[loop]), shapely.get_coordinates(way)[0]
 
 
 def around(loops: AnyLoops, point: ArrayLike) -> int | None:
