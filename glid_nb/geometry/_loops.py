@@ -127,7 +127,7 @@ class Loops:
         return np.hypot(*self.edges.T)
 
     @property
-    def perimeters(self) -> NDArray[np.float64]:
+    def perimeters(self) -> Array:
         """(l,) lengths of the loops."""
         return np.bincount(self.number, self.lengths)
 
