@@ -273,7 +273,7 @@ def _assembled(panels: Panels, bounds: PanelBounds, certified: bool, **more: Any
 def _kernel(
     start: Any, end: Any, coefficients: Any, singularities: Singularities, kind: CertificateKind
 ) -> Known:
-    ends, slack, own = _end_values(start, end, coefficients, singularities)
+    ends, slack, own = end_values(start, end, coefficients, singularities)
     fz, fzb_conj = (EndValues(*(values[k] for values in ends)) for k in (0, 1))
     proof = PROOFS[kind].on(start, end, singularities)
     remainder = proof.remainder(coefficients, singularities) + proof.slack_share * slack
@@ -285,15 +285,11 @@ def _kernel(
     return Known(bounds, f - g, f + g, g / f, f, slack, at_ends, np.sum(own, axis=0))
 
 
-def end_values(*at: Any) -> tuple[EndValues, Any]:
-    """``sum_j D_j coefficients_j`` at the ends of panels, (k, p), and bounds on the errors."""
-    return _end_values(*at)[:2]
-
-
-def _end_values(
+def end_values(
     start: Any, end: Any, coefficients: Any, singularities: Singularities
 ) -> tuple[EndValues, Any, Any]:
-    """Last, bounds on the errors of the values at the start alone."""
+    """``sum_j D_j coefficients_j`` at the ends of panels, (k, p), and bounds on the errors: of all,
+    and of the values at the start alone."""
     chord: Any = end - start
     edges: Any = cauchy.edge_coefficients(coefficients, singularities)
     both: Any = np.concatenate([start, end])

@@ -127,7 +127,7 @@ def _evaluated(maps: Sequence[HarmonicMap], size: Array) -> Any:
 
 
 def _values(start: Any, end: Any, rows: Any, size: Any, singularities: Singularities) -> _Values:
-    ends, slack = end_values(start, end, rows, singularities)
+    ends, slack, _ = end_values(start, end, rows, singularities)
     slack = slack + _coefficient_rounding(start, end, size, singularities)
     remainder = Hermite.on(start, end, singularities).remainder(rows, singularities)
     shift = jumps(rows, singularities) @ beside(start, end, singularities).T

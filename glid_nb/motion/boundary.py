@@ -74,13 +74,12 @@ class Boundary:
         """(s,) ``log f_z`` at the nodes, of one branch: continuous along loops and their links."""
         result = np.log(np.abs(fz)).astype(complex)
         for branch in self.branches:
-            phase = np.angle(fz[branch.indices[0]])
+            phase = np.unwrap(np.angle(fz[branch.indices]))
             if branch.link is not None:
                 ends = fz[[branch.linked]], fz[branch.indices[:1]]
-                along = np.concatenate([ends[0], branch.link @ phi, ends[1]])
-                phase = result[branch.linked].imag + _turns(along).sum()
-            turns = _turns(fz[branch.indices])
-            result[branch.indices] += 1j * (phase + np.append(0, np.cumsum(turns)))
+                along = np.unwrap(np.angle(np.concatenate([ends[0], branch.link @ phi, ends[1]])))
+                phase += result[branch.linked].imag + along[-1] - along[0] - phase[0]
+            result[branch.indices] += 1j * phase
         return result
 
 
@@ -145,8 +144,3 @@ def _branches(domain: Domain, start: Array, end: Array, loop: Array) -> tuple[Br
         branches.append(Branch(np.roll(nodes[j], -first), near, link))
         inside.add(j)
     return tuple(branches)
-
-
-def _turns(fz: Array) -> Array:
-    """The changes of the argument from each value to the next."""
-    return np.angle(fz[1:] * np.conj(fz[:-1]))

@@ -6,7 +6,7 @@ import shapely
 
 from glid_nb._arguments import check_type
 from glid_nb._arrays import Array
-from glid_nb.geometry import Domain, triangulate
+from glid_nb.geometry import Domain, as_points, triangulate
 from glid_nb.solvers import Pose
 
 _MESH_VERTICES = 3000
@@ -67,12 +67,8 @@ def _spread_out(graph: scipy.sparse.csr_array, clearance: Array, count: int) -> 
 
 
 def _swung(handle: Array, middle: Array, vertices: Array, path_lengths: Array) -> Array:
-    x, y = handle - middle
-    ways = []
-    for turn in (_TURN, -_TURN):
-        t = np.linspace(0, turn, 7)[1:]
-        turned = [x * np.cos(t) - y * np.sin(t), x * np.sin(t) + y * np.cos(t)]
-        ways.append(middle + np.stack(turned, axis=-1))
+    turns = np.exp(1j * np.linspace(0, [_TURN, -_TURN], 7)[1:].T)
+    ways = middle + as_points((handle - middle) @ [1, 1j] * turns)
     moved = np.linalg.norm(ways[0][-1] - handle)
     rest = vertices[path_lengths > _APART * moved]
     if not len(rest):
