@@ -64,8 +64,6 @@ class Autosave:
         own: OwnFiles | None = None,
         owner: object | None = None,
     ) -> None:
-        if not interval >= 0:
-            raise ValueError(f"interval is {interval}; it must be at least 0 seconds")
         self.path, self.own, self._on_done = Path(path), own or OwnFiles(), on_done
         self.left: Path | None = None
         """The file that was given up because another program changed it."""

@@ -9,7 +9,7 @@ from typing import Any
 import ipywidgets
 
 from glid_nb import export as to
-from glid_nb._files import write_atomically, zipped
+from glid_nb._files import write_atomically
 from glid_nb._json import json_text
 from glid_nb._runtime import data_directory
 from glid_nb.certificate.certify import proof_text
@@ -107,13 +107,6 @@ def exported(
         case _:
             contents = [python_code(document, names[1]).encode(), png(image)]
     return dict(zip(names, contents, strict=True))
-
-
-def as_one(files: Mapping[str, bytes], stem: str) -> tuple[str, bytes]:
-    """The name and content of a file, or a zip of several."""
-    if len(files) == 1:
-        return next(iter(files.items()))
-    return f"{stem}.zip", zipped(files)
 
 
 def write(

@@ -11,6 +11,7 @@ import ipywidgets
 import traitlets
 
 from glid_nb._errors import InputError
+from glid_nb._files import zipped
 from glid_nb._scripts import bundle
 from glid_nb.export.formats import FORMATS, MOTION_FORMATS, file_names
 from glid_nb.imaging.read import MAX_SIDE, png
@@ -259,7 +260,8 @@ class FilePanel(ipywidgets.VBox):
         stem = path.stem if moving else path.name.removesuffix(str(self.format.value))
 
         def deliver(files: Mapping[str, bytes]) -> str:
-            name, data = exporting.as_one(files, stem)
+            one = len(files) == 1
+            name, data = next(iter(files.items())) if one else (f"{stem}.zip", zipped(files))
             self.clipboard.download(name, data)
             return f"Sent {name} to the browser's downloads"
 

@@ -152,8 +152,3 @@ def test_what_is_pending_is_not_written_after_a_later_one(tmp_path: Path) -> Non
     autosave.write(replace(base, active=1))
     autosave.close()
     assert (saved, load_document(path).active) == ([None], 1)
-
-
-def test_a_negative_interval_is_refused(tmp_path: Path) -> None:
-    with pytest.raises(ValueError, match="interval"):
-        Autosave(tmp_path / "a.glid", interval=-1)
