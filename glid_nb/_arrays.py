@@ -1,4 +1,4 @@
-"""Arrays: the alias of their type, arrays of numbers from untrusted values, immutable arrays."""
+"""Arrays: aliases of their types, arrays of numbers from untrusted values, immutable arrays."""
 
 import math
 from dataclasses import fields
@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 Array: TypeAlias = NDArray[Any]
+Floats: TypeAlias = NDArray[np.float64]
 A = TypeVar("A", bound=Array)
 
 

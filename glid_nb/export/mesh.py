@@ -1,7 +1,5 @@
 """The deformed shape as a textured triangle mesh: Wavefront OBJ and binary glTF."""
 
-from __future__ import annotations
-
 import functools
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
@@ -155,7 +153,7 @@ def _animate(moved: Array, times: Array, weights: Array, buffers: Any, tree: Any
     tree["animations"] = [{"name": "motion", "samplers": linear, "channels": [channel]}]
 
 
-def _trimesh(mesh: TexturedMesh, material: Material) -> Trimesh:
+def _trimesh(mesh: TexturedMesh, material: "Material") -> "Trimesh":
     from trimesh import Trimesh  # noqa: PLC0415
     from trimesh.visual import TextureVisuals  # noqa: PLC0415
 

@@ -16,6 +16,7 @@ from matplotlib.ticker import NullLocator
 from numpy.typing import NDArray
 from PIL import Image, ImageColor
 
+from glid_nb._arrays import Floats
 from glid_nb.figures.style import CYAN, HAIRLINE, INK, NAMED, SMALL
 from glid_nb.imaging import PixelFrame
 from glid_nb.solvers import Pose
@@ -27,8 +28,6 @@ _MANY = 256  # values of a field
 _ROUND, _COARSE = (1, 1.1, 1.2, 1.5, 2, 2.5, 3, 4, 5, 7), (1, 2, 5)  # ticks of a decade
 
 ON_WHITE: Any = [withStroke(linewidth=2.0, foreground="white")]  # shows on every picture
-
-Floats = NDArray[np.float64]
 
 
 class NotebookFigure(Figure):

@@ -7,8 +7,9 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import ArrayLike
 
+from glid_nb._arrays import Floats
 from glid_nb.figures import drawing
-from glid_nb.figures.drawing import Floats, NotebookFigure
+from glid_nb.figures.drawing import NotebookFigure
 from glid_nb.figures.plots import CertificatePlot, EnergyPlot, StepPlot
 from glid_nb.figures.shapes import DrawnMap, draw_deformed, draw_distortion, hold
 from glid_nb.figures.style import BLUE, FONT_SIZE, GREY, INK, LEGEND, SMALL

@@ -16,6 +16,7 @@ from matplotlib.text import Text
 from matplotlib.ticker import LogFormatterSciNotation, LogLocator, MaxNLocator, NullLocator
 from numpy.typing import NDArray
 
+from glid_nb._arrays import Floats
 from glid_nb.certificate import Certificate
 from glid_nb.certificate.rounding import rounded_down
 from glid_nb.figures import style
@@ -41,8 +42,6 @@ _ROUND_ITERATIONS = MaxNLocator(3, steps=[1, 2, 5, 10], integer=True)
 _CHARACTER = 0.62  # mean width of a character over the font's size
 _PEAK = 1.5  # the certificate's axis ends at this multiple of the 90th percentile
 _SAMPLES = np.array([0.0, 0.25, 0.5, 0.75, 1.0])  # where sigma_2 is sampled within a panel
-
-Floats = NDArray[np.float64]
 
 
 class Plot:

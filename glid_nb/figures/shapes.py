@@ -10,11 +10,12 @@ from matplotlib.colors import LogNorm, Normalize, to_rgba_array
 from matplotlib.tri import Triangulation as Triangles
 from numpy.typing import ArrayLike, NDArray
 
+from glid_nb._arrays import Floats
 from glid_nb._runtime import double_precision
 from glid_nb.certificate import Certificate
 from glid_nb.energies import Energy, SymmetricDirichlet
 from glid_nb.figures import drawing, style
-from glid_nb.figures.drawing import Floats, NotebookFigure
+from glid_nb.figures.drawing import NotebookFigure
 from glid_nb.figures.plots import CertificatePlot
 from glid_nb.figures.style import BLUE, GREEN, GREY, INK, VERMILION, distortion_colors
 from glid_nb.geometry import Domain, MeshMap, as_points, triangulate

@@ -1,7 +1,5 @@
 """Colours (distinguishable by colour-blind people), sizes and legends of all figures and plots."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
@@ -42,7 +40,7 @@ COLORS = (
 """From isometric to distorted: ten stops of `distortion_colors`, without matplotlib."""
 
 
-def distortion_colors() -> Colormap:
+def distortion_colors() -> "Colormap":
     """Pale where isometric, dark where not, in grey too: magma without its black."""
     from matplotlib import colormaps  # noqa: PLC0415 - as above
     from matplotlib.colors import ListedColormap  # noqa: PLC0415
@@ -56,7 +54,7 @@ def rgb(colors: Sequence[str]) -> Array:
     return np.array([[int(color[i : i + 2], 16) / 255 for i in (1, 3, 5)] for color in colors])
 
 
-def tidy(axes: Axes) -> None:
+def tidy(axes: "Axes") -> None:
     """Two thin spines, small ticks outside, no box."""
     axes.spines[["top", "right"]].set_visible(False)
     axes.spines[["left", "bottom"]].set(color=INK, linewidth=HAIRLINE)

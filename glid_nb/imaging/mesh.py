@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from glid_nb._arrays import Floats
 from glid_nb.geometry import Cage, as_points, triangulate
 from glid_nb.geometry._loops import subdivided
 from glid_nb.harmonic import HarmonicMap
@@ -34,7 +35,6 @@ _PIECES = np.array(
     ]
 )
 
-Floats = NDArray[np.float64]
 Ints = NDArray[np.int32]
 Evaluation = Callable[[Floats], Floats]
 

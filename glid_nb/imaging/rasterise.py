@@ -10,6 +10,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from glid_nb._arrays import Floats
 from glid_nb.imaging.mesh import unique_edges
 from glid_nb.imaging.texture import Sampler, Texture, gradients
 
@@ -17,7 +18,6 @@ _BAND = 1 << 17  # pixels drawn at a time, to bound the memory
 SUBSAMPLES = 8  # rows and columns of the samples in an outline pixel
 
 Ints = NDArray[np.integer]
-Floats = NDArray[np.float64]
 Colours = NDArray[np.float32]
 
 

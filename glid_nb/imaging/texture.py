@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from glid_nb._arrays import Array
+from glid_nb._arrays import Array, Floats
 from glid_nb.imaging.read import as_rgba
 
 _CHUNK = 1 << 14  # look-ups at a time, whose arrays stay in the cache
@@ -16,8 +16,6 @@ _ROWS = 256  # rows of a picture that are converted at a time, to bound the memo
 
 # Weights of four neighbours by the powers 0 to 3 of the place between the middle two.
 _CATMULL_ROM = np.array([[0, -1, 2, -1], [2, 0, -5, 3], [0, 1, 4, -3], [0, 0, -1, 1]]) / 2
-
-Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)

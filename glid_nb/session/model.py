@@ -1,12 +1,10 @@
 """What the editor's models have in common: undo, a lock, and observers of changes."""
 
-from __future__ import annotations
-
 import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
-from typing import Any, Generic, TypeVar
+from typing import Any, Generic, Self, TypeVar
 
 S = TypeVar("S")
 Observer = Callable[[str], None]
@@ -25,41 +23,41 @@ class History(Generic[S]):
     past: tuple[S, ...] = ()
     future: tuple[S, ...] = ()  # the states that redo restores, the next one first
     gesture: Any = None  # the gesture that made the present and may go on; None for a complete step
-    origin: History[S] | None = None  # the history before the gesture
+    origin: Self | None = None  # the history before the gesture
 
-    def step(self, state: S, gesture: Any = None) -> History[S]:
+    def step(self, state: S, gesture: Any = None) -> Self:
         """Add ``state``, or replace the present within the same gesture; redo is cleared."""
         if gesture is not None and gesture == self.gesture:
             return self.refined(state)
         origin = None if gesture is None else self.ended()
         past = (*self.past, self.present)[-MOST_STEPS:]
-        return History(state, past, gesture=gesture, origin=origin)
+        return type(self)(state, past, gesture=gesture, origin=origin)
 
-    def refined(self, state: S) -> History[S]:
+    def refined(self, state: S) -> Self:
         """Replace the present without a step for undo."""
         return replace(self, present=state)
 
-    def ended(self) -> History[S]:
+    def ended(self) -> Self:
         """End the gesture: the next state is another step."""
         return self if self.gesture is None else replace(self, gesture=None, origin=None)
 
-    def cancelled(self) -> History[S]:
+    def cancelled(self) -> Self:
         """The history before the gesture; itself without one."""
         return self if self.origin is None else self.origin
 
-    def undone(self) -> History[S]:
+    def undone(self) -> Self:
         """The history one step back; itself at the beginning."""
         if not self.past:
             return self
         *past, present = self.past
-        return History(present, tuple(past), (self.present, *self.future))
+        return type(self)(present, tuple(past), (self.present, *self.future))
 
-    def redone(self) -> History[S]:
+    def redone(self) -> Self:
         """The history one step forward; itself at the end."""
         if not self.future:
             return self
         present, *future = self.future
-        return History(present, (*self.past, self.present), tuple(future))
+        return type(self)(present, (*self.past, self.present), tuple(future))
 
 
 class Observed:
