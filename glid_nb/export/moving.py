@@ -15,13 +15,12 @@ from glid_nb.export.encode import RGB, Frames
 from glid_nb.export.picture import frame_around, on_background
 from glid_nb.harmonic import HarmonicMap, images_under
 from glid_nb.imaging import DeformedMesh, as_rgba8, fine_mesh, order_of
-from glid_nb.imaging.render import draw_mesh
+from glid_nb.imaging.render import TOLERANCE_PX, draw_mesh
 from glid_nb.imaging.texture import Texture
 from glid_nb.motion import Motion
 from glid_nb.solvers import Pose
 
 _VERTICES = 1500  # evenly spread ones, before refinement
-_TOLERANCE_PX = 0.25  # straight edges stray from every map by less than this
 
 Progress = Callable[[int, int], bool | None]
 
@@ -117,7 +116,7 @@ def frames(
     times = motion.frame_times(fps)
     report(progress, 0, len(times))
     corners = images_under(motion.keyframes, motion.domain.cage.exterior).reshape(-1, 2)
-    tolerance = _TOLERANCE_PX * float(np.ptp(corners, axis=0).max()) / size
+    tolerance = TOLERANCE_PX * float(np.ptp(corners, axis=0).max()) / size
     mesh = MovingMesh.of(motion, poses, _VERTICES, tolerance)
     frame = frame_around(mesh.images.reshape(-1, 2), size)
     texture = Texture.from_image(as_rgba8(image))

@@ -21,6 +21,7 @@ from glid_nb.figures.style import COLORS, rgb
 from glid_nb.geometry import Domain
 from glid_nb.harmonic import FixedPoints, HarmonicMap, ShaderMap
 from glid_nb.imaging import PixelFrame, as_rgba8, png
+from glid_nb.imaging.render import MARGIN
 from glid_nb.motion import Motion, MotionCertificate
 from glid_nb.motion.settings import checked
 from glid_nb.solvers import Pose
@@ -28,7 +29,6 @@ from glid_nb.solvers import Pose
 _FOLDER = Path(__file__).parent
 _VERTICES = 4000
 _TOLERANCE = 0.004  # world units; the picture is 20 long
-_MARGIN = 0.04  # of the canvas, as in a rendering with view="fit"
 _GRID_LINES = 20  # along the longer side
 # Vertices and images are rounded by this share of the shape's size: 1/20 pixel where it has 2000.
 _STEP = 2.5e-5
@@ -88,7 +88,7 @@ def page_html(
         **_shape(mesh, step),
         **_shaders(mesh, map, step),
         "frame": [*PixelFrame(*texture.shape[1::-1]).bounds],
-        "margin": _MARGIN,
+        "margin": MARGIN,
         "grid": map.domain.cage.longer_side / _GRID_LINES,
         "colors": rgb(COLORS).ravel().round(4).tolist(),
         "ranges": _ranges(proof),

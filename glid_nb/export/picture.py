@@ -16,7 +16,7 @@ from glid_nb.figures.style import CYAN, INK
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging import PixelFrame, Sheets, as_rgba8, deformed_loops, deformed_mesh, order_of
 from glid_nb.imaging.read import png
-from glid_nb.imaging.render import View, draw_mesh, render
+from glid_nb.imaging.render import MARGIN, TOLERANCE_PX, View, draw_mesh, render
 from glid_nb.imaging.texture import Texture
 from glid_nb.motion.settings import checked
 from glid_nb.solvers import Pose
@@ -24,8 +24,6 @@ from glid_nb.solvers import Pose
 Format = Literal["gif", "apng"]
 
 _VERTICES = 3000  # of the mesh of one frame
-_TOLERANCE_PX = 0.25  # straight edges stray from the map by less than this
-_MARGIN = 0.04  # room around all frames together, as a share of the sides
 _TARGET, _HANDLE = 0.017, 0.008  # radii of the marks, as shares of the longer side
 _SMOOTH = 4  # the marks are drawn this much larger and scaled down
 
@@ -82,7 +80,7 @@ def animation_bytes(
     texture, frames = Texture.from_image(pixels), []
     for i, map in enumerate(maps):
         pose = None if poses is None else poses[i]
-        mesh = deformed_mesh(map, _VERTICES, _TOLERANCE_PX * frame.units_per_pixel, pose)
+        mesh = deformed_mesh(map, _VERTICES, TOLERANCE_PX * frame.units_per_pixel, pose)
         drawn = draw_mesh(texture, mesh, frame)
         picture = Image.fromarray(drawn) if background is None else on_background(drawn, background)
         if pose is not None and marks:
@@ -99,7 +97,7 @@ def frame_around(points: NDArray[np.float64], size: int) -> PixelFrame:
     """A frame with a longer side of ``size`` that holds (k, 2) points; its sides are even."""
     extent = np.ptp(points, axis=0)
     width, height = (2 * max(1, math.ceil(side / 2)) for side in size * (extent / extent.max()))
-    return PixelFrame(width, height).showing([points.min(axis=0), points.max(axis=0)], _MARGIN)
+    return PixelFrame(width, height).showing([points.min(axis=0), points.max(axis=0)], MARGIN)
 
 
 def on_background(pixels: NDArray[np.uint8], background: RGB) -> Image.Image:

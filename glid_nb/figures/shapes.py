@@ -38,7 +38,6 @@ _PIXELS = 600  # of the longer side of one drawn picture
 _WIDTH, _WIDTH_OF_ONE, _TALLEST = 7.4, 4.6, 3.8  # inches
 _ABREAST = 4
 _CHECKS = 24  # along the longer side of a shape
-_FULL_MARGIN = 0.5  # from this certified sigma_2 on panels have one colour
 _FEW, _SMALL = 5, 0.03  # triangles, and of the axes' size: folds that get rings
 # Face, edge, its width and hatch of folds, one upon the other: colour-blind people see them too.
 _FOLDED = ("none", "white", 2.8, ""), ("none", INK, 1.5, "")
@@ -246,7 +245,7 @@ def panels(certificate: Certificate) -> NotebookFigure:
     hold(axes, drawing.box_around(cage.exterior, 0.04))
     start, end = as_points(proved.start), as_points(proved.end)
     colors = distortion_colors().reversed().with_extremes(under=VERMILION)
-    look: Any = {"cmap": colors, "norm": Normalize(1e-300, _FULL_MARGIN), "linewidths": 3}
+    look: Any = {"cmap": colors, "norm": Normalize(1e-300, style.FULL_MARGIN), "linewidths": 3}
     lines = LineCollection([*np.stack([start, end], axis=1)], array=bound, **look)
     axes.add_collection(lines)
     if len(bound) <= _MANY:

@@ -29,6 +29,8 @@ SMALL = 8.0
 LINE = 1.2
 HAIRLINE = 0.6
 
+FULL_MARGIN = 0.5  # panels with at least this certified sigma_2 have the best colour
+
 LEGEND = {"fontsize": SMALL, "frameon": False, "labelcolor": INK}
 LEGEND |= {"handlelength": 1.1, "handletextpad": 0.4, "borderpad": 0.1}
 """The look of every legend: keywords of matplotlib's."""

@@ -85,8 +85,7 @@ class Cage(Rebuilt):
     @property
     def bounds(self) -> tuple[float, float, float, float]:
         """Bounding box (xmin, ymin, xmax, ymax)."""
-        (xmin, ymin), (xmax, ymax) = self.exterior.min(axis=0), self.exterior.max(axis=0)
-        return float(xmin), float(ymin), float(xmax), float(ymax)
+        return self.polygon.bounds
 
     @property
     def longer_side(self) -> float:

@@ -19,11 +19,11 @@ from glid_nb.solvers import Pose
 View = Literal["source", "fit"]
 _SIZE = {"least": -np.inf, "form": "(width, height) in whole pixels"}
 
-_TOLERANCE_PX = 0.25  # straight mesh edges may stray from the map by this many output pixels
+TOLERANCE_PX = 0.25  # straight mesh edges may stray from the map by this many output pixels
 _PIXELS_PER_VERTEX = 500  # output pixels per vertex of the mesh before refinement
 _EVEN_VERTICES = 1000, 8000  # least and most of these vertices
 _MOST_PIXELS = 1 << 30
-_MARGIN = 0.04  # room around the shape with view="fit", as a share of the output's sides
+MARGIN = 0.04  # room around the shape with view="fit", as a share of the output's sides
 _OVERHANG = 2.0  # world units by which a cage may reach beyond its picture, due to its offset
 
 
@@ -59,7 +59,7 @@ def render(
     frame = frame_of(PixelFrame(*texture.size), map, size, view)
     tolerance = None
     if n_vertices is None:
-        tolerance = _TOLERANCE_PX * frame.units_per_pixel
+        tolerance = TOLERANCE_PX * frame.units_per_pixel
         n_vertices = int(np.clip(frame.width * frame.height / _PIXELS_PER_VERTEX, *_EVEN_VERTICES))
     return draw_mesh(texture, deformed_mesh(map, n_vertices, tolerance, pose), frame)
 
@@ -81,7 +81,7 @@ def frame_of(
     shown, margin = np.reshape(source.bounds, (2, 2)), 0.0
     if view == "fit":
         exterior = deformed_loops(map)[0]
-        shown, margin = np.stack([exterior.min(axis=0), exterior.max(axis=0)]), _MARGIN
+        shown, margin = np.stack([exterior.min(axis=0), exterior.max(axis=0)]), MARGIN
     if np.ptp(shown, axis=0).min() <= 0:
         raise RenderError("the map collapses the shape to a point or a line; nothing is to be seen")
     return PixelFrame(width, height).showing(shown, margin)

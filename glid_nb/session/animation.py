@@ -250,11 +250,7 @@ def _proved(task: EditState, worker: LatestWins[EditState]) -> Iterator[tuple[in
         ends = [-1, *refused, len(spans)]
         runs = [(b, range(a + 1, b)) for a, b in itertools.pairwise(ends) if b - a > 1]
     for last, run in runs:
-        try:
-            motion = motion_of(task, run.start, last)
-        except MotionError as error:
-            yield from ((i, spans[i]._replace(status="refused", reason=str(error))) for i in run)
-            continue
+        motion = motion_of(task, run.start, last)
         for i in run:
             if worker.overtaken:
                 return

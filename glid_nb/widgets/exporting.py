@@ -178,10 +178,6 @@ class MotionExport(ClosingWidget, ipywidgets.HBox):
         self._worker.submit((name, deliver))
         return f"Drawing {name}…"
 
-    def wait(self, timeout: float | None = None) -> bool:
-        """Wait until nothing is drawn; whether that is within ``timeout`` seconds."""
-        return self._worker.wait(timeout)
-
     def _draw(self, task: _Task, worker: LatestWins[_Task]) -> None:
         def report(done: int, total: int) -> bool:
             self.progress.max, self.progress.value = total, done

@@ -3,7 +3,7 @@
 import html
 import time
 from collections import deque
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import ipywidgets
 import traitlets
@@ -16,9 +16,6 @@ from glid_nb.session.status_line import StatusLine, describe
 from glid_nb.session.worker import LatestWins, weakly
 from glid_nb.solvers.restarts import isometry_energy
 from glid_nb.widgets.closing import ClosingWidget
-
-if TYPE_CHECKING:
-    from glid_nb.widgets.live_plots import LivePlots
 
 _INTERVAL = 0.1  # least number of seconds between two drawings of the plots
 _REST = 1.0  # seconds; where nothing has changed for so long, work that may wait is done
@@ -90,7 +87,7 @@ class SolverMonitor(ClosingWidget, ipywidgets.VBox):
         self.plots = ipywidgets.VBox([_guide(width, height), self.image])
         """The plots and what explains them."""
         self._size, self._with_plots = (width, height), plots
-        self._plots: LivePlots | None = None
+        self._plots = None  # `LivePlots`, once they are drawn
         self._frames: deque[float] = deque()
         self._changed = time.monotonic()
         how: Any = {"interval": _INTERVAL, "waits": False}  # it may be importing matplotlib

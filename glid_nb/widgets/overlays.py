@@ -9,7 +9,7 @@ import numpy as np
 from glid_nb._arrays import Array
 from glid_nb._jax import jnp
 from glid_nb.energies import Energy
-from glid_nb.figures.style import COLORS
+from glid_nb.figures.style import COLORS, FULL_MARGIN
 from glid_nb.solvers.restarts import isometry_energy
 
 # Green, orange, vermilion: visible on white, on black and beside those above.
@@ -19,7 +19,6 @@ MARGIN_COLORS = (
 )  # the certificate's, from a wide margin to none
 
 N_COLORS = len(COLORS)  # stops of the colour map in the shader
-FULL_MARGIN = 0.5  # panels with at least this certified sigma_2 have the best colour
 
 PANEL_LEGEND = {  # the colour bar of the boundary's panels, for the page
     "title": "Certified σ₂ on the boundary",

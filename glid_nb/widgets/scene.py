@@ -10,13 +10,13 @@ import pythreejs as three
 from glid_nb._arrays import Array
 from glid_nb.certificate.certify import PanelCertificate
 from glid_nb.energies import ENERGIES, Energy, SymmetricDirichlet
-from glid_nb.figures.style import BLUE, COLORS, GREY, rgb
+from glid_nb.figures.style import BLUE, COLORS, FULL_MARGIN, GREY, rgb
 from glid_nb.geometry import MeshMap, Triangulation, triangulate, uniform_panels
 from glid_nb.harmonic import FixedPoints, HarmonicMap, ShaderMap
 from glid_nb.imaging import Order, PixelFrame, order_of
 from glid_nb.widgets import layers
 from glid_nb.widgets.layers import EvaluatedIn, Layer, Uniforms
-from glid_nb.widgets.overlays import FULL_MARGIN, MARGIN_COLORS, OVERLAYS, color_range
+from glid_nb.widgets.overlays import MARGIN_COLORS, OVERLAYS, color_range
 
 Range = Literal["keep", "widen", "fit"]
 

@@ -328,7 +328,7 @@ def test_the_motion_is_exported_in_the_background(model: EditorModel, tmp_path: 
     panel.show_motion()
     motion.size.value, motion.rate.value = 64, 4
     panel.export_button.click()
-    assert motion.wait(60)
+    assert motion._worker.wait(60)
     assert "at least 2 keyframes" in panel.message.value
     deformation.add_handle((-6, 0))
     moved = deformation.add_handle((6, 0))
@@ -336,20 +336,20 @@ def test_the_motion_is_exported_in_the_background(model: EditorModel, tmp_path: 
     deformation.drag(moved, (5.5, 2))
     assert animation.wait(60)
     panel.export_button.click()
-    assert motion.wait(60)
+    assert motion._worker.wait(60)
     assert "Wrote" in panel.message.value
     with Image.open(next(tmp_path.glob("*.gif"))) as picture:
         assert (picture.n_frames, max(picture.size)) == (5, 64)  # type: ignore[attr-defined]
     assert motion.progress.layout.display == "none"
     panel.format.value = "motion.sheet.png"
     panel.export_button.click()
-    assert motion.wait(60)
+    assert motion._worker.wait(60)
     assert len(list(tmp_path.glob("*.sheet.*"))) == 2
     # Stopped, it writes nothing.
     panel.format.value, motion.rate.value = "motion.zip", 100
     motion.progress.observe(lambda _: motion.cancel.click(), ["value"])
     panel.export_button.click()
-    assert motion.wait(60)
+    assert motion._worker.wait(60)
     assert "Stopped" in panel.message.value
     assert not list(tmp_path.glob("*.zip"))
     motion.close()
