@@ -1,5 +1,6 @@
 """The domain of a harmonic map: the cage, its offset cage and one point per hole."""
 
+import itertools
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
@@ -12,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from glid_nb._arguments import check_type
 from glid_nb._arrays import Array, Rebuilt, frozen, number_pairs
 from glid_nb._errors import about
-from glid_nb.geometry._loops import GeometryError, loop_list, loop_name, place
+from glid_nb.geometry._loops import GeometryError, Loops, loop_list, loop_name, place
 from glid_nb.geometry.cage import Cage
 from glid_nb.geometry.offset import hole_points as choose_hole_points
 from glid_nb.geometry.offset import offset_cage
@@ -190,13 +191,10 @@ def _divided(offset_cage: Cage, cage: Cage) -> Cage:
         shares[i] = np.interp(pieces, [0, *wanted], np.arange(_SAMPLES + 1) / _SAMPLES)
     if all(len(share) == 1 for share in shares):
         return offset_cage
-    loops, first = [], 0
-    for loop in offset_cage.loops:
-        along = np.roll(loop, -1, axis=0) - loop
-        own = shares[first : first + len(loop)]
-        pieces = zip(loop, along, own, strict=True)
-        loops.append(np.concatenate([a + share[:, None] * b for a, b, share in pieces]))
-        first += len(loop)
+    outer = Loops.of(offset_cage.loops)
+    edges = zip(outer.points, outer.edges, shares, strict=True)
+    cut = [a + share[:, None] * along for a, along, share in edges]
+    loops = [np.concatenate(cut[i:j]) for i, j in itertools.pairwise(outer.starts)]
     return Cage(loops[0], loops[1:])
 
 

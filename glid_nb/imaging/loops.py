@@ -4,10 +4,8 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-from glid_nb._arrays import Array
+from glid_nb._arrays import Array, Floats
 from glid_nb.geometry._loops import Loops
-
-Points = NDArray[np.float64]  # (n, 2) in pixel coordinates
 
 
 def passed_over(loops: Loops, kept: NDArray[np.bool_]) -> list[NDArray[np.intp]]:
@@ -74,7 +72,7 @@ def _jumped(simplified: Loops, over: list[NDArray[np.intp]]) -> list[int]:
     return found
 
 
-def significance(loop: Points) -> NDArray[np.float64]:
+def significance(loop: Floats) -> NDArray[np.float64]:
     """(n,) tolerances at which Ramer, Douglas and Peucker drop a loop's points, two never."""
     n = len(loop)
     start = int(np.argmax(np.hypot(*(loop - loop.mean(axis=0)).T)))

@@ -10,9 +10,9 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-from glid_nb._arrays import Array, read_only
+from glid_nb._arrays import Array, Floats, read_only
 from glid_nb.geometry._loops import Loops, as_points, subdivided
-from glid_nb.imaging.loops import Points, in_conflict, passed_over, repair, significance
+from glid_nb.imaging.loops import in_conflict, passed_over, repair, significance
 
 # Numbers of vertices for the automatic tolerance: about _VERTICES while it is below the offset, not
 # many more than _MANY while it is below a few times the offset, and never more than _MOST.
@@ -38,14 +38,14 @@ class Simplified:
     Repairs reduce it in places; merging a short edge can add that edge's length.
     """
 
-    exterior: Points
-    holes: tuple[Points, ...]
+    exterior: Floats
+    holes: tuple[Floats, ...]
     tolerance: float
     notes: tuple[str, ...]  # about repairs
 
 
 def simplify(
-    loops: tuple[Points, ...],
+    loops: tuple[Floats, ...],
     tolerance: float | None = None,
     max_vertices: int | None = None,
     min_edge: float | None = None,
@@ -173,7 +173,7 @@ def _clear(loops: Loops, vertices: NDArray[np.intp], gap: float) -> NDArray[np.b
     return clear
 
 
-def _divided(loops: Loops, max_edge: float | None, max_vertices: int | None) -> list[Points]:
+def _divided(loops: Loops, max_edge: float | None, max_vertices: int | None) -> list[Floats]:
     """The loops, with edges longer than `max_edge` in even parts; fewer for `max_vertices`."""
     length = loops.lengths
     longest = _MAX_EDGE * float(length.sum()) if max_edge is None else max_edge
@@ -204,7 +204,7 @@ def _enclosing(loops: Loops, kept: NDArray[np.bool_], margin: float, gap: float)
         shifts[still] = 0
 
 
-def _shifts(loops: Loops, kept: Array, areas: Array, margin: float) -> Points:
+def _shifts(loops: Loops, kept: Array, areas: Array, margin: float) -> Floats:
     """(k, 2) shifts of the kept vertices after which no edge cuts off more than `margin`."""
     corners = loops[kept]
     outwards = np.where((areas > 0) == (np.arange(len(areas)) == 0), 1.0, -1.0)[corners.number]

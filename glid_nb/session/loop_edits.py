@@ -5,17 +5,16 @@ from typing import TypeAlias
 
 import numpy as np
 import shapely
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-from glid_nb._arrays import number_pairs, read_only
+from glid_nb._arrays import Floats, number_pairs, read_only
 from glid_nb.geometry import GeometryError, loop_name
 from glid_nb.geometry._loops import Loops
 
-Loop: TypeAlias = NDArray[np.float64]
 _DRAWN = 0.002  # of a picture's longer side; drawn lines keep no finer detail
 _LONGEST = 0.04  # of a drawn outline's length; longer edges are divided
 
-AnyLoops: TypeAlias = tuple[Loop, ...]
+AnyLoops: TypeAlias = tuple[Floats, ...]
 """The exterior, then the holes: read-only (n, 2) arrays, valid as a cage or not."""
 
 
@@ -46,7 +45,7 @@ def delete_vertices(loops: AnyLoops, vertices: Iterable[tuple[int, int]]) -> Any
     return tuple(read_only(loop) for i, loop in enumerate(rest) if i == 0 or len(loop) >= 3)
 
 
-def drawn(points: ArrayLike, size: tuple[int, int]) -> Loop:
+def drawn(points: ArrayLike, size: tuple[int, int]) -> Floats:
     """An outline drawn by hand over a picture of ``size``, as (n, 2) vertices of a cage in pixels.
 
     What crosses itself keeps its largest part; what lies beside the picture is cut off. Long edges
@@ -64,7 +63,7 @@ def drawn(points: ArrayLike, size: tuple[int, int]) -> Loop:
     return shapely.get_coordinates(ring.segmentize(_LONGEST * ring.length))[:-1]
 
 
-def nearest_edge(loops: AnyLoops, point: ArrayLike) -> tuple[int, int, Loop]:
+def nearest_edge(loops: AnyLoops, point: ArrayLike) -> tuple[int, int, Floats]:
     """The edge (loop, index) nearest to a point, and its nearest point to that."""
     p, whole = shapely.Point(checked_point(point)), Loops.of(loops)
     nearest = int(np.argmin(shapely.distance(whole.segments, p)))
@@ -79,11 +78,11 @@ def around(loops: AnyLoops, point: ArrayLike) -> int | None:
     return next((i for i, loop in holes if contains(loop, point)), None)
 
 
-def contains(loop: Loop, point: ArrayLike) -> bool:
+def contains(loop: Floats, point: ArrayLike) -> bool:
     return bool(shapely.contains_xy(shapely.Polygon(loop), *checked_point(point)))
 
 
-def checked_point(point: ArrayLike) -> Loop:
+def checked_point(point: ArrayLike) -> Floats:
     """The point as a (2,) array; GeometryError unless it is a pair of finite numbers."""
     wanted = f"a point must be a pair of finite numbers, not {point!r:.60}"
     p = number_pairs([point], wanted, GeometryError)[0]
@@ -92,7 +91,7 @@ def checked_point(point: ArrayLike) -> Loop:
     return p
 
 
-def _loop(loops: AnyLoops, loop: int, index: int) -> Loop:
+def _loop(loops: AnyLoops, loop: int, index: int) -> Floats:
     if not 0 <= loop < len(loops):
         raise GeometryError(f"there is no loop {loop}; there are {len(loops)}, counted from 0")
     count = len(loops[loop])
@@ -101,5 +100,5 @@ def _loop(loops: AnyLoops, loop: int, index: int) -> Loop:
     return loops[loop]
 
 
-def _with(loops: AnyLoops, index: int, loop: Loop) -> AnyLoops:
+def _with(loops: AnyLoops, index: int, loop: Floats) -> AnyLoops:
     return (*loops[:index], read_only(loop), *loops[index + 1 :])
