@@ -10,13 +10,11 @@ from glid_nb.geometry._loops import Loops
 
 def passed_over(loops: Loops, kept: NDArray[np.bool_]) -> list[NDArray[np.intp]]:
     """For each edge of ``loops[kept]`` the vertices that it skips, in order."""
-    index = np.flatnonzero(kept)
-    following, number = index[loops[index].after], loops.number[index]
-    starts, sizes = loops.starts[number], np.diff(loops.starts)[number]
-    return [
-        start + (low + 1 - start + np.arange((high - low - 1) % size)) % size
-        for low, high, start, size in zip(index, following, starts, sizes, strict=True)
-    ]
+    over = []
+    for loop in loops.split(np.arange(len(kept))):
+        ahead = np.roll(loop, -int(np.argmax(kept[loop])))  # from a kept one on
+        over += [run[1:] for run in np.split(ahead, np.flatnonzero(kept[ahead])[1:])]
+    return over
 
 
 def in_conflict(loops: Loops, gap: float) -> NDArray[np.intp]:

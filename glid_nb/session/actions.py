@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from glid_nb import methods
-from glid_nb._arrays import Array, real_array
+from glid_nb._arrays import Array, number_pairs, real_array
 from glid_nb.certificate import certificate_of
 from glid_nb.energies import Energy
 from glid_nb.geometry import Cage, Domain, place
@@ -298,14 +298,9 @@ def _with_inserted(
 
 
 def _points(values: ArrayLike, name: str) -> Array:
-    wanted = f"{name} must be [x, y], or a list of such pairs"
-    try:
-        points = real_array(values)
-    except (TypeError, ValueError) as error:
-        raise EditError(f"{wanted}, not {values!r:.60}: {error}") from error
-    points = points[None] if points.shape == (2,) else points
-    if points.ndim != 2 or points.shape[1] != 2:
-        raise EditError(f"{wanted}; its shape is {points.shape}")
+    wanted = f"{name} must be [x, y], or a list of such pairs, not {values!r:.60}"
+    pair = np.array(values, dtype=object).shape == (2,)
+    points = number_pairs([values] if pair else values, wanted, EditError)
     if not np.isfinite(points).all():
         raise EditError(f"{name} holds a coordinate that is not finite; give finite numbers")
     return points
