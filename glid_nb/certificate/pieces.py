@@ -24,6 +24,7 @@ from glid_nb.harmonic import HarmonicMap, Singularities, basis_of, cauchy, rows_
 
 _SHORTEST = 2.0**-12  # time, of a piece
 _TIGHT = 1 / 8  # likewise, for tight bounds
+_TIGHTNESS = 0.05
 _DIRECTIONS = 9
 _GROUP = 16  # pieces whose maps are evaluated together
 
@@ -62,10 +63,10 @@ class _Values(NamedTuple):
 
 
 @np.errstate(all="ignore")
-def certify_pieces(maps: Sequence[HarmonicMap], tightness: float = 0.05) -> Proofs:
+def certify_pieces(maps: Sequence[HarmonicMap]) -> Proofs:
     """Prove the linear motion from each map of one domain to the next, or say how far that goes.
     Panels, and time down to an eighth of a piece, are halved where the proof fails or bounds are
-    further than the relative ``tightness`` from values that are attained."""
+    further than the relative `_TIGHTNESS` from values that are attained."""
     panels = graded_panels(maps[0].domain)
     size = np.abs(rows_of(*maps)).max(axis=0)
     proofs = []
@@ -73,13 +74,11 @@ def certify_pieces(maps: Sequence[HarmonicMap], tightness: float = 0.05) -> Proo
         group = maps[first : first + _GROUP + 1]
         values = _evaluated(group, size)(panels.start, panels.end)
         for i, pair in enumerate(itertools.pairwise(group)):
-            proofs.append(_prove(*pair, values.pair(i), size, tightness))
+            proofs.append(_prove(*pair, values.pair(i), size))
     return tuple(proofs)
 
 
-def _prove(
-    first: HarmonicMap, last: HarmonicMap, values: _Values, size: Array, tightness: float
-) -> PieceCertificate:
+def _prove(first: HarmonicMap, last: HarmonicMap, values: _Values, size: Array) -> PieceCertificate:
     """Intervals of time one after the other, halved until each is proved."""
     intervals: list[Any] = [(0.0, 1.0, first, last, values)]
     bounds = []
@@ -92,15 +91,15 @@ def _prove(
             panels,
             along,
             lambda start, end, evaluate=evaluate: _bounds(evaluate(start, end)),
-            tightness,
+            _TIGHTNESS,
         )
         own = known.bounds
         unproved = ~np.asarray(own.injective)
         extremes = own.sigma2_lower.min(), own.sigma1_upper.max(), own.k_upper.max()
         sigma2, k = values.seen
         # What a common u costs, at the ends of panels.
-        loose = along.sigma2_seen.min() < (1 - tightness) * sigma2
-        loose |= along.k_seen.max() > (1 + tightness) * k + 1e-3
+        loose = along.sigma2_seen.min() < (1 - _TIGHTNESS) * sigma2
+        loose |= along.k_seen.max() > (1 + _TIGHTNESS) * k + 1e-3
         if end - begin > (_SHORTEST if unproved.any() else _TIGHT) and (unproved.any() or loose):
             phi, psi = a.phi + (b.phi - a.phi) / 2, a.psi + (b.psi - a.psi) / 2
             middle = HarmonicMap(a.domain, phi, psi)

@@ -62,11 +62,6 @@ def signed_area(loop: Array) -> float:
     return 0.5 * float(np.sum(x * np.roll(y, -1) - np.roll(x, -1) * y))
 
 
-def edge_lengths(loop: Array) -> Array:
-    """(n,) lengths of the edges of an (n, 2) loop; edge i leads from vertex i to vertex i + 1."""
-    return np.hypot(*(np.roll(loop, -1, axis=0) - loop).T)
-
-
 def subdivided(loop: Array, counts: Array) -> Array:
     """Cut edge i of a complex loop into `counts[i]` equal parts; the parts' start points."""
     edge = np.repeat(np.arange(len(loop)), counts)
@@ -124,6 +119,7 @@ class Loops:
 
     @cached_property
     def lengths(self) -> NDArray[np.float64]:
+        """(n,) of the edges."""
         return np.hypot(*self.edges.T)
 
     @property

@@ -101,7 +101,8 @@ class Cage(Rebuilt):
     @cached_property
     def perimeter(self) -> float:
         """Length of the boundary over all loops."""
-        return float(sum(_loops.edge_lengths(loop).sum() for loop in self.loops))
+        whole = Loops.of(self.loops)
+        return float(sum(lengths.sum() for lengths in whole.split(whole.lengths)))
 
     @cached_property
     def polygon(self) -> shapely.Polygon:

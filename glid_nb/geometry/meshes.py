@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from glid_nb._arguments import check_type
 from glid_nb._arrays import Array, number_pairs, read_only
 from glid_nb.geometry import _loops
-from glid_nb.geometry._loops import GeometryError, place
+from glid_nb.geometry._loops import GeometryError, Loops, place
 from glid_nb.geometry.cage import Cage
 
 # Least distances of lattice points from the boundary (closer ones make flat triangles) and from the
@@ -130,10 +130,9 @@ def triangulate(
     if n_vertices < 3:
         raise GeometryError(f"a triangulation needs at least 3 vertices, not {n_vertices}")
     spacing = _spacing(cage, n_vertices)
-    loops = [
-        _loops.subdivided(loop, _parts(_loops.edge_lengths(corners), spacing))
-        for loop, corners in zip(cage.loops_complex, cage.loops, strict=True)
-    ]
+    whole = Loops.of(cage.loops)
+    parts = whole.split(_parts(whole.lengths, spacing))
+    loops = list(map(_loops.subdivided, cage.loops_complex, parts))
     given = [] if points is None else points
     wanted = number_pairs(given, "points must be a list of [x, y] pairs", GeometryError)
     outside = np.flatnonzero(~cage.contains(wanted))
@@ -176,7 +175,7 @@ def _spacing(cage: Cage, n_vertices: int) -> float:
     linear = cage.perimeter * (1.0 - _MARGIN / _ROW)
     root = np.sqrt(linear**2 + 4.0 * n_vertices * cage.area / _ROW)
     spacing = 1.0 / float((root - linear) / (2.0 * cage.area / _ROW))
-    lengths = np.concatenate([_loops.edge_lengths(loop) for loop in cage.loops])
+    lengths = Loops.of(cage.loops).lengths
     # The formula is inaccurate for many short edges and for slender limbs.
     for _ in range(6):
         count = int(_parts(lengths, spacing).sum()) + len(_lattice(cage, spacing))

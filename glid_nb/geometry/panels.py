@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from glid_nb._arrays import Array, Rebuilt, frozen
-from glid_nb.geometry._loops import GeometryError, edge_lengths, next_index, subdivided
+from glid_nb.geometry._loops import GeometryError, Loops, next_index, subdivided
 from glid_nb.geometry.cage import Cage
 from glid_nb.geometry.domain import Domain
 
@@ -108,8 +108,8 @@ def uniform_panels(cage: Cage, n: int = 10_000) -> Panels:
     """
     if n < 1:
         raise GeometryError(f"the number of boundary samples must be at least 1, not {n}")
-    points = []
-    for loop, edges in zip(cage.loops_complex, map(edge_lengths, cage.loops), strict=True):
+    points, whole = [], Loops.of(cage.loops)
+    for loop, edges in zip(cage.loops_complex, whole.split(whole.lengths), strict=True):
         n_loop = np.ceil(edges.sum() / cage.perimeter * n)
         points.append(subdivided(loop, np.ceil(edges / edges.sum() * n_loop).astype(int)))
     return Panels.along(points)

@@ -19,6 +19,7 @@ _LEAST_STEP = 1e-14
 # A decrease promised by the proxy that rounding of the energy can hide.
 _ROUNDING = 1e-8
 _SMOOTHING = 30
+_MOST_PROJECTIONS = 500
 BOUND, ENOUGH = 0.9, 0.95  # the little dilatation is projected onto the first until below this
 
 
@@ -156,13 +157,11 @@ def largest_step(fz: Array, fzb: Array, dfz: Array, dfzb: Array) -> float:
     return float(np.min(2 * c[hits] / denominator[hits], initial=np.inf))
 
 
-def project(
-    operators: MeshOperators, pinned: Pinned, w: Array, most_iterations: int = 500
-) -> tuple[Array, int]:
+def project(operators: MeshOperators, pinned: Pinned, w: Array) -> tuple[Array, int]:
     """A map close to ``w`` with the same held vertices, and how many iterations it took. Projection
     onto maps of bounded distortion (Kovalsky et al. 2015): the next map is the closest one on the
     hyperplane that separates them. Triangles may be left that are turned over."""
-    for iteration in range(most_iterations):
+    for iteration in range(_MOST_PROJECTIONS):
         fz, fzb = operators.wirtinger(w)
         if (np.abs(fzb) < ENOUGH * np.abs(fz)).all():
             return w, iteration
@@ -175,7 +174,7 @@ def project(
         if not slope > 0:
             return w, iteration
         w = w - (gap / slope) * direction
-    return w, most_iterations
+    return w, _MOST_PROJECTIONS
 
 
 def closest(fz: Array, fzb: Array, bound: float) -> tuple[Array, Array]:
