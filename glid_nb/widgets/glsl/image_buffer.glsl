@@ -3,14 +3,6 @@
 attribute vec2 image;
 attribute vec4 derivatives;  // f_z, conj(f_zbar)
 
-vec2 multiply(vec2 a, vec2 b) {
-  return vec2(a.x * b.x - a.y * b.y, a.x * b.y + a.y * b.x);
-}
-
-vec2 conjugate(vec2 a) {
-  return vec2(a.x, -a.y);
-}
-
 void harmonic_map(vec2 z, out vec2 f, out vec2 fz, out vec2 fzb_conj) {
   f = image;
   fz = derivatives.xy;

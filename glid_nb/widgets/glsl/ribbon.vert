@@ -14,7 +14,9 @@ varying float v_margin;
 void main() {
   vec2 f, fz, fzb_conj;
   harmonic_map(position.xy, f, fz, fzb_conj);
-  vec2 along = multiply(fz, ribbon.xy) + multiply(conjugate(fzb_conj), conjugate(ribbon.xy));
+  vec2 fzb = vec2(fzb_conj.x, -fzb_conj.y);
+  vec2 f_x = fz + fzb, f_y = vec2(fzb.y - fz.y, fz.x - fzb.x);
+  vec2 along = ribbon.x * f_x + ribbon.y * f_y;
   along /= max(length(along), 1e-12);
   float reach = half_width + 0.75;  // room for the soft edge
   vec2 shifted = f + vec2(-along.y, along.x) * ribbon.z * reach * pixel;
