@@ -1,6 +1,7 @@
 // Shows a picture under a map, or plays its motion, from the data in the page.
 
 import { Motion } from "../widgets/js/motion/motion.js";
+import { make } from "../widgets/js/pad/dom.js";
 import { View } from "../widgets/js/pad/view.js";
 
 (async () => {
@@ -56,20 +57,16 @@ import { View } from "../widgets/js/pad/view.js";
   gl.useProgram(program);
   const uniform = (name) => gl.getUniformLocation(program, name);
 
-  const buffer = (target, values) => {
-    const made = gl.createBuffer();
+  const put = (target, made, values) => {
     gl.bindBuffer(target, made);
-    if (values) gl.bufferData(target, values, gl.STATIC_DRAW);
+    gl.bufferData(target, values, gl.DYNAMIC_DRAW);
     return made;
   };
+  const buffer = (target, values) => put(target, gl.createBuffer(), values);
   const attribute = (name, size, stride, offset) => {
     const place = gl.getAttribLocation(program, name);
     gl.enableVertexAttribArray(place);
     gl.vertexAttribPointer(place, size, gl.FLOAT, false, stride, offset);
-  };
-  const put = (target, made, values) => {
-    gl.bindBuffer(target, made);
-    gl.bufferData(target, values, gl.DYNAMIC_DRAW);
   };
   const points = buffer(gl.ARRAY_BUFFER, position);
   attribute("position", 3, 0, 0);
@@ -78,7 +75,7 @@ import { View } from "../widgets/js/pad/view.js";
   if (cage.length) {
     const blocks = ["cage", "coefficients", "holes"].map((name, i) => {
       gl.uniformBlockBinding(program, gl.getUniformBlockIndex(program, `${name}_block`), i);
-      const made = buffer(gl.UNIFORM_BUFFER, i ? null : cage);
+      const made = buffer(gl.UNIFORM_BUFFER, cage);
       gl.bindBufferBase(gl.UNIFORM_BUFFER, i, made);
       return made;
     });
@@ -130,9 +127,8 @@ import { View } from "../widgets/js/pad/view.js";
     const [sx, sy] = [2 / (unit * w), 2 / (unit * h)];
     gl.uniformMatrix4fv(uniform("projectionMatrix"), false, [sx, 0, 0, 0, 0, sy, 0, 0, 0, 0, -1, 0, -x * sx, -y * sy, 0, 1]);
     gl.uniform1f(uniform("pixel"), unit / ratio);
-    const name = overlay.selectedOptions[0].dataset.name;
     gl.uniform1f(uniform("overlay"), overlay.value);
-    gl.uniform2fv(uniform("color_range"), data.ranges[name] ?? [0, 1]);
+    gl.uniform2fv(uniform("color_range"), data.ranges[overlay.value] ?? [0, 1]);
     if (layers.times.length > 1) {
       layers.at(time).forEach((height, i) => { position[3 * i + 2] = height; });
       put(gl.ARRAY_BUFFER, points, position);
@@ -141,58 +137,39 @@ import { View } from "../widgets/js/pad/view.js";
     gl.drawElements(gl.TRIANGLES, triangles.length, wide ? gl.UNSIGNED_INT : gl.UNSIGNED_SHORT, 0);
   }
 
-  const place = ({ clientX, clientY }) => {
-    const box = canvas.getBoundingClientRect();
-    return [clientX - box.left, clientY - box.top];
-  };
-  const pointers = new Map();
+  const place = (e) => [e.offsetX, e.offsetY], pointers = new Map();
   canvas.addEventListener("pointerdown", (e) => {
     canvas.setPointerCapture(e.pointerId);
     pointers.set(e.pointerId, place(e));
   });
   canvas.addEventListener("pointermove", (e) => {
-    const before = pointers.get(e.pointerId), [x, y] = place(e);
-    if (!before) return;
-    const other = [...pointers].find(([id]) => id !== e.pointerId)?.[1];
-    pointers.set(e.pointerId, [x, y]);
-    const share = other ? 0.5 : 1; // two fingers move the picture by their mean
-    view.pan(share * (x - before[0]), share * (y - before[1]));
-    if (!other) return;
-    const apart = (p) => Math.max(Math.hypot(p[0] - other[0], p[1] - other[1]), 1);
-    view.zoom(apart(before) / apart([x, y]), [(x + other[0]) / 2, (y + other[1]) / 2]);
+    if (pointers.has(e.pointerId)) view.follow(pointers, e.pointerId, place(e));
   });
-  for (const name of ["pointerup", "pointercancel"]) {
-    canvas.addEventListener(name, (e) => pointers.delete(e.pointerId));
-  }
-  canvas.addEventListener("wheel", (e) => {
-    e.preventDefault();
-    view.zoom(Math.exp(e.deltaY * 0.0015), place(e));
-  }, { passive: false });
+  canvas.addEventListener("lostpointercapture", (e) => pointers.delete(e.pointerId));
+  canvas.addEventListener("wheel", (e) => view.wheel(e, place(e)), { passive: false });
   get("fit").addEventListener("click", fit);
   straight.addEventListener("change", fit);
 
   // Colours for the distortion, from an isometry's value to the certified bound, or a tenth off.
-  const LABELS = { sigma1: [2, "Stretch σ₁"], sigma2: [3, "Stretch σ₂"], k: [4, "Dilatation k"] };
+  const LABELS = { 2: "Stretch σ₁", 3: "Stretch σ₂", 4: "Dilatation k" };
   const css = (i) => `rgb(${data.colors.slice(3 * i, 3 * i + 3).map((c) => Math.round(255 * c))})`;
   const stops = data.colors.length / 3;
   document.documentElement.style.setProperty("--colors", Array.from({ length: stops }, (_, i) => css(i)).join());
-  for (const name of Object.keys(data.ranges)) {
-    const [value, text] = LABELS[name];
-    overlay.append(new Option(text, value));
-    overlay.lastChild.dataset.name = name;
-  }
+  for (const value of Object.keys(data.ranges)) overlay.append(new Option(LABELS[value], value));
   const down = (x) => (Math.floor(1000 * x) / 1000).toFixed(3), up = (x) => (Math.ceil(1000 * x) / 1000).toFixed(3);
   overlay.addEventListener("change", () => {
-    const { name } = overlay.selectedOptions[0].dataset, range = data.ranges[name], legend = get("legend");
-    legend.hidden = !range;
-    if (range) legend.replaceChildren(`${LABELS[name][1]} ${range[0]}`, document.createElement("i"), name === "sigma2" ? down(range[1]) : up(range[1]));
     draw();
+    const { value } = overlay, range = data.ranges[value], legend = get("legend");
+    legend.hidden = !range;
+    if (!range) return;
+    const end = value === "3" ? down(range[1]) : up(range[1]);
+    legend.replaceChildren(`${LABELS[value]} ${range[0]}`, make("i"), end);
   });
 
   // What moves: the time runs by itself, or glides to a pose, or follows the slider.
   const STEP = 1 / 25, GLIDE = 600; // s, ms
   const span = motion.end - motion.start, play = get("play"), thumbs = [];
-  let running = false, glide = null, last = 0, due = 0;
+  let course = null, due = 0; // `at` gives the time so many ms after it began, while it lasts
 
   function seek(t) {
     time = t === motion.end ? t : motion.within(t);
@@ -206,39 +183,38 @@ import { View } from "../widgets/js/pad/view.js";
     draw();
   }
 
-  function run(on) {
-    running = on;
-    play.textContent = on ? "❚❚" : "▶";
-    play.setAttribute("aria-label", on ? "Pause" : "Play");
-    if (on) glide = null;
-    if (on && !data.loop && time >= motion.end) seek(motion.start);
-    last = performance.now();
-    if (on || glide) due = due || requestAnimationFrame(tick);
+  function run(next) {
+    cancelAnimationFrame(due);
+    course = next && { began: performance.now(), ...next };
+    if (course) due = requestAnimationFrame(tick);
+    play.textContent = course?.plays ? "❚❚" : "▶";
+    play.setAttribute("aria-label", course?.plays ? "Pause" : "Play");
   }
 
   function tick(now) {
-    due = 0;
-    const passed = Math.max(now - last, 0) / 1000;
-    last = now;
-    if (glide) {
-      const s = Math.min((now - glide.begin) / GLIDE, 1), eased = s * s * (3 - 2 * s);
-      seek(s < 1 ? glide.from + eased * (glide.to - glide.from) : glide.to);
-      if (s === 1) glide = null;
-    } else if (running) {
-      const ended = !data.loop && time + passed >= motion.end;
-      seek(ended ? motion.end : motion.start + ((time + passed - motion.start) % span));
-      if (ended) run(false);
-    }
-    if (running || glide) due = due || requestAnimationFrame(tick);
+    const { began, lasts, at } = course, passed = Math.min(Math.max(now - began, 0), lasts);
+    seek(at(passed));
+    if (passed === lasts) run(null);
+    else due = requestAnimationFrame(tick);
+  }
+
+  function playOrPause() {
+    if (course?.plays) return run(null);
+    const from = (!data.loop && time >= motion.end ? motion.start : time) - motion.start;
+    const lasts = data.loop ? Infinity : 1000 * (span - from);
+    const at = (ms) => (ms === lasts ? motion.end : motion.start + ((from + ms / 1000) % span));
+    run({ plays: true, lasts, at });
   }
 
   // Along the motion, so that everything on the way is proved; a loop goes the shorter way round.
   function glideTo(to) {
-    const away = motion.repeat === "loop" ? [0, span, -span] : [0];
-    if (motion.repeat === "ping-pong" && time > motion.times.at(-1)) time = 2 * motion.times.at(-1) - time;
-    const nearest = away.map((shift) => to + shift).sort((a, b) => Math.abs(a - time) - Math.abs(b - time))[0];
-    glide = { from: time, to: nearest, begin: performance.now() };
-    run(false);
+    const last = motion.times.at(-1), away = motion.repeat === "loop" ? [0, span, -span] : [0];
+    const from = motion.repeat === "ping-pong" && time > last ? 2 * last - time : time;
+    const far = (goal) => Math.abs(goal - from);
+    const goal = away.map((shift) => to + shift).sort((a, b) => far(a) - far(b))[0];
+    const eased = (s) => s * s * (3 - 2 * s);
+    const at = (ms) => (ms < GLIDE ? from + eased(ms / GLIDE) * (goal - from) : goal);
+    run({ lasts: GLIDE, at });
   }
 
   // Thumbnails that come into sight are drawn one with each frame, so that the motion does not wait for them.
@@ -252,7 +228,7 @@ import { View } from "../widgets/js/pad/view.js";
 
   function drawOn() {
     if (!waiting.length) return;
-    if (!running && !glide) draw();
+    if (!course) draw();
     requestAnimationFrame(drawOn);
   }
 
@@ -268,11 +244,8 @@ import { View } from "../widgets/js/pad/view.js";
     document.querySelector("section").hidden = false;
     Object.assign(slider, { min: motion.start, max: motion.end });
     motion.keyframes.forEach((t, i) => {
-      const thumb = document.createElement("button");
-      thumb.title = `Pose ${i + 1}, at ${t.toFixed(2)} s`;
-      thumb.setAttribute("aria-label", thumb.title);
-      thumb.addEventListener("click", () => glideTo(t));
-      thumb.append(document.createElement("canvas"));
+      const title = `Pose ${i + 1}, at ${t.toFixed(2)} s`, onclick = () => glideTo(t);
+      const thumb = make("button", { title, "aria-label": title, onclick }, make("canvas"));
       thumbs.push(thumb);
       seen.observe(thumb);
     });
@@ -282,10 +255,9 @@ import { View } from "../widgets/js/pad/view.js";
       return `${t < motion.until ? css(Math.round((1 - Math.min(sigma2, 1)) * (stops - 1))) : "#7f7f7f"} ${i}% ${i + 1}%`;
     });
     get("strip").style.background = `linear-gradient(to right, ${colors})`;
-    play.addEventListener("click", () => run(!running));
+    play.addEventListener("click", playOrPause);
     slider.addEventListener("input", () => {
-      glide = null;
-      run(false);
+      run(null);
       seek(Number(slider.value));
     });
     document.addEventListener("keydown", (e) => {
@@ -294,12 +266,13 @@ import { View } from "../widgets/js/pad/view.js";
       const to = { Home: motion.start, End: motion.end }[e.key] ?? time + step;
       if (e.ctrlKey || e.metaKey || e.altKey || e.target.tagName === "SELECT" || (e.key === " " ? control : isNaN(to))) return;
       e.preventDefault();
-      glide = null;
-      run(e.key === " " && !running);
-      if (e.key !== " ") seek(Math.min(Math.max(to, motion.start), motion.end));
+      if (e.key === " ") return playOrPause();
+      run(null);
+      seek(Math.min(Math.max(to, motion.start), motion.end));
     });
     seek(motion.start);
-    run(data.loop && !matchMedia("(prefers-reduced-motion: reduce)").matches);
+    run(null);
+    if (data.loop && !matchMedia("(prefers-reduced-motion: reduce)").matches) playOrPause();
   }
 
   const picture = new Image();

@@ -170,11 +170,9 @@ def playing(motion: Motion, wire: Callable[[HarmonicMap], bytes]) -> tuple[dict[
         "times": [pieces[0].start, *(piece.end for piece in pieces)],
         "keyframes": list(motion.times[: len(motion.keyframes)]),
         "repeat": motion.repeat,
-        "easing": list(motion.easing),
         "sigma2": [proof.sigma2_lower if proof.certified else None for proof in proofs],
         "sigma1": [proof.sigma1_upper if proof.certified else None for proof in proofs],
         "k": [proof.k_upper if proof.certified else None for proof in proofs],
-        "certified": certificate.certified,
         "until": certificate.until,
     }
     return values, b"".join(map(wire, maps))
@@ -188,16 +186,17 @@ def _spread(domain: Domain, points: Array) -> float:
     return 1.5 * float(np.abs(HarmonicMap(domain, phi, psi)(points)).max())
 
 
-def _ranges(proof: Certificate | MotionCertificate | None) -> dict[str, list[float]]:
-    """The colour map's ends for each distortion: an isometry, and the bound, or a tenth off."""
+def _ranges(proof: Certificate | MotionCertificate | None) -> dict[int, list[float]]:
+    """By the overlay's number in ``picture.frag`` the colour map's ends: an isometry, and the
+    bound, or a tenth off."""
     if proof is None or not proof.certified:
         return {}
     ends = {
-        "sigma1": [1, max(proof.sigma1_upper, 1.1)],
-        "sigma2": [1, min(proof.sigma2_lower, 0.9)],
-        "k": [0, max(proof.k_upper, 0.1)],
+        2: [1, max(proof.sigma1_upper, 1.1)],
+        3: [1, min(proof.sigma2_lower, 0.9)],
+        4: [0, max(proof.k_upper, 0.1)],
     }
-    return {name: range_ for name, range_ in ends.items() if np.isfinite(range_[1])}
+    return {overlay: range_ for overlay, range_ in ends.items() if np.isfinite(range_[1])}
 
 
 def _caption(shown: HarmonicMap | Motion, proof: Certificate | MotionCertificate | None) -> str:

@@ -107,7 +107,7 @@ def test_a_page_that_moves_states_what_is_proved() -> None:
     assert "Proved not to fold over or tear at any point, at any time. Bounds: σ₂ ≥ 0." in page
     data = data_of(page)
     assert data["motion"]["keyframes"] == [0, 1]
-    assert data["ranges"]["k"][1] >= motion.certificate.k_upper
+    assert data["ranges"]["4"][1] >= motion.certificate.k_upper
     assert len(page) - len(data["picture"]) < 300_000
 
 

@@ -19,7 +19,7 @@ def test_every_module_comes_once_and_before_its_users() -> None:
     assert not re.search(r"^import |^export (?!default)", text, re.MULTILINE)
     assert text.count("class View {") == 1
     assert text.index("class View {") < text.index("class Stage {")
-    assert text.index("function make(") < text.index("class Panel {")
+    assert text.index("function make(") < text.index("function makePanel(")
     assert text.rstrip().endswith("export default { render };")
 
 

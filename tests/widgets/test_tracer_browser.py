@@ -302,7 +302,7 @@ def test_two_views_and_code_agree(open_notebook: OpenNotebook) -> None:
     first, second = Hand(book, 0), Hand(book, 1)
     second.root.get_by_role("radio", name="Alpha").click()
     book.wait_for("tracer.options.method == 'alpha'")
-    first.root.locator("[role=radio][data-value=alpha].glid-on").wait_for()
+    first.root.locator("[role=radio][data-value=alpha][aria-checked=true]").wait_for()
     book.value("tracer.tracing_model.set_options(offset=31)")
     for hand in (first, second):
         hand.page.wait_for_function(

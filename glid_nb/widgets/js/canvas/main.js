@@ -1,14 +1,14 @@
 // The pad over the renderer: sends pointers and keys, draws handles, colour bars and notices.
 
 import { copied } from "../pad/clipboard.js";
-import { follow, make } from "../pad/dom.js";
+import { follow, make, save } from "../pad/dom.js";
 import { help, shield } from "../pad/help.js";
 import { iconButton } from "../pad/icons.js";
 import { Link } from "../pad/link.js";
 import { openMenu } from "../pad/menu.js";
 import { Pad, keysAround } from "../pad/pad.js";
-import { clearedContext } from "../pad/pen.js";
-import { View } from "../pad/view.js";
+import { painter } from "../pad/pen.js";
+import { View, distance } from "../pad/view.js";
 import {
   drawBrush, drawLasso, drawMarks, drawOnion, drawStiff, lostMarks, markAt, ringAt,
 } from "./marks.js";
@@ -16,11 +16,7 @@ import { Room } from "./room.js";
 import { Shapes, coveredNear, drawingTime, uniformVectors } from "./shapes.js";
 
 const REACH = { mouse: 13, pen: 16, touch: 26 }; // CSS pixels
-const KEYS = new Set([
-  "ArrowLeft", "ArrowRight", "ArrowUp", "ArrowDown", "Delete", "Backspace", "Escape", "Enter",
-  "0", "f", "F", ",", ".", "a", "A", "PageUp", "PageDown", "[", "]",
-  "<", ">", "+", "=", "-", ..."xXmMbBeE",
-]);
+const KEYS = /^(Arrow\w+|Page\w+|Delete|Backspace|Escape|Enter|[0fa,.[\]<>+=xmbe-])$/i;
 const HELP = [
   ["Pins", [
     ["Click the shape", "pin a point"],
@@ -65,6 +61,7 @@ const TIPS = [
   "where it should be. Drag it; a right click shows what else; Shift-click selects several",
   "where the shape has got to. The cyan disk is where it should be",
 ];
+const COVERED = ". Another part of the shape covers it";
 const RING_TIPS = {
   turn: "Drag around the pin to turn the shape there; X leaves it free again",
   scale: "Drag away from the pin or towards it to scale the shape there; X leaves it free again",
@@ -86,11 +83,6 @@ function colorBar({ title, colors, ticks, about }) {
   );
 }
 
-function save(model, changes) {
-  for (const [name, value] of Object.entries(changes)) model.set(name, value);
-  model.save_changes();
-}
-
 function resizeGrip(model) {
   let from = null;
   return shield(make("div", {
@@ -108,88 +100,86 @@ function resizeGrip(model) {
       save(model, { width, height });
     },
     onlostpointercapture: () => (from = null),
-  }), ["pointerdown", "pointermove"]);
+  }));
 }
 
-function render({ model, el }) {
+function render({ model, el, signal }) {
   el.classList.add("glid-host", "glid-pad-host");
+  const interactive = model.get("interactive"); // else all pointers and keys pass by
   const paper = make("canvas", { className: "glid-paper" });
   const bars = make("div", { className: "glid-legend" });
   const notice = make("div", { className: "glid-notice", role: "status" });
   const prepared = make("div", { className: "glid-prepared", role: "status" });
   const label = "Deformation canvas: arrow keys move, Enter pins a point";
-  const box = make("div", { className: "glid-pad", role: "application", "aria-label": label }, paper, bars, notice, prepared);
+  const look = { className: "glid-pad", role: "application", "aria-label": label };
+  const parts = [paper, bars, notice, prepared];
+  const box = make("div", { ...look, inert: !interactive }, ...parts);
   const keys = help(HELP);
   box.dataset.lmSuppressShortcuts = "true"; // JupyterLab must not take the keys first
   el.append(box);
 
-  const shapes = new Shapes(model);
-  let due = 0;
-  const draw = () => {
-    due = 0;
-    const { found, held, focused } = pad ?? { held: new Map() };
-    const cursor = focused ? model.get("cursor") : null;
-    const pen = clearedContext(paper, view);
+  let saving;
+  const view = new View(() => {
+    see();
+    clearTimeout(saving);
+    saving = setTimeout(() => save(model, { view: [view.x, view.y, view.unit] }), SAVE_VIEW_AFTER);
+  }, { nearest: 1e-4, farthest: 1 });
+  const shapes = new Shapes(model, view);
+  const soon = painter(paper, view, signal, (pen) => {
+    const { found, held, focused } = pad, cursor = focused ? model.get("cursor") : null;
     if (shapes.motion) return; // pins belong to the pose that is edited
     drawOnion(pen, view, model.get("onion"));
     drawStiff(pen, view, model.get("stiff"), paints());
     drawMarks(pen, view, model.get("marks"), { hovered: found?.mark, held, cursor });
     if (paints()) drawBrush(pen, view, model.get("brush"), pad);
-    if (pad?.encloses && pad.path.length > 2) drawLasso(pen, view, pad.path);
-  };
-  const soon = () => { due = due || requestAnimationFrame(draw); };
-
-  let saving;
-  const view = new View(() => {
-    look();
-    clearTimeout(saving);
-    saving = setTimeout(() => save(model, { view: [view.x, view.y, view.unit] }), SAVE_VIEW_AFTER);
-  }, { nearest: 1e-4, farthest: 1 });
-  const look = () => {
-    shapes.look(view);
+    if (pad.encloses && pad.path.length > 2) drawLasso(pen, view, pad.path);
+  });
+  const see = () => {
+    shapes.see();
     soon();
   };
-  const link = new Link(model, el, ({ refusal }) => {
-    if (refusal && refusal !== model.get("notice")) say(refusal); // an error, which is no notice yet
+  const say = (notice) => save(model, { notice });
+  const link = new Link(model, box, signal, () => { // an error is no notice yet
+    if (!link.busy && link.refusal && link.refusal !== model.get("notice")) say(link.refusal);
   });
   const marks = () => model.get("marks");
-  const paints = () => pad && "radius" in model.get("brush");
+  const paints = () => "radius" in model.get("brush");
   // Opens the menu of a pin or of the shape; by default that of the pin selected last.
   const showMenu = (place, found = { mark: marks().selected.at(-1) }) => {
     const mark = found?.mark, { selected, targets } = marks();
     const point = mark === undefined ? model.get("cursor") ?? [view.x, view.y] : targets[mark];
-    const by = (shiftKey = false) => ({ shiftKey, timeStamp: performance.now() });
-    const press = (key, shift) => () => pad.press(key, by(shift));
+    const press = (key, e) => () => pad.press(key, e);
     place ??= view.toScreen(point);
-    const here = coveredNear(box, place) ? [["Add a pin here", "Click", () => pad.send("pin", place, by())], null] : [];
+    const pin = ["Add a pin here", "Click", () => pad.send("pin", place)];
+    const all = selected.includes(mark) && selected.length > 1 ? ` ${selected.length} pins` : "";
     openMenu(box, place, [
-      ...(mark === undefined ? here : [
+      ...(mark === undefined ? (coveredNear(box, place) ? [pin, null] : []) : [
         ["Bring forward", "Page Up", press("PageUp")],
         ["Send back", "Page Down", press("PageDown")],
         null,
-        [selected.includes(mark) && selected.length > 1 ? `Remove ${selected.length} pins` : "Remove", "Delete", press("Delete")],
-        ["Remove, keep the shape", "Shift+Delete", press("Delete", true)],
+        [`Remove${all}`, "Delete", press("Delete")],
+        ["Remove, keep the shape", "Shift+Delete", press("Delete", { shiftKey: true })],
         ["Leave angle and scale free", "X", press("x")],
         null,
       ]),
       ["Copy the pose", "Ctrl+C", press("copy")],
-      ["Paste a pose", "Ctrl+V", () => navigator.clipboard?.readText().then(paste, () => say(NOT_COPIED)) ?? say(NOT_COPIED)],
+      ["Paste a pose", "Ctrl+V", () => pasted().then(paste, () => say(NOT_COPIED))],
       ["Swap left and right", "M", press("m")],
       ["Select all pins", "A", press("a")],
       ["The undeformed shape", "0", press("0")],
       ["See everything", "F", press("f")],
       ["Paint stiff areas", "B", press("b")],
-      ["The picture alone", "P", () => room.alone()],
-      ["Full screen", "W", () => room.fullScreen()],
+      ["The picture alone", "P", alone],
+      ["Full screen", "W", whole],
       ["All keys", "?", keys.toggle],
     ]);
   };
-  const room = model.get("interactive") ? new Room(box, (room) => save(model, { room }), (notice) => save(model, { notice })) : null;
+  const room = interactive && new Room(box, model, signal);
   const alone = () => room.alone(), whole = () => room.fullScreen();
-  const pad = room ? new Pad(box, view, link, {
+  const pad = new Pad(box, view, link, {
     reach: REACH,
     keys: KEYS,
-    actions: { "?": keys.toggle, ContextMenu: () => showMenu(), p: alone, P: alone, w: whole, W: whole },
+    actions: { "?": keys.toggle, contextmenu: () => showMenu(), p: alone, w: whole },
     menu: showMenu,
     tapped: () => box.dispatchEvent(new CustomEvent("glid:play", { bubbles: true })),
     get painting() { return paints(); },
@@ -205,16 +195,22 @@ function render({ model, el }) {
         box.title = RING_TIPS[found.part];
         return "grab";
       }
-      const covered = found && marks().hidden.includes(found.mark) ? ". Another part of the shape covers it" : "";
-      box.title = found ? `${["Pin", found.mark + 1, model.get("names")[found.mark]].join(" ").trim()}: ${TIPS[Number(found.reached)]}${covered}` : "";
-      return found ? "grab" : "crosshair";
+      box.title = "";
+      if (!found) return "crosshair";
+      const name = ["Pin", found.mark + 1, model.get("names")[found.mark]].join(" ").trim();
+      const covered = marks().hidden.includes(found.mark) ? COVERED : "";
+      box.title = `${name}: ${TIPS[Number(found.reached)]}${covered}`;
+      return "grab";
     },
     changed: soon,
-  }) : null;
+  });
   const button = (...look) => iconButton(...look, "glid-help-button");
-  const buttons = [keys.button, button("fit", "Full screen (W)", whole), button("rectangle", "The picture alone (P)", alone)];
-  if (pad) box.append(shield(make("div", { className: "glid-corner" }, ...buttons)), keys.table, resizeGrip(model));
-  const forget = pad && keysAround(box, (e) => pad.keydown(e));
+  const corner = make("div", { className: "glid-corner" }, keys.button,
+    button("fit", "Full screen (W)", whole), button("rectangle", "The picture alone (P)", alone));
+  if (interactive) {
+    box.append(shield(corner), keys.table, resizeGrip(model));
+    keysAround(box, (e) => pad.keydown(e), signal);
+  }
 
   // While the timeline shows a motion, the first touch goes back to the pose that is edited.
   let back = null;
@@ -228,7 +224,8 @@ function render({ model, el }) {
   };
   for (const name of ["pointerdown", "keydown"]) {
     box.addEventListener(name, (e) => {
-      if (!shapes.motion || e.button === 1 || (e.key && (e.ctrlKey || e.metaKey || !KEYS.has(e.key)))) return;
+      const other = e.key && (e.ctrlKey || e.metaKey || !KEYS.test(e.key));
+      if (!shapes.motion || e.button === 1 || other) return;
       e.stopImmediatePropagation();
       e.preventDefault();
       back();
@@ -236,28 +233,27 @@ function render({ model, el }) {
   }
 
   // Poses go from one canvas to another as text in the clipboard.
-  const say = (notice) => save(model, { notice });
+  const pasted = async () => navigator.clipboard.readText();
   const paste = (text) => link.put({ type: "paste_pose", text });
-  const copy = async ({ copy: text }) => {
-    if (text && pad?.focused) say(await copied(text) ? COPIED : NOT_COPIED);
-  };
-  model.on("msg:custom", copy);
-  if (pad) {
-    box.addEventListener("copy", (e) => {
-      if (document.activeElement !== box) return;
-      e.preventDefault();
-      pad.press("copy", { shiftKey: false, timeStamp: e.timeStamp });
-    });
-    box.addEventListener("paste", (e) => [e.preventDefault(), paste(e.clipboardData.getData("text"))]);
-    box.addEventListener("pointerdown", (e) => {
-      const [x, y] = pad.place(e);
-      const lost = lostMarks(view, marks()).find(({ at }) => Math.hypot(at[0] - x, at[1] - y) < 12);
-      if (!lost || e.target !== box) return;
-      [view.x, view.y] = lost.target;
-      view.changed();
-      e.stopImmediatePropagation();
-    }, true);
-  }
+  model.on("msg:custom", async ({ copy: text }) => {
+    if (text && pad.focused) say(await copied(text) ? COPIED : NOT_COPIED);
+  });
+  box.addEventListener("copy", (e) => {
+    if (!pad.focused) return;
+    e.preventDefault();
+    pad.press("copy");
+  });
+  box.addEventListener("paste", (e) => {
+    e.preventDefault();
+    paste(e.clipboardData.getData("text"));
+  });
+  box.addEventListener("pointerdown", (e) => {
+    const lost = lostMarks(view, marks()).find(({ at }) => distance(at, pad.place(e)) < 12);
+    if (!lost || e.target !== box) return;
+    [view.x, view.y] = lost.target;
+    view.changed();
+    e.stopImmediatePropagation();
+  }, true);
 
   // A pin that was selected alone, though not by the pointer, comes into view.
   let chosen;
@@ -266,7 +262,8 @@ function render({ model, el }) {
     const now = others.length ? undefined : first;
     if (now === chosen) return;
     chosen = now;
-    if (now === undefined || pad?.mode || lostMarks(view, { targets: [targets[now], images[now]] }).length < 2) return;
+    if (now === undefined || pad.mode) return;
+    if (lostMarks(view, { targets: [targets[now], images[now]] }).length < 2) return;
     [view.x, view.y] = targets[now];
     view.changed();
   };
@@ -275,10 +272,10 @@ function render({ model, el }) {
     Object.assign(view, { width: model.get("width"), height: model.get("height") });
     [view.x, view.y, view.unit] = model.get("view");
     Object.assign(box.style, { width: `${view.width}px`, height: `${view.height}px` });
-    look();
+    see();
   };
   const tell = () => {
-    const refusal = model.get("notice"), first = pad && !marks().targets.length;
+    const refusal = model.get("notice"), first = interactive && !marks().targets.length;
     notice.textContent = refusal || (paints() ? PAINT : first ? FIRST : "");
     notice.hidden = !notice.textContent;
     notice.classList.toggle("glid-first", !refusal);
@@ -296,7 +293,7 @@ function render({ model, el }) {
     bars.hidden = !shown.length;
     bars.dataset.corner = model.get("legend_corner");
   };
-  const unfollow = follow(model, {
+  follow(model, {
     "change:width change:height change:view": fit,
     "change:coefficients": () => shapes.refresh(),
     "change:marks change:cursor change:onion change:stiff change:brush": soon,
@@ -306,22 +303,13 @@ function render({ model, el }) {
     "change:marks": reveal,
     "change:prepared": prepare,
   });
-  let gone = false;
   shapes.load().then(() => drawingTime(box, shapes)).then((time) => {
-    if (!gone) save(model, { drawn: true, drawing_time: time });
+    if (!signal.aborted) save(model, { drawn: true, drawing_time: time });
   });
   if (model.get("uniform_vectors") === 0) save(model, { uniform_vectors: uniformVectors() || -1 });
 
   return () => {
-    gone = true;
-    cancelAnimationFrame(due);
     clearTimeout(saving);
-    unfollow();
-    model.off("msg:custom", copy);
-    forget?.();
-    room?.close();
-    pad?.close();
-    link.close();
     shapes.close();
   };
 }

@@ -2,7 +2,9 @@
 // they are, and a line between the two. Those that another part of the shape covers are faint rings.
 
 import { make } from "../pad/dom.js";
-import { circle, disk, fillPath, strokePath, tracePath } from "../pad/pen.js";
+import { nearest } from "../pad/hit.js";
+import { circle, disk, fillPath, rectangle, strokePath, tracePath } from "../pad/pen.js";
+import { distance } from "../pad/view.js";
 
 const TARGET = 7.5, IMAGE = 3.5, RING = 12; // radii, CSS pixels
 const DIAL = 42, KNOB = 6, EDGE = 14, CORNER = [36, 112]; // of a scale of 1; of the buttons; CSS pixels
@@ -60,29 +62,30 @@ export function drawBrush(pen, view, { radius, strength }, { path, rests }) {
 function dial(view, marks, held) {
   const last = marks.selected.at(-1), [angle, scale] = marks.ring;
   if (angle === undefined || !marks.targets[last]) return null;
-  const [x, y] = view.toScreen(held?.get(last) || marks.targets[last]);
+  const centre = view.toScreen(held?.get(last) || marks.targets[last]), [x, y] = centre;
   const radius = DIAL * Math.min(2.5, Math.max(0.5, scale));
-  return { x, y, radius, knob: [x + radius * Math.cos(angle), y - radius * Math.sin(angle)] };
+  return { centre, radius, knob: [x + radius * Math.cos(angle), y - radius * Math.sin(angle)] };
 }
 
 // The part of the ring at a place on the screen, as `part`; null for none.
-export function ringAt(view, marks, [px, py], reach) {
+export function ringAt(view, marks, place, reach) {
   const ring = dial(view, marks);
   if (!ring) return null;
-  if (Math.hypot(px - ring.knob[0], py - ring.knob[1]) <= Math.max(KNOB + 4, reach)) return { part: "scale" };
-  return Math.abs(Math.hypot(px - ring.x, py - ring.y) - ring.radius) <= reach ? { part: "turn" } : null;
+  if (distance(place, ring.knob) <= Math.max(KNOB + 4, reach)) return { part: "scale" };
+  const far = Math.abs(distance(place, ring.centre) - ring.radius);
+  return far <= reach ? { part: "turn" } : null;
 }
 
 // Orange and full what is wanted, grey and dashed what is free.
 function drawRing(pen, view, marks, held) {
   const ring = dial(view, marks, held);
   if (!ring) return;
-  const [, , turned, scaled] = marks.ring, centre = [ring.x, ring.y], color = turned ? WANTED : FREE;
-  circle(pen, centre, ring.radius, [[4, BORDER]]);
-  circle(pen, centre, ring.radius, [[2, color]], turned ? [] : [6, 4]);
-  lines(pen, [[centre, ring.knob]], [[3, BORDER], [1.2, color]]);
-  const corners = [[-1, -1], [1, -1], [1, 1], [-1, 1]].map(([x, y]) => [ring.knob[0] + x * KNOB, ring.knob[1] + y * KNOB]);
-  fillPath(pen, [corners], scaled ? WANTED : "#fff");
+  const [, , turned, scaled] = marks.ring, { centre, radius, knob } = ring, [x, y] = knob;
+  const color = turned ? WANTED : FREE;
+  circle(pen, centre, radius, [[4, BORDER]]);
+  circle(pen, centre, radius, [[2, color]], turned ? [] : [6, 4]);
+  lines(pen, [[centre, knob]], [[3, BORDER], [1.2, color]]);
+  fillPath(pen, [rectangle([x - KNOB, y - KNOB], [x + KNOB, y + KNOB])], scaled ? WANTED : "#fff");
   strokePath(pen, [[1.6, scaled ? "#fff" : FREE]]);
 }
 
@@ -115,7 +118,7 @@ export function drawLasso(pen, view, path) {
 export function drawMarks(pen, view, marks, { hovered, held, cursor }) {
   const targets = view.line(marks.targets.map((p, i) => held.get(i) || p)), images = view.line(marks.images);
   const apart = targets.map((target, i) => [images[i], target])
-    .filter(([a, b]) => a && Math.hypot(a[0] - b[0], a[1] - b[1]) >= 2);
+    .filter(([a, b]) => a && distance(a, b) >= 2);
   lines(pen, apart, [[3.6, BORDER], [1.6, "#2b2b2b"]]);
   targets.forEach((target, i) => {
     if (marks.selected.includes(i)) disk(pen, target, RING, "rgba(0,114,178,0.28)", "#0072b2", 2);
@@ -140,14 +143,9 @@ export function drawMarks(pen, view, marks, { hovered, held, cursor }) {
 // The nearest target, or else the nearest dot, within reach of a point; null for none. As in the
 // kernel's gestures, a hidden one counts as farther away by a third of the reach.
 export function markAt(marks, point, reach) {
-  for (const points of [marks.targets, marks.images]) {
-    let best = null;
-    points.forEach(([x, y], i) => {
-      const gap = Math.hypot(x - point[0], y - point[1]);
-      const far = gap + (marks.hidden.includes(i) ? reach / 3 : 0);
-      if (gap <= reach && far < (best?.far ?? Infinity)) best = { mark: i, far };
-    });
-    if (best) return { mark: best.mark, reached: points === marks.images };
-  }
-  return null;
+  const at = (points, reached) => nearest(points.map((place, mark) => {
+    const loss = marks.hidden.includes(mark) ? reach / 3 : 0;
+    return { mark, reached, d: distance(place, point), loss };
+  }), reach);
+  return at(marks.targets, false) ?? at(marks.images, true);
 }

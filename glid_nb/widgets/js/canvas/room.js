@@ -1,22 +1,22 @@
 // The room that an editor has for its canvas, full screen, and the picture alone.
 
+import { save } from "../pad/dom.js";
+
 const PAGE = 120, PARTS = 330; // CSS pixels: what a notebook's page and an editor's parts need above and below
 const LEAST = 480, GAP = 16; // CSS pixels: of the height, and of the width beside the plots
 const SLACK = 20; // CSS pixels: a scroll bar that comes and goes changes nothing
 const SETTLE = 80; // ms
 
 export class Room {
-  // tell([width, height, alone]): the room is another one. refused(text): why there is no full screen.
-  constructor(pad, tell, refused) {
-    Object.assign(this, { pad, tell, refused, root: null, last: [0, 0, 0] });
+  // The signal ends it.
+  constructor(pad, model, signal) {
+    Object.assign(this, { pad, model, root: null, last: [0, 0, 0] }); // width, height, alone
     this.later = () => {
       clearTimeout(this.timer);
       this.timer = setTimeout(() => this.measure(), SETTLE);
     };
     this.observer = new ResizeObserver(this.later);
     this.observer.observe(pad);
-    this.ending = new AbortController();
-    const { signal } = this.ending;
     const escape = (e) => {
       if (e.key !== "Escape" || !this.last[2] || pad.matches(":active, :has(.glid-menu, :popover-open)")) return;
       e.stopPropagation();
@@ -24,7 +24,13 @@ export class Room {
     };
     window.addEventListener("resize", this.later, { signal });
     window.addEventListener("keydown", escape, { signal, capture: true });
-    document.addEventListener("fullscreenchange", () => document.fullscreenElement || this.alone(false), { signal });
+    document.addEventListener("fullscreenchange", () => {
+      if (!document.fullscreenElement) this.alone(false);
+    }, { signal });
+    signal.addEventListener("abort", () => {
+      clearTimeout(this.timer);
+      this.observer.disconnect();
+    });
   }
 
   measure() {
@@ -39,7 +45,7 @@ export class Room {
     const wider = room[0] - last[0];
     if (wider >= 0 && wider < SLACK && room[1] === last[1] && alone === last[2]) return;
     this.last = room;
-    this.tell(room.map(Math.floor));
+    save(this.model, { room: room.map(Math.floor) });
   }
 
   // Shows nothing but the picture, or everything again.
@@ -54,14 +60,8 @@ export class Room {
   }
 
   fullScreen() {
-    const { root } = this;
+    const say = (why) => save(this.model, { notice: `There is no full screen here: ${why}` });
     if (document.fullscreenElement) document.exitFullscreen();
-    else root?.requestFullscreen().catch((error) => this.refused(`There is no full screen here: ${error.message}`));
-  }
-
-  close() {
-    clearTimeout(this.timer);
-    this.observer.disconnect();
-    this.ending.abort();
+    else this.root?.requestFullscreen().catch((error) => say(error.message));
   }
 }

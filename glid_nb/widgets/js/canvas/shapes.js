@@ -10,13 +10,11 @@ const clearLists = (scene, { renderLists }) => renderLists.dispose();
 const drawNoMore = (view) => view.once("remove", () => (view.renderScene = () => {}));
 
 export class Shapes {
-  constructor(model) {
-    this.model = model;
-    this.materials = [];
+  constructor(model, view) {
+    Object.assign(this, { model, view, materials: [] });
     this.motion = null; // what the timeline shows instead: coefficients, or true for the kernel's frames
     this.loading = 0;
-    this.onMaterials = () => this.load();
-    model.on("change:materials change:camera change:renderer", this.onMaterials);
+    model.on("change:materials change:camera change:renderer", () => this.load());
   }
 
   async load() {
@@ -31,15 +29,14 @@ export class Shapes {
     this.forget();
     Object.assign(this, { camera, renderer, materials });
     // When the kernel changes a uniform, pythreejs replaces them all, on the event "change".
-    this.onUniforms = () => this.refresh();
-    for (const material of materials) material.on("change", this.onUniforms);
+    for (const material of materials) material.on("change", this.refresh, this);
     renderer.get("scene").off("beforeRender", clearLists).on("beforeRender", clearLists);
     for (const view of Object.values(renderer.views)) view.then(drawNoMore);
     this.refresh();
   }
 
   forget() {
-    for (const material of this.materials) material.off("change", this.onUniforms);
+    for (const material of this.materials) material.off(null, null, this);
     this.materials = [];
   }
 
@@ -73,18 +70,13 @@ export class Shapes {
     position.needsUpdate = true;
   }
 
-  look({ x, y, unit, width, height }) {
-    const w = (width / 2) * unit, h = (height / 2) * unit;
-    this.frame = { left: x - w, right: x + w, top: y + h, bottom: y - h };
-    this.unit = unit;
-    this.see();
-  }
-
+  // Shows what the view shows; the camera's renderer draws anew by itself.
   see() {
+    const { x, y, unit, width, height } = this.view, w = (width / 2) * unit, h = (height / 2) * unit;
     for (const { obj } of this.materials) {
-      if (obj?.uniforms?.pixel) obj.uniforms.pixel.value = this.unit;
+      if (obj?.uniforms?.pixel) obj.uniforms.pixel.value = unit;
     }
-    if (this.camera && this.frame) this.camera.set(this.frame); // its renderer draws anew by itself
+    this.camera?.set({ left: x - w, right: x + w, top: y + h, bottom: y - h });
   }
 
   redraw() {
@@ -94,7 +86,6 @@ export class Shapes {
   close() {
     this.loading++;
     this.forget();
-    this.model.off("change:materials change:camera change:renderer", this.onMaterials);
   }
 }
 

@@ -5,20 +5,18 @@ import { make } from "../pad/dom.js";
 
 const saved = new Set(); // the numbers of files that another view of the same widget may hold
 
-function save(name, data) {
+function download(name, data) {
   const href = URL.createObjectURL(new Blob([data]));
   make("a", { href, download: name }).click();
   setTimeout(() => URL.revokeObjectURL(href), 60_000);
 }
 
 function render({ model }) {
-  const onMessage = async ({ number, text, name }, [data]) => {
+  model.on("msg:custom", async ({ number, text, name }, [data]) => {
     if (!name) model.send({ number, copied: await copied(text) });
-    else if (!saved.has(number)) save(name, data);
+    else if (!saved.has(number)) download(name, data);
     saved.add(number);
-  };
-  model.on("msg:custom", onMessage);
-  return () => model.off("msg:custom", onMessage);
+  });
 }
 
 export default { render };

@@ -25,15 +25,9 @@ const PATHS = {
 };
 
 export function icon(name) {
-  const svg = document.createElementNS("http://www.w3.org/2000/svg", "svg");
-  svg.setAttribute("viewBox", "0 0 16 16");
-  svg.setAttribute("aria-hidden", "true");
-  const path = document.createElementNS("http://www.w3.org/2000/svg", "path");
-  path.setAttribute("d", PATHS[name]);
-  svg.append(path);
-  return svg;
+  return `<svg viewBox="0 0 16 16" aria-hidden="true"><path d="${PATHS[name]}"/></svg>`;
 }
 
-export function iconButton(name, label, onclick, className = "glid-icon") {
-  return make("button", { type: "button", title: label, "aria-label": label, className, onclick }, icon(name));
+export function iconButton(name, title, onclick, className = "glid-icon") {
+  return make("button", { title, "aria-label": title, className, onclick, innerHTML: icon(name) });
 }

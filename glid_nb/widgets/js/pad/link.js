@@ -16,9 +16,9 @@ function connectNoMoreComms(kernel) {
 }
 
 export class Link {
-  // report({busy, refusal}): an answer came, or is overdue. idle(flag): whether all is answered.
-  constructor(model, element, report = () => {}, idle = () => {}) {
-    Object.assign(this, { model, element, report, showIdle: idle });
+  // report(): an answer came, or is overdue: `busy`, `refusal` and `idle` are others.
+  constructor(model, element, signal, report) {
+    Object.assign(this, { model, element, signal, report, busy: false, refusal: null });
     connectNoMoreComms(model.widget_manager.kernel);
     this.view = Math.random().toString(36).slice(2);
     this.queue = [];
@@ -26,10 +26,9 @@ export class Link {
     this.answers = [];
     this.waiting = false;
     this.number = this.acknowledged = 0;
-    this.receive = (message) => {
-      if (message.view === this.view) this.answered(message);
-    };
-    model.on("msg:custom", this.receive);
+    element.dataset.idle = true; // all is answered
+    signal.addEventListener("abort", () => this.stop());
+    model.on("msg:custom", (message) => message.view === this.view && this.answered(message));
   }
 
   get idle() {
@@ -44,7 +43,7 @@ export class Link {
     if (last?.replaces && last.replaces === event.replaces) this.queue.pop();
     this.queue.push({ ...event, seq });
     this.buffers.push(...buffers);
-    this.showIdle(false);
+    this.element.dataset.idle = false;
     this.flush();
     return new Promise((resolve) => this.answers.push({ seq, resolve }));
   }
@@ -59,23 +58,27 @@ export class Link {
       this.model.send({ view: this.view, events: this.queue }, undefined, this.buffers);
     } catch {
       // The kernel is gone. Nothing is sent any more, and the page says so if it does not yet.
-      const { element } = this;
-      (element.closest(".glid-editor") ?? element).classList.add("jupyter-widgets-disconnected");
+      const [host, editor] = [".glid-host", ".glid-editor"].map((one) => this.element.closest(one));
+      (editor ?? host).classList.add("jupyter-widgets-disconnected");
       return;
     }
     [this.queue, this.buffers] = [[], []];
-    this.overdue = setTimeout(() => this.report({ busy: true, refusal: null }), BUSY_AFTER);
+    this.overdue = setTimeout(() => {
+      this.busy = true;
+      this.report();
+    }, BUSY_AFTER);
     this.timeout = setTimeout(() => this.release(), ACKNOWLEDGE_TIMEOUT);
   }
 
   answered({ ack, refusal }) {
     if (ack === this.awaited) clearTimeout(this.overdue);
     this.acknowledged = Math.max(this.acknowledged, ack);
-    this.report({ busy: false, refusal });
+    Object.assign(this, { busy: false, refusal });
+    this.element.dataset.idle = this.idle;
     const due = this.answers.filter(({ seq }) => seq <= ack);
     this.answers = this.answers.filter(({ seq }) => seq > ack);
     for (const { resolve } of due) resolve(refusal);
-    this.showIdle(this.idle);
+    this.report();
     if (ack < this.awaited) return;
     // The frame arrived before this answer; the page's next drawing shows it.
     if (document.hidden) this.release();
@@ -92,10 +95,5 @@ export class Link {
     clearTimeout(this.overdue);
     clearTimeout(this.timeout);
     cancelAnimationFrame(this.drawing);
-  }
-
-  close() {
-    this.stop();
-    this.model.off("msg:custom", this.receive);
   }
 }

@@ -9,7 +9,8 @@ async function render(context) {
     const url = URL.createObjectURL(new Blob([script], { type: "text/javascript" }));
     modules.set(script, import(url).finally(() => URL.revokeObjectURL(url)));
   }
-  return (await modules.get(script)).default.render(context);
+  const module = await modules.get(script);
+  if (!context.signal.aborted) return module.default.render(context); // the view may be gone by now
 }
 
 export default { render };

@@ -1,25 +1,25 @@
 // Pointers, wheel and keys over a picture. The kernel decides what they mean; the page pans and
 // zooms, and draws what is dragged at the pointer before the kernel answers.
 
-const WHEEL_SPEED = 0.0015, WHEEL_LINE = 33;
+import { rectangle } from "./pen.js";
+import { distance } from "./view.js";
+
 const CLICK = 4; // CSS pixels that a click may move
 const LONG_PRESS = 600, LONG_PRESS_GRACE = 100, LONG_PRESS_SLACK = 8; // ms, ms, CSS pixels
 const PATH_STEP = 3; // CSS pixels between the points of a path
 
-export function isUndo(e) {
-  return (e.ctrlKey || e.metaKey) && ["z", "y"].includes(e.key.toLowerCase());
-}
-
+// What a key does to the history: "undo", "redo" or nothing.
 export function undoOrRedo(e) {
-  return e.key.toLowerCase() === "z" && !e.shiftKey ? "undo" : "redo";
+  const key = (e.ctrlKey || e.metaKey) && e.key.toLowerCase();
+  if (key === "z" || key === "y") return key === "z" && !e.shiftKey ? "undo" : "redo";
 }
 
 const TEXT = "textarea, [contenteditable], input:not([type=checkbox], [type=range], [type=radio])";
 
 // Keys in the editor around an element (or in `whole`, where there is no editor): undo, redo, single characters, Escape
 // and Delete go to act(e) while the element is seen, unless it has the focus itself, or a field that takes them.
-// Jupyter takes none: its X cuts the cell, its M makes it text. Returns a function that ends this.
-export function keysAround(element, act, whole = element) {
+// Jupyter takes none: its X cuts the cell, its M makes it text. The signal ends this.
+export function keysAround(element, act, signal, whole = element) {
   const on = (e) => {
     const editor = element.closest(".glid-editor") ?? whole, { target } = e;
     if (!editor.contains(target) || !element.checkVisibility()) return;
@@ -28,24 +28,23 @@ export function keysAround(element, act, whole = element) {
       return void (target.closest("[role=tab]") && editor.focus({ preventScroll: true }));
     }
     const command = e.ctrlKey || e.metaKey, outside = !element.contains(target);
-    const ours = isUndo(e) || !(command || (outside && e.shiftKey && e.key === "Enter"));
-    target.toggleAttribute("data-lm-suppress-shortcuts", ours);
+    const ours = undoOrRedo(e) || !(command || (outside && e.shiftKey && e.key === "Enter"));
+    target.toggleAttribute("data-lm-suppress-shortcuts", Boolean(ours));
     editor.onkeydown = ours && ((bubbled) => bubbled.stopPropagation());
     if (!outside || target.matches(TEXT)) return;
     const free = target.closest(".glid-timeline") ? /^[^ ]$/ : /^([^ ]|Escape|Delete)$/;
-    if (isUndo(e) ? !e.altKey : !command && free.test(e.key) && !target.matches("select")) act(e);
+    if (undoOrRedo(e) ? !e.altKey : !command && free.test(e.key) && !target.matches("select")) act(e);
   };
-  for (const name of ["pointerdown", "keydown"]) window.addEventListener(name, on, true);
-  return () => {
-    for (const name of ["pointerdown", "keydown"]) window.removeEventListener(name, on, true);
-  };
+  for (const name of ["pointerdown", "keydown"]) {
+    window.addEventListener(name, on, { capture: true, signal });
+  }
 }
 
 export class Pad {
   // Options in `canvas`:
   //   reach: the radius that a pointer hits, CSS pixels, by its type
-  //   keys: those that go to the kernel; the others go on to the notebook
-  //   actions: functions of the page, by their key
+  //   keys: matches those that go to the kernel; the others go on to the notebook
+  //   actions: functions of the page, by their key in lower case
   //   find(point, reach): what is there, or null; with `mark` if it can be dragged
   //   held(found): the points that a drag moves, by their marks
   //   pans(found), painting: whether the left button moves the view, or paints a path
@@ -58,42 +57,46 @@ export class Pad {
   constructor(element, view, link, canvas) {
     Object.assign(this, { element, view, link, canvas });
     this.pointers = new Map(); // id -> last place, of pressed pointers
-    this.mode = null; // what the pressed pointer does: "hand", "pan" or "pinch"
+    this.mode = null; // what pressed pointers do: "hand" or "pan"
     this.grip = null; // where a drag began, and the points that it moves
     this.held = new Map(); // places of dragged marks
     this.path = []; // of the left button, world points
     this.found = this.rests = null; // what is below a pointer that hovers, and its place
-    this.space = this.focused = false;
+    this.space = false;
     element.tabIndex = 0;
-    this.on("pointerdown", (e) => this.down(e));
-    this.on("pointermove", (e) => this.move(e));
-    this.on("pointerup", (e) => this.up(e, "up"));
-    this.on("pointercancel", (e) => this.up(e, "cancel"));
-    this.on("lostpointercapture", (e) => this.up(e, "cancel"));
-    this.on("pointerleave", () => this.hover(null));
-    this.on("wheel", (e) => this.wheel(e), { passive: false });
-    // Neither the browser's nor JupyterLab's menu may open.
-    this.on("contextmenu", (e) => {
-      e.preventDefault();
-      e.stopPropagation();
-      if (e.button === 2 && e.pointerType !== "touch") this.menu(this.place(e), "mouse");
-    });
-    this.on("keydown", (e) => this.keydown(e));
-    this.on("keyup", (e) => {
-      if (e.key !== " ") return;
-      this.setSpace(false);
-      if (this.tap) this.canvas.tapped?.();
-    });
-    this.on("focus", () => this.setFocus(true));
-    this.on("blur", () => this.setFocus(false));
+    link.signal.addEventListener("abort", () => clearTimeout(this.longPress));
+    const listeners = {
+      pointerdown: (e) => this.down(e),
+      pointermove: (e) => this.move(e),
+      pointerup: (e) => this.up(e, "up"),
+      pointercancel: (e) => this.up(e, "cancel"),
+      lostpointercapture: (e) => this.up(e, "cancel"),
+      pointerleave: () => this.hover(null),
+      wheel: (e) => this.wheel(e),
+      contextmenu: (e) => { // neither the browser's nor JupyterLab's may open
+        e.preventDefault();
+        e.stopPropagation();
+        if (e.button === 2 && e.pointerType !== "touch") this.menu(this.place(e), "mouse");
+      },
+      keydown: (e) => this.keydown(e),
+      keyup: (e) => {
+        if (e.key !== " ") return;
+        this.setSpace(false);
+        if (this.tap) this.canvas.tapped?.();
+      },
+      focus: () => canvas.changed(),
+      blur: () => {
+        this.setSpace(false);
+        canvas.changed();
+      },
+    };
+    for (const [name, act] of Object.entries(listeners)) {
+      element.addEventListener(name, act, { passive: false });
+    }
   }
 
-  on(name, handler, options) {
-    this.element.addEventListener(name, handler, options);
-  }
-
-  close() {
-    clearTimeout(this.longPress);
+  get focused() {
+    return this.element.matches(":focus");
   }
 
   place(e) {
@@ -105,12 +108,12 @@ export class Pad {
     return this.canvas.reach[type] ?? this.canvas.reach.mouse;
   }
 
-  send(type, place, e, more = {}) {
+  send(type, place, e = {}, more = {}) {
     const [x, y] = this.view.toWorld(place);
     const { unit } = this.view;
     return this.link.put({
       type, x, y, unit, reach: this.reach(e.pointerType) * unit, button: e.button ?? 0,
-      shift: e.shiftKey, time: e.timeStamp, ...more,
+      shift: Boolean(e.shiftKey), time: e.timeStamp ?? performance.now(), ...more,
     });
   }
 
@@ -126,18 +129,11 @@ export class Pad {
     const place = this.place(e);
     this.pointers.set(e.pointerId, place);
     this.element.setPointerCapture(e.pointerId);
-    if (this.pointers.size === 2) {
-      this.takeBack(e); // the first finger's gesture was none
-      this.mode = "pinch";
-      this.span = this.spread();
-      return;
-    }
+    const second = this.pointers.size === 2;
+    if (second) this.takeBack(e); // the first finger's gesture was none
     this.start = place;
-    if (e.button === 1 || (e.button === 0 && this.space)) {
-      this.mode = "pan";
-      return this.shape();
-    }
-    this.mode = "hand";
+    this.mode = second || e.button === 1 || (e.button === 0 && this.space) ? "pan" : "hand";
+    if (this.mode === "pan") return this.shape();
     const found = this.find(place, e.pointerType), left = e.button === 0;
     const mark = found?.mark;
     if (left && !e.shiftKey && mark !== undefined) {
@@ -168,40 +164,33 @@ export class Pad {
   // Cancels the gesture that the kernel knows of.
   takeBack(e) {
     if (this.mode === "hand") this.send("cancel", this.start, e);
-    this.letGo();
-    this.held.clear();
-    this.path = [];
+    this.drop();
   }
 
   move(e) {
-    const place = this.place(e);
-    if (!this.pointers.has(e.pointerId)) {
-      if (e.pointerType !== "touch") this.hover(place);
-      return;
-    }
-    const before = this.pointers.get(e.pointerId);
-    if (e.pointerType !== "touch") this.rests = place;
-    this.pointers.set(e.pointerId, place);
-    const far = Math.hypot(place[0] - this.start[0], place[1] - this.start[1]);
+    const place = this.place(e), touch = e.pointerType === "touch";
+    if (!this.pointers.has(e.pointerId)) return void (touch || this.hover(place));
+    if (!touch) this.rests = place;
+    const far = distance(place, this.start);
     if (far > LONG_PRESS_SLACK) clearTimeout(this.longPress);
     if (this.mode === "hand" && this.pans && far > CLICK) {
       this.takeBack(e);
       this.mode = "pan";
       this.shape();
     }
-    if (this.mode === "pan") this.view.pan(place[0] - before[0], place[1] - before[1]);
-    else if (this.mode === "pinch") this.pinch();
-    else if (this.mode === "hand") this.handMoved(place, e, far);
+    if (this.mode === "pan") return this.view.follow(this.pointers, e.pointerId, place);
+    this.pointers.set(e.pointerId, place);
+    if (this.mode === "hand") this.handMoved(place, e, far);
   }
 
   handMoved(place, e, far) {
     const point = this.view.toWorld(place);
     if (this.encloses === "box") {
-      const [[x, y]] = this.path, [u, v] = point;
-      this.path = far > CLICK ? [[x, y], [u, y], [u, v], [x, v]] : [[x, y]];
+      const [corner] = this.path;
+      this.path = far > CLICK ? rectangle(corner, point) : [corner];
     } else if (this.path.length) {
-      const [x, y] = this.view.toScreen(this.path.at(-1));
-      if (Math.hypot(place[0] - x, place[1] - y) >= PATH_STEP) this.path.push(point);
+      const last = this.view.toScreen(this.path.at(-1));
+      if (distance(place, last) >= PATH_STEP) this.path.push(point);
     }
     if (!this.encloses && !this.canvas.painting) this.send("move", place, e, { replaces: `move ${e.pointerId}` });
     if (this.grip) {
@@ -224,7 +213,7 @@ export class Pad {
       });
     }
     this.letGo();
-    if (this.mode !== "pinch" || !this.pointers.size) this.mode = null;
+    if (!this.pointers.size) this.mode = null;
     this.shape();
   }
 
@@ -234,32 +223,24 @@ export class Pad {
     this.canvas.changed();
   }
 
-  spread() {
-    const [[ax, ay], [bx, by]] = [...this.pointers.values()];
-    return { x: (ax + bx) / 2, y: (ay + by) / 2, length: Math.hypot(ax - bx, ay - by) };
-  }
-
-  pinch() {
-    if (this.pointers.size < 2) return;
-    const now = this.spread();
-    this.view.pan(now.x - this.span.x, now.y - this.span.y);
-    if (now.length > 0) this.view.zoom(this.span.length / now.length, [now.x, now.y]);
-    this.span = now;
+  // Lets go of what is held and forgets where it was moved.
+  drop() {
+    this.letGo();
+    this.held.clear();
+    this.path = [];
   }
 
   wheel(e) {
     if (this.canvas.wheelNeedsFocus && !this.focused && !e.ctrlKey) return;
-    e.preventDefault();
     e.stopPropagation();
-    const step = e.deltaMode === 1 ? e.deltaY * WHEEL_LINE : e.deltaY;
-    this.view.zoom(Math.exp(step * WHEEL_SPEED * (e.ctrlKey ? 5 : 1)), this.place(e));
+    this.view.wheel(e, this.place(e));
   }
 
   keydown(e) {
     const command = e.ctrlKey || e.metaKey;
-    const action = !command && this.canvas.actions?.[e.key];
-    if (!isUndo(e) && !action && e.key !== " ") {
-      if (e.altKey || !this.canvas.keys.has(e.key) || (command && e.key !== "a")) return;
+    const action = !command && this.canvas.actions[e.key.toLowerCase()], history = undoOrRedo(e);
+    if (!history && !action && e.key !== " ") {
+      if (e.altKey || !this.canvas.keys.test(e.key) || (command && e.key !== "a")) return;
     }
     e.preventDefault();
     e.stopPropagation();
@@ -268,12 +249,8 @@ export class Pad {
       return this.setSpace(true);
     }
     if (action) return action();
-    if (e.key === "Escape" || isUndo(e)) {
-      this.letGo();
-      this.held.clear();
-      this.path = [];
-    }
-    this.press(isUndo(e) ? undoOrRedo(e) : e.key, e);
+    if (e.key === "Escape" || history) this.drop();
+    this.press(history ?? e.key, e);
   }
 
   // Has the kernel do what a key does.
@@ -287,12 +264,6 @@ export class Pad {
     if (this.mode !== null) return;
     this.found = place && this.find(place, "mouse");
     this.shape();
-    this.canvas.changed();
-  }
-
-  setFocus(focused) {
-    this.focused = focused;
-    if (!focused) this.setSpace(false);
     this.canvas.changed();
   }
 

@@ -1,5 +1,17 @@
-// A canvas cleared for drawing in CSS pixels, of which it has width times height: its context.
-export function clearedContext(canvas, { width, height }) {
+// Has draw(context) fill a canvas with the next frame, in the CSS pixels of a view, once the function
+// that it returns was called, however often.
+export function painter(canvas, view, signal, draw) {
+  let due = 0;
+  signal.addEventListener("abort", () => cancelAnimationFrame(due));
+  return () => {
+    due ||= requestAnimationFrame(() => {
+      due = 0;
+      draw(clearedContext(canvas, view));
+    });
+  };
+}
+
+function clearedContext(canvas, { width, height }) {
   const ratio = window.devicePixelRatio || 1;
   const size = [Math.round(width * ratio), Math.round(height * ratio)];
   if (canvas.width !== size[0] || canvas.height !== size[1]) [canvas.width, canvas.height] = size;
@@ -29,6 +41,11 @@ export function tracePath(ctx, lines, closed = true) {
     line.forEach(([x, y], i) => (i ? ctx.lineTo(x, y) : ctx.moveTo(x, y)));
     if (closed) ctx.closePath();
   }
+}
+
+// The corners of a rectangle between two opposite ones.
+export function rectangle([left, top], [right, bottom]) {
+  return [[left, top], [right, top], [right, bottom], [left, bottom]];
 }
 
 // Fills the inside of lines of points, by default with their holes left out, and keeps their path.

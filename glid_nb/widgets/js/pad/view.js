@@ -1,9 +1,13 @@
 // The visible part of the world: a centre, and world units per CSS pixel.
 
+const WHEEL_SPEED = 0.0015, WHEEL_LINE = 33;
+
+export const distance = ([x, y], [u, v]) => Math.hypot(x - u, y - v);
+
 export class View {
   // up: 1 if the world's y points up, -1 if down. changed(): called after every change.
   constructor(changed, { up = 1, nearest, farthest }) {
-    Object.assign(this, { changed, up, nearest, farthest, x: 0, y: 0, unit: 1, width: 1, height: 1 });
+    Object.assign(this, { changed, up, nearest, farthest, x: 0, y: 0, unit: 1, width: 0, height: 0 });
   }
 
   toWorld([px, py]) {
@@ -34,5 +38,23 @@ export class View {
     this.y = y + (this.y - y) * (unit / this.unit);
     this.unit = unit;
     this.changed();
+  }
+
+  // A pinch on a touchpad is a wheel with Ctrl.
+  wheel(e, place) {
+    e.preventDefault();
+    const step = e.deltaMode === WheelEvent.DOM_DELTA_LINE ? e.deltaY * WHEEL_LINE : e.deltaY;
+    this.zoom(Math.exp(step * WHEEL_SPEED * (e.ctrlKey ? 5 : 1)), place);
+  }
+
+  // Follows one of the pressed pointers, whose last places are known; two of them zoom as well.
+  follow(pointers, id, place) {
+    const before = pointers.get(id), other = [...pointers].find(([one]) => one !== id)?.[1];
+    const share = other ? 0.5 : 1; // two move the view by their mean
+    pointers.set(id, place);
+    this.pan(share * (place[0] - before[0]), share * (place[1] - before[1]));
+    if (!other) return;
+    const apart = (one) => Math.max(distance(one, other), 1);
+    this.zoom(apart(before) / apart(place), [(place[0] + other[0]) / 2, (place[1] + other[1]) / 2]);
   }
 }

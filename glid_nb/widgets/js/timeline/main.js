@@ -4,7 +4,7 @@ import { follow, make, toFloats } from "../pad/dom.js";
 import { icon, iconButton } from "../pad/icons.js";
 import { Motion } from "../motion/motion.js";
 import { Link } from "../pad/link.js";
-import { isUndo, undoOrRedo } from "../pad/pad.js";
+import { undoOrRedo } from "../pad/pad.js";
 import { Player } from "./player.js";
 
 const EASINGS = [["linear", "Even"], ["in", "Ease in"], ["out", "Ease out"], ["in-out", "Ease in, out"]];
@@ -17,17 +17,15 @@ const KERNEL = "Played by the kernel (too large for shaders). ";
 const seconds = (time) => `${time.toFixed(2)} s`;
 
 function menu(label, rows, act) {
-  const options = rows.map(([value, text]) => make("option", { value }, text));
-  return make("select", { "aria-label": label, title: label, onchange: (e) => act(e.target.value) }, ...options);
+  const look = { "aria-label": label, title: label, onchange: (e) => act(e.target.value) };
+  return make("select", look, ...rows.map(([value, text]) => new Option(text, value)));
 }
 
-function render({ model, el }) {
+function render({ model, el, signal }) {
   const shown = () => model.get("shown");
-  let stage = null, refusal = "", hovered = "", span = 1, drag = null, gone = false, layers = null;
-  const link = new Link(model, el, ({ refusal: text }) => {
-    refusal = text || "";
-    tell();
-  });
+  let stage = null, hovered = "", span = 1, drag = null, layers = null;
+  const root = make("div", { className: "glid-skin glid-timeline", role: "group", "aria-label": "Timeline" });
+  const link = new Link(model, root, signal, () => tell());
   const act = (type, content = {}) => link.put({ type, ...content });
   const player = new Player((floats, time) => {
     const shows = time === undefined ? null : floats ?? true;
@@ -48,7 +46,7 @@ function render({ model, el }) {
   const clock = make("span", { className: "glid-time", role: "timer" });
   const record = iconButton("record", "Record: keep the next drag as keyframes", () => act("record", { on: !shown().recording }));
   const onion = iconButton("onion", "Onion skin of the pose that is edited: outlines of those before (blue) and after (orange)", () => act("onion", { on: !shown().onion }));
-  const keep = make("button", { type: "button", className: "glid-keep", title: "Keep this pose and go on with a copy; between poses, keep what is seen", onclick: () => act("keep", { time: player.seen ? player.place : active().time }) });
+  const keep = make("button", { className: "glid-keep", title: "Keep this pose and go on with a copy; between poses, keep what is seen", onclick: () => act("keep", { time: player.seen ? player.place : active().time }) });
   const copy = iconButton("copy", "Duplicate this pose", () => edit("duplicate_pose"));
   const remove = iconButton("trash", "Delete this pose (Delete)", () => edit("delete_pose"));
   const name = make("input", { type: "text", "aria-label": "Name of the pose", title: "Name of the pose", maxLength: 200, onchange: () => edit("rename_pose", { name: name.value }) });
@@ -63,7 +61,7 @@ function render({ model, el }) {
   const head = make("div", { className: "glid-playhead" });
   const track = make("div", { className: "glid-track" }, ruler, keys, strip, head);
   const note = make("div", { className: "glid-timeline-note", role: "status", "aria-live": "polite" });
-  const root = make("div", { className: "glid-skin glid-timeline", role: "group", "aria-label": "Timeline" }, bar, track, note);
+  root.append(bar, track, note);
   root.dataset.lmSuppressShortcuts = "true"; // JupyterLab must not take the keys first
   el.classList.add("glid-host");
   el.append(root);
@@ -85,8 +83,8 @@ function render({ model, el }) {
     else if (bad) text = bad.reason;
     else if (spans.some(({ status }) => status === "computing")) text = "Proving what lies between…";
     else if (spans.length) text = `Proved at every instant of ${seconds(spans.at(-1).end - spans[0].start)}: σ₂ ≥ ${least.toFixed(3)}.`;
-    note.title = note.textContent = refusal || hovered || (kernel && spans.length && !bad ? KERNEL : "") + text;
-    note.dataset.tone = refusal || (bad && !hovered) ? "bad" : "";
+    note.title = note.textContent = link.refusal || hovered || (kernel && spans.length && !bad ? KERNEL : "") + text;
+    note.dataset.tone = link.refusal || (bad && !hovered) ? "bad" : "";
   }
 
   function hover(text) {
@@ -100,8 +98,9 @@ function render({ model, el }) {
     const end = model.get("motion").spans.at(-1)?.end ?? keyframes.at(-1).time;
     head.style.left = at(place);
     head.classList.toggle("glid-seen", seen);
-    if (play.dataset.shows !== String(playing)) play.replaceChildren(icon(playing ? "pause" : "play"));
-    play.dataset.shows = playing;
+    const does = playing ? "pause" : "play";
+    if (play.dataset.does !== does) play.innerHTML = icon(does);
+    play.dataset.does = does;
     clock.textContent = `${place.toFixed(2)} / ${seconds(end)}`;
     Object.assign(track.dataset, { time: place, span });
     ruler.setAttribute("aria-valuenow", place.toFixed(2));
@@ -119,9 +118,9 @@ function render({ model, el }) {
     const focused = [...keys.children].indexOf(keys.getRootNode().activeElement);
     keys.replaceChildren(...all.map((key, i) => {
       const picture = thumbnails[key.thumbnail];
-      const title = `${key.name} at ${seconds(key.time)}`, own = i === keyframes.length ? "glid-return" : i === index ? "glid-on" : "";
+      const title = `${key.name} at ${seconds(key.time)}`;
       return make("button", {
-        type: "button", className: `glid-key ${own}`, title: `${title}; drag it to another time`, "aria-label": title, "aria-pressed": i === index,
+        className: i < keyframes.length ? "glid-key" : "glid-key glid-return", title: `${title}; drag it to another time`, "aria-label": title, "aria-pressed": i === index,
         style: `left: ${at(key.time)}; width: clamp(${SLIM}px, ${wide(room(i))} - 2px, 60px)`, onpointerdown: (e) => grab(e, i), onclick: (e) => e.detail || select(i % keyframes.length),
       }, ...(picture ? [make("img", { src: picture, alt: "", draggable: false })] : []));
     }));
@@ -157,10 +156,8 @@ function render({ model, el }) {
     remove.disabled = keyframes.length === 1;
     play.disabled = save.disabled = repeat.disabled = easing.disabled = keyframes.length < 2;
     save.hidden = !exported;
-    for (const [button, pressed] of [[record, recording], [onion, on]]) {
-      button.classList.toggle("glid-on", pressed);
-      button.setAttribute("aria-pressed", pressed);
-    }
+    record.ariaPressed = recording;
+    onion.ariaPressed = on;
     showKeys();
     showMotion();
     if (moved || !player.seen) release();
@@ -255,7 +252,7 @@ function render({ model, el }) {
   };
   root.addEventListener("keydown", (e) => {
     const typing = bar.contains(e.target);
-    if (isUndo(e) && e.target !== name) act(undoOrRedo(e));
+    if (undoOrRedo(e) && e.target !== name) act(undoOrRedo(e));
     else if (e.ctrlKey || e.metaKey) return;
     else if (!typing && KEYS[e.key]) e.repeat && e.key === " " || KEYS[e.key](e);
     else return e.stopPropagation();
@@ -269,23 +266,19 @@ function render({ model, el }) {
   const tapped = (e) => {
     if (e.target.closest(".glid-editor") === el.closest(".glid-editor")) player.play();
   };
-  window.addEventListener("glid:play", tapped);
+  window.addEventListener("glid:play", tapped, { signal });
 
   const edited = () => player.seen && release();
-  const unfollow = follow(model, { "change:shown": showState, "change:motion": showMotion, "change:heights": showHeights, "change:thumbnails": showKeys });
+  follow(model, { "change:shown": showState, "change:motion": showMotion, "change:heights": showHeights, "change:thumbnails": showKeys });
   model.widget_manager.get_model(model.get("stage")).then((found) => {
-    if (gone) return;
+    if (signal.aborted) return;
     stage = found;
     stage.on("change:coefficients", edited);
   });
 
   return () => {
-    gone = true;
     player.pause();
-    window.removeEventListener("glid:play", tapped);
-    unfollow();
     stage?.off("change:coefficients", edited);
-    link.close();
   };
 }
 

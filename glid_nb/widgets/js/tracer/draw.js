@@ -1,51 +1,47 @@
 // Draws the stage: picture, cage, vertices, holes, strokes and the places of problems.
 
 import { make } from "../pad/dom.js";
-import { circle, disk, fillPath, strokePath, tracePath } from "../pad/pen.js";
+import { circle, disk, fillPath, rectangle, strokePath, tracePath } from "../pad/pen.js";
 
 const HALO = "rgba(255, 255, 255, 0.9)";
 const SPECK = 12; // CSS pixels; dropped holes smaller than this show under the pointer only
 const CHECK = 8; // CSS pixels per square of the checkerboard under transparent pictures
 
-export function drawStage(ctx, scene) {
-  const { view, colors } = scene;
-  if (!scene.size) return;
-  const corner = view.toScreen([0, 0]);
-  const extent = scene.size.map((n) => n / view.unit);
+export function drawStage(ctx, stage, hover) {
+  const { view, colors, shown, bitmap, painting } = stage;
+  const corner = view.toScreen([0, 0]), extent = shown.size.map((n) => n / view.unit);
   ctx.fillStyle = checks(ctx, colors);
   ctx.fillRect(...corner, ...extent);
-  if (scene.bitmap) {
+  if (bitmap) {
     ctx.imageSmoothingEnabled = 6 * view.unit > 1;
     ctx.imageSmoothingQuality = "high";
-    ctx.drawImage(scene.bitmap, ...corner, ...extent);
+    ctx.drawImage(bitmap, ...corner, ...extent);
   }
-  const loops = scene.loops.map((loop) => view.line(loop));
-  if (loops.length && scene.showVertices) {
-    const [[left, top], [w, h]] = [corner, extent];
-    const frame = [[left, top], [left + w, top], [left + w, top + h], [left, top + h]];
-    fillPath(ctx, [...loops, frame], colors.veil); // what lies outside the cage fades
+  const loops = stage.loops.map((loop) => view.line(loop));
+  if (loops.length && !painting) { // what lies outside the cage fades
+    fillPath(ctx, [...loops, rectangle(corner, view.toScreen(shown.size))], colors.veil);
   }
-  scene.holes.forEach((hole, i) => {
+  shown.holes.forEach((hole, i) => {
     const loop = view.line(hole.loop);
-    const hovered = scene.hover?.hole === i;
-    if (hovered) fillPath(ctx, [loop], hole.kept ? colors.warnSoft : colors.accentSoft);
+    const hovered = hover?.hole === i;
+    if (hovered) fillPath(ctx, [loop], colors[hole.kept ? "warn-soft" : "accent-soft"]);
     const visible = Math.sqrt(hole.area) > SPECK * view.unit;
     if (hovered || (!hole.kept && visible)) strokeLoops(ctx, [loop], colors.faint, 1.25, [4, 3]);
   });
-  drawStrokes(ctx, scene);
-  if (loops.length && !(scene.drawing && scene.doubt)) drawCage(ctx, scene, loops);
-  drawOutline(ctx, scene);
-  for (const problem of scene.problems) {
+  if (stage.brushing || shown.options.method === "scribbles") drawStrokes(ctx, stage);
+  if (loops.length && !(stage.drawing && shown.doubt)) drawCage(ctx, stage, loops, hover);
+  if (stage.drawing) drawOutline(ctx, stage);
+  for (const problem of shown.problems) {
     if (problem.point) circle(ctx, view.toScreen(problem.point), 13, [[5, HALO], [2.25, colors.warn]]);
   }
 }
 
-function checks(ctx, { checkLight, checkDark }) {
+function checks(ctx, colors) {
   const tile = make("canvas", { width: 2 * CHECK, height: 2 * CHECK });
   const pen = tile.getContext("2d");
-  pen.fillStyle = checkLight;
+  pen.fillStyle = colors["check-light"];
   pen.fillRect(0, 0, tile.width, tile.height);
-  pen.fillStyle = checkDark;
+  pen.fillStyle = colors["check-dark"];
   for (const at of [0, CHECK]) pen.fillRect(at, at, CHECK, CHECK);
   return ctx.createPattern(tile, "repeat");
 }
@@ -58,11 +54,9 @@ function strokeLoops(ctx, loops, style, width, dash = []) {
   strokePath(ctx, [[width, style]], dash);
 }
 
-function drawStrokes(ctx, scene) {
-  if (!scene.showStrokes) return;
-  const { view, strokes } = scene;
-  const pairs = ["background", "foreground"].map((brush) => [strokes[brush], scene.colors[brush]]);
-  if (scene.stroke) pairs.push([[scene.stroke.points], scene.colors[scene.stroke.brush]]);
+function drawStrokes(ctx, { view, colors, shown, brushing, tool, pad: { path } }) {
+  const pairs = ["background", "foreground"].map((brush) => [shown.strokes[brush], colors[brush]]);
+  if (brushing && path.length) pairs.push([[path], colors[tool]]);
   ctx.lineCap = ctx.lineJoin = "round";
   for (const [lines, color] of pairs) {
     for (const line of lines) {
@@ -72,28 +66,27 @@ function drawStrokes(ctx, scene) {
   }
 }
 
-function drawOutline(ctx, { outline, corners, colors, view }) {
-  tracePath(ctx, [view.line(outline)], false);
+function drawOutline(ctx, stage) {
+  const { colors, view } = stage;
+  tracePath(ctx, [view.line(stage.drawn())], false);
   strokePath(ctx, [[4.5, HALO], [2, colors.foreground]]);
-  for (const corner of corners) disk(ctx, view.toScreen(corner), 4, "white", colors.foreground, 2);
+  for (const corner of stage.shown.corners) disk(ctx, view.toScreen(corner), 4, "white", colors.foreground, 2);
 }
 
-function drawCage(ctx, scene, loops) {
-  const { colors, hover, selected } = scene;
-  const color = scene.problems.length ? colors.warn : colors.accent;
+function drawCage(ctx, { view, colors, shown, painting }, loops, hover) {
+  const color = shown.problems.length ? colors.warn : colors.accent;
   strokeLoops(ctx, loops, color, 1.75);
-  if (!scene.showVertices) return;
+  if (painting) return;
   const radius = vertexRadius(loops);
+  const strong = new Set([hover?.mark, ...shown.selected.map((vertex) => vertex.join(":"))]);
   loops.forEach((loop, i) =>
     loop.forEach((vertex, j) => {
-      const chosen = selected.has(`${i}:${j}`);
-      const hovered = hover?.vertex?.loop === i && hover.vertex.index === j;
-      const r = hovered || chosen ? radius + 1.75 : radius;
+      const seen = strong.has(`${i}:${j}`), r = seen ? radius + 1.75 : radius;
       disk(ctx, vertex, r + 1, HALO);
-      disk(ctx, vertex, r, chosen || hovered ? color : "white", color, 1.5);
+      disk(ctx, vertex, r, seen ? color : "white", color, 1.5);
     }),
   );
-  if (hover?.edge) drawPlus(ctx, scene.view.toScreen(hover.edge.foot), color);
+  if (hover?.edge) drawPlus(ctx, view.toScreen(hover.edge.foot), color);
 }
 
 // Smaller where vertices are close together.

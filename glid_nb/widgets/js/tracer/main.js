@@ -5,18 +5,9 @@ import { help } from "../pad/help.js";
 import { Link } from "../pad/link.js";
 import { keysAround } from "../pad/pad.js";
 import { iconButton } from "../pad/icons.js";
-import { Panel } from "./panel.js";
-import { Stage } from "./stage.js";
+import { makePanel } from "./panel.js";
+import { Stage, TOOLS } from "./stage.js";
 
-const TOOLS = [
-  ["edit", "Edit vertices and holes (V)"],
-  ["foreground", "Paint over the shape (B)"],
-  ["background", "Paint over the background (N)"],
-  ["color", "Pick the background's colour (I)"],
-  ["component", "Pick the component to trace (C)"],
-  ["polygon", "Draw the outline by hand (P)"],
-  ["rectangle", "Draw a rectangle (R)"],
-];
 const HELP = [
   ["Outline", [
     ["V", "edit: drag a vertex, double-click an edge to add one, click a hole to drop or keep it"],
@@ -37,18 +28,12 @@ const HELP = [
 ];
 const PART = 1 << 20; // bytes of a file per message
 
-function render({ model, el }) {
-  let refusal = null, busy = false;
+function render({ model, el, signal }) {
   const root = make("div", { className: "glid-skin glid-tracer" });
-  const link = new Link(model, el, (report) => {
-    busy = report.busy;
-    if (report.refusal || !busy) refusal = report.refusal;
+  const link = new Link(model, root, signal, () => {
     showStatus();
-  }, (idle) => {
-    root.dataset.idle = idle;
-    if (idle) showTool(model.get("shown").tool);
+    if (link.idle) showTool(model.get("shown").tool);
   });
-  root.dataset.idle = true;
 
   // Asks the kernel for something, in order.
   const act = (type, content = {}, buffers = []) => link.put({ type, ...content }, buffers);
@@ -63,12 +48,14 @@ function render({ model, el }) {
     } while (!refused && start < file.size);
   }
 
-  const stage = new Stage(root, link, upload);
-  const panel = new Panel(act, stage, chooseTool);
-  const tools = TOOLS.map(([name, label]) => iconButton(name, label, () => chooseTool(name)));
+  const stage = new Stage(root, link, upload, signal);
+  const panel = makePanel(act, stage);
+  const tools = Object.entries(TOOLS).map(([name, [label]]) => iconButton(name, label));
+  Object.keys(TOOLS).forEach((name, i) => (tools[i].dataset.tool = name));
   const undo = iconButton("undo", "Undo (Ctrl+Z)", () => act("undo"));
   const redo = iconButton("redo", "Redo (Ctrl+Shift+Z)", () => act("redo"));
-  const discard = make("button", { type: "button", title: "Go back to the outline as traced", onclick: () => act("discard_edits") }, "Discard edits");
+  const back = { title: "Go back to the outline as traced", onclick: () => act("discard_edits") };
+  const discard = make("button", back, "Discard edits");
   const input = make("input", { type: "file", accept: "image/*", hidden: true, onchange: () => input.files[0] && upload(input.files[0]) });
   const open = iconButton("open", "Open a picture", () => {
     input.value = "";
@@ -90,38 +77,41 @@ function render({ model, el }) {
   );
   const status = make("div", { className: "glid-status", role: "status", "aria-live": "polite" });
   root.append(toolbar, make("div", { className: "glid-body" }, stage.element, panel.element), status);
-  const forget = keysAround(stage.element, (e) => stage.pad.keydown(e), root);
+  keysAround(stage.element, (e) => stage.pad.keydown(e), signal, root);
   el.classList.add("glid-host");
   el.append(root);
 
   // Shown at once; the kernel changes the tool after what was done with the last one.
-  function chooseTool(name) {
+  root.addEventListener("click", (e) => {
+    const name = e.target.closest("[data-tool]")?.dataset.tool;
+    if (!name) return;
     showTool(name);
     act("tool", { name });
-  }
+  });
 
   function showTool(name) {
     if (name !== stage.tool) stage.setTool(name);
-    tools.forEach((button, i) => {
-      button.classList.toggle("glid-on", TOOLS[i][0] === name);
-      button.setAttribute("aria-pressed", TOOLS[i][0] === name);
-    });
-    panel.updateTool(name);
+    for (const button of root.querySelectorAll("[data-tool]")) {
+      button.ariaPressed = button.dataset.tool === name;
+    }
   }
 
   function showStatus() {
-    if (!model.get("shown").loops) return;
-    const { size, loops, problems, n_components: count, component, discarded, doubt } = model.get("shown");
-    const n = loops.reduce((sum, loop) => sum + loop.length, 0);
+    const { size, loops, problems, component, discarded, doubt } = model.get("shown");
+    if (!loops) return;
+    const n = loops.flat().length, count = model.get("shown").n_components;
     const holes = Math.max(loops.length - 1, 0);
     let kind = "ok", text = `Cage with ${n} vertices and ${holes || "no"} ${holes === 1 ? "hole" : "holes"}`;
-    if (refusal) [kind, text] = ["bad", refusal];
-    else if (busy) [kind, text] = ["busy", "Working…"];
+    if (link.refusal) [kind, text] = ["bad", link.refusal];
+    else if (link.busy) [kind, text] = ["busy", "Working…"];
     else if (!size) [kind, text] = ["idle", "No picture yet"];
     else if (problems.length) {
       [kind, text] = ["bad", loops.length ? "This is not a valid cage; the last valid cage is kept" : "There is no cage yet"];
-    } else if (discarded) text += " · your edits were lost with the old outline; Undo brings them back";
-    else if (count > 1) text += ` · ${component ? `component ${component + 1}` : "the largest"} of ${count} components`;
+    } else if (discarded) {
+      text += " · your edits were lost with the old outline; Undo brings them back";
+    } else if (count > 1) {
+      text += ` · ${component ? `component ${component + 1}` : "the largest"} of ${count} components`;
+    }
     if (kind === "ok" && doubt) [kind, text] = ["guess", `A guess, as ${doubt} · ${text}`];
     root.dataset.status = kind;
     status.textContent = text;
@@ -142,7 +132,7 @@ function render({ model, el }) {
 
   function showPicture() {
     stage.setPicture(model.get("picture")).catch((error) => {
-      refusal = `The picture cannot be shown: ${error.message}`;
+      link.refusal = `The picture cannot be shown: ${error.message}`;
       showStatus();
     });
   }
@@ -151,16 +141,11 @@ function render({ model, el }) {
     const height = model.get("height"); // without one it is as high as there is room
     root.style.setProperty("--glid-height", height ? `${height}px` : "");
   };
-  const unfollow = follow(model, {
+  follow(model, {
     "change:height": setHeight, "change:shown": showState, "change:picture": showPicture,
   });
 
-  return () => {
-    unfollow();
-    forget();
-    link.close();
-    stage.close();
-  };
+  return () => stage.close();
 }
 
 export default { render };

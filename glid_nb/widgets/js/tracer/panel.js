@@ -22,158 +22,138 @@ const OUTLINES = [
   ["foreground", "Paint over it", "A few strokes over the shape, then over what is around it"],
   ["polygon", "Draw its outline", "Click corner after corner, or draw around the shape"],
   ["rectangle", "Rectangle", "Drag a rectangle"],
-  ["whole", "Whole picture", "Everything, the background too"],
+  [null, "Whole picture", "Everything, the background too"],
 ];
-const STEPS = 1000;
+const STEPS = 1000; // of a slider
+const MOST_LISTED = 50; // components
 
 // A slider with a number beside it; null, shown as "auto", lets the tracer choose.
-class NumberControl {
-  constructor(name, label, unit, title, share, power, digits, choose) {
-    Object.assign(this, { name, unit, share, power, digits, choose, most: 1 });
-    this.slider = make("input", { type: "range", min: 0, max: STEPS, step: 1, "aria-label": label, oninput: () => this.slide(), onchange: () => (this.current = null) });
-    this.number = make("input", { type: "number", className: "glid-number", min: 0, step: "any", placeholder: "auto", "aria-label": `${label} (${unit})`, onchange: () => this.type() });
-    this.auto = make("button", { type: "button", className: "glid-auto", title: "Let the tracer choose", onclick: () => choose({ [name]: null }) }, "auto");
-    this.element = make("div", { className: "glid-control", title, "data-name": name }, make("label", {}, label), this.auto, this.number, make("span", { className: "glid-unit" }, unit), this.slider);
-  }
+function numberControl([name, label, unit, title, share, power, digits], choose) {
+  let most = 1, gesture = null;
+  const slider = make("input", { type: "range", min: 0, max: STEPS, step: 1, "aria-label": label });
+  const number = make("input", {
+    type: "number", className: "glid-number", min: 0, step: "any", placeholder: "auto",
+    "aria-label": `${label} (${unit})`,
+  });
+  const auto = make("button", { className: "glid-auto", title: "Let the tracer choose" }, "auto");
+  const slid = () => Number((most * (slider.value / STEPS) ** power).toFixed(digits));
+  slider.oninput = () => {
+    gesture ??= Math.random().toString(36); // its name, unique among views
+    number.value = slid();
+    auto.ariaPressed = false;
+    choose({ [name]: slid() }, gesture);
+  };
+  slider.onchange = () => (gesture = null);
+  number.onchange = () => choose({ [name]: Number.isNaN(number.valueAsNumber) ? null : number.valueAsNumber });
+  auto.onclick = () => choose({ [name]: null });
 
-  get slid() {
-    return Number((this.most * (this.slider.value / STEPS) ** this.power).toFixed(this.digits));
+  function update({ options, automatic, size, component_area: area }) {
+    const value = options[name], seen = value ?? automatic?.[name] ?? null;
+    most = Math.max(share * { "0–1": 1, px: Math.max(...size), "px²": area }[unit], 1e-9);
+    auto.ariaPressed = value === null;
+    if (gesture) return; // it is being dragged
+    number.value = seen === null ? "" : Number(seen.toFixed(digits));
+    if (seen === slid()) return; // else rounding would move the slider
+    const part = Math.min(Math.max(seen / most, 0), 1);
+    slider.value = Math.round(STEPS * part ** (1 / power));
   }
-
-  slide() {
-    this.current ??= Math.random().toString(36); // the gesture's name, unique among views
-    this.number.value = this.slid;
-    this.auto.classList.remove("glid-on");
-    this.choose({ [this.name]: this.slid }, this.current);
-  }
-
-  type() {
-    const text = this.number.value.trim();
-    const value = text === "" ? null : Number(text);
-    this.choose({ [this.name]: Number.isFinite(value) ? value : null });
-  }
-
-  update(value, automatic, unitSize) {
-    this.most = Math.max(this.share * unitSize, 1e-9);
-    this.auto.classList.toggle("glid-on", value === null);
-    if (this.current) return; // it is being dragged
-    const seen = value ?? automatic;
-    this.number.value = seen === null || seen === undefined ? "" : Number(seen.toFixed(this.digits));
-    if (seen === this.slid) return; // else rounding would move the slider
-    const share = Math.min(Math.max((seen ?? 0) / this.most, 0), 1);
-    this.slider.value = Math.round(STEPS * share ** (1 / this.power));
-  }
+  const parts = [make("label", {}, label), auto, number, make("span", { className: "glid-unit" }, unit), slider];
+  const element = make("div", { className: "glid-control", title, "data-name": name }, ...parts);
+  return { element, update };
 }
 
-export class Panel {
-  constructor(act, stage, chooseTool) {
-    this.act = act;
-    this.stage = stage;
-    const choose = (changes, gesture = null) =>
-      act("set_options", { changes, gesture, ...(gesture && { replaces: gesture }) });
-    this.numbers = NUMBERS.map((row) => new NumberControl(...row, choose));
-    const rows = Object.fromEntries(this.numbers.map(({ name, element }) => [name, element]));
-    this.methods = METHODS.map(([value, label, title]) =>
-      make("button", { type: "button", title, role: "radio", "data-value": value, onclick: () => choose({ method: value }) }, label),
-    );
-    this.invert = make("input", { type: "checkbox", onchange: () => choose({ invert: this.invert.checked }) });
-    this.invertRow = make("label", { className: "glid-row" }, this.invert, "Swap foreground and background");
-    this.pickColor = make("button", { type: "button", onclick: () => chooseTool("color") }, "Pick the background's colour");
-    this.paint = ["foreground", "background"].map((brush) =>
-      make("button", { type: "button", className: `glid-brush glid-${brush}`, onclick: () => chooseTool(brush) }, brush === "foreground" ? "Shape" : "Background"),
-    );
-    this.clear = make("button", { type: "button", onclick: () => act("clear_scribbles") }, "Clear");
-    this.scribbleRow = make("div", { className: "glid-row" }, ...this.paint, this.clear);
-    this.component = make("select", { "aria-label": "Component", onchange: () => choose({ component: Number(this.component.value), component_at: null }) });
-    this.pickComponent = make("button", { type: "button", onclick: () => chooseTool("component") }, "Pick");
-    this.componentRow = make("div", { className: "glid-row" }, make("span", { className: "glid-grow" }, "Component"), this.component, this.pickComponent);
-    this.hand = OUTLINES.map(([tool, label, title]) =>
-      make("button", { type: "button", title, "data-tool": tool, onclick: () => (tool === "whole" ? act("draw") : chooseTool(tool)) }, label),
-    );
-    this.doubt = make("p", { hidden: true });
-    this.byHand = make("div", { className: "glid-by-hand" }, this.doubt, ...this.hand);
-    this.holes = make("div", { className: "glid-holes" });
-    this.holesTitle = make("h4");
-    this.notes = make("ul");
-    this.notesBox = make("details", { className: "glid-notes" }, make("summary", {}, "Notes"), this.notes);
-    this.element = make(
-      "div",
-      { className: "glid-panel" },
-      make("h4", {}, "By hand"),
-      this.byHand,
-      make("h4", {}, "Foreground"),
-      make("div", { className: "glid-methods", role: "radiogroup", "aria-label": "Method" }, ...this.methods),
-      this.scribbleRow, this.pickColor, rows.threshold, this.invertRow, rows.smoothing, this.componentRow,
-      make("h4", {}, "Outline"),
-      rows.offset, rows.simplify, this.holesTitle, rows.min_hole_area, this.holes, this.notesBox,
-    );
-  }
+// Buttons with `data-tool` are the toolbar's too; it hears them and shows which is chosen.
+export function makePanel(act, stage) {
+  const choose = (changes, gesture) => act("set_options", { changes, gesture, replaces: gesture });
+  const row = (...parts) => make("div", { className: "glid-row" }, ...parts);
+  const numbers = NUMBERS.map((one) => numberControl(one, choose));
+  const [threshold, smoothing, offset, simplify, leastHole] = numbers.map(({ element }) => element);
+  const methods = METHODS.map(([value, label, title]) =>
+    make("button", { title, role: "radio", "data-value": value, onclick: () => choose({ method: value }) }, label));
+  const invert = make("input", { type: "checkbox", onchange: () => choose({ invert: invert.checked }) });
+  const invertRow = make("label", { className: "glid-row" }, invert, "Swap foreground and background");
+  const pickColor = make("button", { "data-tool": "color" }, "Pick the background's colour");
+  const brush = (name, label) => make("button", { className: `glid-brush glid-${name}`, "data-tool": name }, label);
+  const scribbles = row(brush("foreground", "Shape"), brush("background", "Background"),
+    make("button", { onclick: () => act("clear_scribbles") }, "Clear"));
+  const component = make("select", {
+    "aria-label": "Component",
+    onchange: () => choose({ component: Number(component.value), component_at: null }),
+  });
+  const components = row(make("span", { className: "glid-grow" }, "Component"), component,
+    make("button", { "data-tool": "component" }, "Pick"));
+  const hand = OUTLINES.map(([tool, label, title]) =>
+    make("button", { title, ...(tool ? { "data-tool": tool } : { onclick: () => act("draw") }) }, label));
+  const doubt = make("p");
+  const byHand = make("div", { className: "glid-by-hand" }, doubt, ...hand);
+  const holes = make("div", { className: "glid-holes" }), holesTitle = make("h4");
+  const notes = make("ul");
+  const notesBox = make("details", { className: "glid-notes" }, make("summary", {}, "Notes"), notes);
+  const element = make(
+    "div",
+    { className: "glid-panel" },
+    make("h4", {}, "By hand"),
+    byHand,
+    make("h4", {}, "Foreground"),
+    make("div", { className: "glid-methods", role: "radiogroup", "aria-label": "Method" }, ...methods),
+    scribbles, pickColor, threshold, invertRow, smoothing, components,
+    make("h4", {}, "Outline"),
+    offset, simplify, holesTitle, leastHole, holes, notesBox,
+  );
 
-  update(shown) {
-    const { options, automatic } = shown;
-    this.element.hidden = !shown.size;
+  function update(shown) {
+    const { options, automatic, loops, n_components: count } = shown;
+    element.hidden = !shown.size;
     if (!shown.size) return;
-    const units = { "0–1": 1, px: Math.max(...shown.size), "px²": shown.component_area };
-    for (const control of this.numbers) {
-      control.update(options[control.name], automatic?.[control.name], units[control.unit]);
+    for (const control of numbers) control.update(shown);
+    const { method } = options, used = method === "auto" ? automatic?.method : method;
+    for (const button of methods) {
+      button.ariaChecked = button.dataset.value === method;
+      button.classList.toggle("glid-used", button.dataset.value === used);
     }
-    const method = options.method;
-    const used = method === "auto" ? automatic?.method : method;
-    for (const button of this.methods) {
-      const on = button.dataset.value === method;
-      button.classList.toggle("glid-on", on);
-      button.setAttribute("aria-checked", on);
-      button.classList.toggle("glid-used", method === "auto" && button.dataset.value === used);
+    scribbles.hidden = used !== "scribbles";
+    pickColor.hidden = used !== "color";
+    invertRow.hidden = used !== "color" && used !== "threshold";
+    invert.checked = options.invert === true;
+    invert.indeterminate = options.invert === null && used === "threshold";
+    const guess = Boolean(shown.doubt) || !loops.length;
+    byHand.classList.toggle("glid-guess", guess);
+    doubt.hidden = !guess;
+    doubt.textContent = `${shown.doubt ? `This outline is a guess: ${shown.doubt}. ` : ""}Show it the shape:`;
+    components.hidden = count < 2;
+    const listed = Math.min(count, MOST_LISTED);
+    if (component.length !== listed) {
+      component.replaceChildren(...Array.from({ length: listed }, (_, i) => new Option(i ? `${i + 1}.` : "Largest", i)));
     }
-    this.scribbleRow.hidden = used !== "scribbles";
-    this.pickColor.hidden = used !== "color";
-    this.invertRow.hidden = used !== "color" && used !== "threshold";
-    this.invert.checked = options.invert === true;
-    this.invert.indeterminate = options.invert === null && used === "threshold";
-    const guess = Boolean(shown.doubt) || !shown.loops.length;
-    this.byHand.classList.toggle("glid-guess", guess);
-    this.doubt.hidden = !guess;
-    this.doubt.textContent = shown.doubt ? `This outline is a guess: ${shown.doubt}. Show it the shape:` : "Show it the shape:";
-    this.updateComponents(shown);
-    this.updateHoles(shown);
-    this.notesBox.hidden = !shown.notes.length;
-    this.notes.replaceChildren(...shown.notes.map((note) => make("li", {}, note)));
+    component.value = shown.component;
+    showHoles(shown);
+    notesBox.hidden = !shown.notes.length;
+    notes.replaceChildren(...shown.notes.map((note) => make("li", {}, note)));
   }
 
-  updateComponents({ component, n_components: count }) {
-    this.componentRow.hidden = count < 2;
-    const listed = Math.min(count, 50);
-    if (this.component.length !== listed) {
-      this.component.replaceChildren(...Array.from({ length: listed }, (_, i) => make("option", { value: i }, i ? `${i + 1}.` : "Largest")));
-    }
-    this.component.value = component;
+  function holeRow(hole, i) {
+    const onchange = () => act("toggle_hole", { number: i });
+    const area = hole.area >= 1e4 ? `${(hole.area / 1e3).toFixed(0)}k px²` : `${hole.area.toFixed(0)} px²`;
+    const point = (index) => () => stage.highlightHole(index);
+    return make(
+      "label",
+      { className: "glid-hole", onpointerenter: point(i), onpointerleave: point(null) },
+      make("input", { type: "checkbox", checked: hole.kept, onchange }),
+      make("span", { className: "glid-grow" }, `Hole ${i + 1}${hole.by_offset ? " (made by the offset)" : ""}`),
+      make("span", { className: "glid-unit" }, area),
+    );
   }
 
-  updateHoles({ holes, n_holes: count, n_filled: filled, loops }) {
-    const kept = Math.max(loops.length - 1, 0) || "no";
-    this.holesTitle.textContent = `${kept} ${kept === 1 ? "hole" : "holes"} in the cage${filled ? `, ${filled} small filled` : ""}`;
-    const rows = holes.map((hole, i) => {
-      const box = make("input", { type: "checkbox", checked: hole.kept, onchange: () => this.act("toggle_hole", { number: i }) });
-      const area = hole.area >= 1e4 ? `${(hole.area / 1e3).toFixed(0)}k px²` : `${hole.area.toFixed(0)} px²`;
-      return make(
-        "label",
-        { className: "glid-hole", onpointerenter: () => this.stage.highlightHole(i), onpointerleave: () => this.stage.highlightHole(null) },
-        box,
-        make("span", { className: "glid-grow" }, `Hole ${i + 1}${hole.by_offset ? " (made by the offset)" : ""}`),
-        make("span", { className: "glid-unit" }, area),
-      );
-    });
+  function showHoles({ holes: listed, n_holes: count, n_filled: filled, loops }) {
+    const kept = Math.max(loops.length - 1, 0) || "no", small = filled ? `, ${filled} small filled` : "";
+    holesTitle.textContent = `${kept} ${kept === 1 ? "hole" : "holes"} in the cage${small}`;
+    const rows = listed.map(holeRow), left = count - listed.length;
+    if (left) rows.push(make("div", { className: "glid-unit" }, `and ${left} smaller ones`));
     // Rebuilding takes the focus; the row that had it gets it back.
-    const at = [...this.holes.children].findIndex((row) => row.contains(this.holes.getRootNode().activeElement));
-    if (count > holes.length) rows.push(make("div", { className: "glid-unit" }, `and ${count - holes.length} smaller ones`));
-    this.holes.replaceChildren(...rows);
+    const at = [...holes.children].findIndex((one) => one.contains(holes.getRootNode().activeElement));
+    holes.replaceChildren(...rows);
     rows[at]?.querySelector("input")?.focus();
   }
 
-  updateTool(tool) {
-    const [foreground, background] = this.paint;
-    const buttons = { foreground, background, color: this.pickColor, component: this.pickComponent };
-    for (const [name, button] of Object.entries(buttons)) button.classList.toggle("glid-on", name === tool);
-    for (const button of this.hand) button.classList.toggle("glid-on", button.dataset.tool === tool);
-  }
+  return { element, update };
 }

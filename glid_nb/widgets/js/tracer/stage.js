@@ -3,7 +3,7 @@
 import { make } from "../pad/dom.js";
 import { holeAt, nearestEdge, nearestVertex } from "../pad/hit.js";
 import { Pad } from "../pad/pad.js";
-import { clearedContext } from "../pad/pen.js";
+import { painter, rectangle } from "../pad/pen.js";
 import { View } from "../pad/view.js";
 import { drawStage } from "./draw.js";
 
@@ -11,26 +11,26 @@ const REACH = { mouse: 9, pen: 12, touch: 18 }; // CSS pixels around the pointer
 const ZOOM = 1.25; // by a button or a key
 const MARGIN = 24; // CSS pixels around a picture that fits
 const MOST_ZOOM = 40; // CSS pixels per pixel of the picture
-const COLORS = ["accent", "accentSoft", "warn", "warnSoft", "faint", "veil", "foreground", "background", "checkLight", "checkDark"];
-const HINTS = {
-  edit: "Drag a vertex · double-click an edge to add one · right-click a vertex to delete it · click a hole to drop it",
-  foreground: "Paint over the shape",
-  background: "Paint over what is around the shape",
-  color: "Click a pixel that shows the background's colour",
-  component: "Click the part of the picture to trace",
-  polygon: "Click corner after corner, or draw around the shape · double-click or Enter closes it · Esc starts anew",
-  rectangle: "Drag a rectangle over the shape",
+const COLORS = [
+  "accent", "accent-soft", "warn", "warn-soft", "faint", "veil", "foreground", "background", "check-light", "check-dark",
+];
+export const TOOLS = { // what their buttons say, and a hint over the picture
+  edit: ["Edit vertices and holes (V)",
+    "Drag a vertex · double-click an edge to add one · right-click a vertex to delete it · click a hole to drop it"],
+  foreground: ["Paint over the shape (B)", "Paint over the shape"],
+  background: ["Paint over the background (N)", "Paint over what is around the shape"],
+  color: ["Pick the background's colour (I)", "Click a pixel that shows the background's colour"],
+  component: ["Pick the component to trace (C)", "Click the part of the picture to trace"],
+  polygon: ["Draw the outline by hand (P)",
+    "Click corner after corner, or draw around the shape · double-click or Enter closes it · Esc starts anew"],
+  rectangle: ["Draw a rectangle (R)", "Drag a rectangle over the shape"],
 };
-const KEYS = new Set([
-  "ArrowLeft", "ArrowRight", "ArrowUp", "ArrowDown", "Delete", "Backspace", "Escape", "Enter", "[", "]",
-  ..."vbnicprVBNICPR",
-]);
+const KEYS = /^(Arrow\w+|Delete|Backspace|Escape|Enter|[[\]vbnicpr])$/i;
 
 export class Stage {
   // root defines the colours as CSS variables; upload(file) takes a dropped picture.
-  constructor(root, link, upload) {
+  constructor(root, link, upload, signal) {
     this.root = root;
-    this.link = link;
     this.canvas = make("canvas", { className: "glid-canvas", role: "application", "aria-label": "Picture and cage" });
     this.callout = make("div", { className: "glid-callout", role: "alert", hidden: true });
     this.hintText = make("div", { className: "glid-hint" });
@@ -39,31 +39,30 @@ export class Stage {
     this.element = make("div", { className: "glid-stage" }, this.canvas, this.empty, this.callout, this.hintText, this.drop);
     this.shown = this.bitmap = null;
     this.tool = "edit";
-    this.changed = () => this.redraw();
     this.listed = null; // the hole below the pointer in the list
     this.fitted = true; // until a hand moves the view
     this.view = new View(() => {
       this.fitted = false;
-      this.redraw();
+      this.changed();
     }, { up: -1, nearest: 1 / MOST_ZOOM, farthest: 1e3 });
+    this.changed = painter(this.canvas, this.view, signal, (ctx) => this.draw(ctx));
     this.pad = new Pad(this.canvas, this.view, link, this);
     this.takeFiles(upload);
     this.resizer = new ResizeObserver(() => this.resize());
     this.resizer.observe(this.element);
     // JupyterLab changes its theme by attributes of the body.
-    this.themeChanged = () => this.redraw(true);
-    this.themes = new MutationObserver(this.themeChanged);
+    const themeChanged = () => {
+      this.colors = null;
+      this.changed();
+    };
+    this.themes = new MutationObserver(themeChanged);
     this.themes.observe(document.body, { attributes: true });
-    this.dark = matchMedia("(prefers-color-scheme: dark)");
-    this.dark.addEventListener("change", this.themeChanged);
+    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", themeChanged, { signal });
   }
 
   close() {
-    this.pad.close();
     this.resizer.disconnect();
     this.themes.disconnect();
-    this.dark.removeEventListener("change", this.themeChanged);
-    cancelAnimationFrame(this.frame);
     this.turn = null; // a picture that is still decoded comes too late
     this.bitmap = this.bitmap?.close(); // none: a redraw may still come
   }
@@ -97,7 +96,7 @@ export class Stage {
     if (turn !== this.turn) return bitmap?.close(); // a newer one has come
     this.bitmap?.close();
     this.bitmap = bitmap;
-    this.redraw();
+    this.changed();
   }
 
   setTool(tool) {
@@ -107,7 +106,7 @@ export class Stage {
 
   highlightHole(index) {
     this.listed = index === null ? null : { hole: index };
-    this.redraw();
+    this.changed();
   }
 
   fit() {
@@ -118,7 +117,7 @@ export class Stage {
     const unit = Math.min(Math.max(w / room[0], h / room[1]), 1e3);
     Object.assign(view, { x: w / 2, y: h / 2, unit, farthest: 4 * unit });
     this.fitted = true;
-    this.redraw();
+    this.changed();
   }
 
   zoom(closer) {
@@ -129,9 +128,8 @@ export class Stage {
     const { clientWidth: width, clientHeight: height } = this.element;
     if (!width || !height) return;
     if (this.fitted) this.fit();
-    Object.assign(this, { width, height });
     Object.assign(this.view, { width, height });
-    this.redraw();
+    this.changed();
   }
 
   // The loops, with vertices that are dragged where the pointer is.
@@ -141,12 +139,16 @@ export class Stage {
     return loops.map((loop, i) => loop.map((point, j) => this.pad.held.get(`${i}:${j}`) ?? point));
   }
 
-  get painting() {
-    return this.tool === "foreground" || this.tool === "background" || this.drawing;
+  get brushing() {
+    return this.tool === "foreground" || this.tool === "background";
   }
 
   get drawing() {
     return this.tool === "polygon" || this.tool === "rectangle";
+  }
+
+  get painting() {
+    return this.brushing || this.drawing;
   }
 
   // The pad's options
@@ -156,7 +158,7 @@ export class Stage {
   wheelNeedsFocus = true;
   actions = {
     "+": () => this.zoom(true), "=": () => this.zoom(true), "-": () => this.zoom(false),
-    f: () => this.fit(), F: () => this.fit(),
+    f: () => this.fit(),
   };
 
   find(point, reach) {
@@ -183,34 +185,14 @@ export class Stage {
     return found?.vertex ? "grab" : found?.edge ? "copy" : found?.hole !== undefined ? "pointer" : "default";
   }
 
-  // Drawing, at most once per frame.
+  // Drawing
 
-  redraw(colors = false) {
-    if (colors) this.colors = null;
-    this.frame ??= requestAnimationFrame(() => {
-      this.frame = null;
-      if (this.shown && this.width) this.draw();
-    });
-  }
-
-  draw() {
+  draw(ctx) {
+    const { shown, pad, view } = this;
+    if (!shown || !view.width) return;
     this.colors ??= this.readColors();
-    const { shown, painting, pad, view } = this;
     const hover = this.listed ?? (pad.mode === "pan" ? null : pad.found);
-    drawStage(clearedContext(this.canvas, this), {
-      view,
-      colors: this.colors,
-      ...shown,
-      bitmap: this.bitmap,
-      loops: this.loops,
-      stroke: painting && !this.drawing && pad.path.length ? { brush: this.tool, points: pad.path } : null,
-      drawing: this.drawing,
-      outline: this.drawing ? this.drawn() : [],
-      showStrokes: (painting && !this.drawing) || shown.options.method === "scribbles",
-      showVertices: !painting,
-      hover,
-      selected: new Set(shown.selected.map(([loop, index]) => `${loop}:${index}`)),
-    });
+    if (shown.size) drawStage(ctx, this, hover);
     const [left, top] = view.toScreen([0, 0]);
     this.element.dataset.viewport = `${1 / view.unit} ${left} ${top}`; // for tests and assistive tools
     this.placeCallout();
@@ -223,8 +205,7 @@ export class Stage {
     const now = rests ? [this.view.toWorld(rests)] : [];
     if (this.tool === "polygon") return this.shown.corners.concat(path.length ? path : now);
     if (!path.length || !now.length) return [];
-    const [[[left, top]], [[right, bottom]]] = [path, now];
-    return [[left, top], [right, top], [right, bottom], [left, bottom], [left, top]];
+    return [...rectangle(path[0], now[0]), path[0]];
   }
 
   hint(hover) {
@@ -232,15 +213,14 @@ export class Stage {
     if (hole) return hole.kept ? "Click to drop this hole" : "Click to keep this hole";
     if (hover?.edge) return "Double-click to add a vertex here";
     if (hover?.vertex) return "Drag to move · right-click or Delete to delete";
-    return HINTS[this.tool];
+    return TOOLS[this.tool][1];
   }
 
   // The theme's colours, as a canvas takes them.
   readColors() {
     const probe = this.root.appendChild(make("span"));
-    const dashed = (name) => name.replace(/[A-Z]/g, (c) => `-${c.toLowerCase()}`);
     const color = (name) => {
-      probe.style.color = `var(--glid-${dashed(name)})`;
+      probe.style.color = `var(--glid-${name})`;
       return getComputedStyle(probe).color;
     };
     const colors = Object.fromEntries(COLORS.map((name) => [name, color(name)]));
@@ -254,11 +234,11 @@ export class Stage {
     this.callout.hidden = !problem || this.pad.mode === "pan";
     if (!problem) return;
     this.callout.textContent = problem.message;
-    const at = problem.point ? this.view.toScreen(problem.point) : [this.width / 2, -16];
-    const { offsetWidth: w, offsetHeight: h } = this.callout;
-    const below = problem.point && at[1] + 24 + h > this.height ? at[1] - 24 - h : at[1] + 24;
-    const left = Math.min(Math.max(at[0] - w / 2, 8), this.width - w - 8);
-    const top = Math.min(Math.max(below, 8), this.height - h - 8);
+    const { width, height } = this.view, { offsetWidth: w, offsetHeight: h } = this.callout;
+    const [x, y] = problem.point ? this.view.toScreen(problem.point) : [width / 2, -16];
+    const below = problem.point && y + 24 + h > height ? y - 24 - h : y + 24;
+    const left = Math.min(Math.max(x - w / 2, 8), width - w - 8);
+    const top = Math.min(Math.max(below, 8), height - h - 8);
     this.callout.style.transform = `translate(${left}px, ${top}px)`;
   }
 }
