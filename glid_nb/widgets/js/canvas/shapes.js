@@ -72,7 +72,8 @@ export class Shapes {
 
   // Shows what the view shows; the camera's renderer draws anew by itself.
   see() {
-    const { x, y, unit, width, height } = this.view, w = (width / 2) * unit, h = (height / 2) * unit;
+    const { x, y, unit, width, height } = this.view;
+    const w = (width / 2) * unit, h = (height / 2) * unit;
     for (const { obj } of this.materials) {
       if (obj?.uniforms?.pixel) obj.uniforms.pixel.value = unit;
     }

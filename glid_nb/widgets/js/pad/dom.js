@@ -23,8 +23,8 @@ export function toFloats(view) {
   return new Float32Array(view.buffer.slice(view.byteOffset, view.byteOffset + view.byteLength));
 }
 
-// Calls listeners now, and whenever the model tells one of their events ("change:a change:b"), until
-// the view of the model is removed: anywidget then takes them off.
+// Calls listeners now, and whenever the model tells one of their events ("change:a change:b");
+// anywidget takes them off when the view is removed.
 export function follow(model, listeners) {
   for (const [names, listener] of Object.entries(listeners)) {
     model.on(names, listener);

@@ -33,7 +33,8 @@ export function keysAround(element, act, signal, whole = element) {
     editor.onkeydown = ours && ((bubbled) => bubbled.stopPropagation());
     if (!outside || target.matches(TEXT)) return;
     const free = target.closest(".glid-timeline") ? /^[^ ]$/ : /^([^ ]|Escape|Delete)$/;
-    if (undoOrRedo(e) ? !e.altKey : !command && free.test(e.key) && !target.matches("select")) act(e);
+    const chosen = !command && free.test(e.key) && !target.matches("select");
+    if (undoOrRedo(e) ? !e.altKey : chosen) act(e);
   };
   for (const name of ["pointerdown", "keydown"]) {
     window.addEventListener(name, on, { capture: true, signal });

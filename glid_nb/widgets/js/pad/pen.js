@@ -1,5 +1,5 @@
-// Has draw(context) fill a canvas with the next frame, in the CSS pixels of a view, once the function
-// that it returns was called, however often.
+// A function that has draw(context) fill a canvas in the next frame, in the CSS pixels of a view,
+// however often it is called until then.
 export function painter(canvas, view, signal, draw) {
   let due = 0;
   signal.addEventListener("abort", () => cancelAnimationFrame(due));

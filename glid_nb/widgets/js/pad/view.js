@@ -7,7 +7,8 @@ export const distance = ([x, y], [u, v]) => Math.hypot(x - u, y - v);
 export class View {
   // up: 1 if the world's y points up, -1 if down. changed(): called after every change.
   constructor(changed, { up = 1, nearest, farthest }) {
-    Object.assign(this, { changed, up, nearest, farthest, x: 0, y: 0, unit: 1, width: 0, height: 0 });
+    Object.assign(this, { changed, up, nearest, farthest });
+    Object.assign(this, { x: 0, y: 0, unit: 1, width: 0, height: 0 });
   }
 
   toWorld([px, py]) {

@@ -24,7 +24,8 @@ function menu(label, rows, act) {
 function render({ model, el, signal }) {
   const shown = () => model.get("shown");
   let stage = null, hovered = "", span = 1, drag = null, layers = null;
-  const root = make("div", { className: "glid-skin glid-timeline", role: "group", "aria-label": "Timeline" });
+  const whole = { className: "glid-skin glid-timeline", role: "group", "aria-label": "Timeline" };
+  const root = make("div", whole);
   const link = new Link(model, root, signal, () => tell());
   const act = (type, content = {}) => link.put({ type, ...content });
   const player = new Player((floats, time) => {
@@ -46,7 +47,11 @@ function render({ model, el, signal }) {
   const clock = make("span", { className: "glid-time", role: "timer" });
   const record = iconButton("record", "Record: keep the next drag as keyframes", () => act("record", { on: !shown().recording }));
   const onion = iconButton("onion", "Onion skin of the pose that is edited: outlines of those before (blue) and after (orange)", () => act("onion", { on: !shown().onion }));
-  const keep = make("button", { className: "glid-keep", title: "Keep this pose and go on with a copy; between poses, keep what is seen", onclick: () => act("keep", { time: player.seen ? player.place : active().time }) });
+  const keep = make("button", {
+    className: "glid-keep",
+    title: "Keep this pose and go on with a copy; between poses, keep what is seen",
+    onclick: () => act("keep", { time: player.seen ? player.place : active().time }),
+  });
   const copy = iconButton("copy", "Duplicate this pose", () => edit("duplicate_pose"));
   const remove = iconButton("trash", "Delete this pose (Delete)", () => edit("delete_pose"));
   const name = make("input", { type: "text", "aria-label": "Name of the pose", title: "Name of the pose", maxLength: 200, onchange: () => edit("rename_pose", { name: name.value }) });
@@ -83,7 +88,8 @@ function render({ model, el, signal }) {
     else if (bad) text = bad.reason;
     else if (spans.some(({ status }) => status === "computing")) text = "Proving what lies between…";
     else if (spans.length) text = `Proved at every instant of ${seconds(spans.at(-1).end - spans[0].start)}: σ₂ ≥ ${least.toFixed(3)}.`;
-    note.title = note.textContent = link.refusal || hovered || (kernel && spans.length && !bad ? KERNEL : "") + text;
+    if (kernel && spans.length && !bad) text = KERNEL + text;
+    note.title = note.textContent = link.refusal || hovered || text;
     note.dataset.tone = link.refusal || (bad && !hovered) ? "bad" : "";
   }
 
@@ -120,8 +126,13 @@ function render({ model, el, signal }) {
       const picture = thumbnails[key.thumbnail];
       const title = `${key.name} at ${seconds(key.time)}`;
       return make("button", {
-        className: i < keyframes.length ? "glid-key" : "glid-key glid-return", title: `${title}; drag it to another time`, "aria-label": title, "aria-pressed": i === index,
-        style: `left: ${at(key.time)}; width: clamp(${SLIM}px, ${wide(room(i))} - 2px, 60px)`, onpointerdown: (e) => grab(e, i), onclick: (e) => e.detail || select(i % keyframes.length),
+        className: i < keyframes.length ? "glid-key" : "glid-key glid-return",
+        title: `${title}; drag it to another time`,
+        "aria-label": title,
+        "aria-pressed": i === index,
+        style: `left: ${at(key.time)}; width: clamp(${SLIM}px, ${wide(room(i))} - 2px, 60px)`,
+        onpointerdown: (e) => grab(e, i),
+        onclick: (e) => e.detail || select(i % keyframes.length),
       }, ...(picture ? [make("img", { src: picture, alt: "", draggable: false })] : []));
     }));
     keys.children[focused]?.focus();
@@ -269,7 +280,10 @@ function render({ model, el, signal }) {
   window.addEventListener("glid:play", tapped, { signal });
 
   const edited = () => player.seen && release();
-  follow(model, { "change:shown": showState, "change:motion": showMotion, "change:heights": showHeights, "change:thumbnails": showKeys });
+  follow(model, {
+    "change:shown": showState, "change:motion": showMotion, "change:heights": showHeights,
+    "change:thumbnails": showKeys,
+  });
   model.widget_manager.get_model(model.get("stage")).then((found) => {
     if (signal.aborted) return;
     stage = found;

@@ -67,10 +67,10 @@ function drawStrokes(ctx, { view, colors, shown, brushing, tool, pad: { path } }
 }
 
 function drawOutline(ctx, stage) {
-  const { colors, view } = stage;
+  const { view, shown } = stage, color = stage.colors.foreground;
   tracePath(ctx, [view.line(stage.drawn())], false);
-  strokePath(ctx, [[4.5, HALO], [2, colors.foreground]]);
-  for (const corner of stage.shown.corners) disk(ctx, view.toScreen(corner), 4, "white", colors.foreground, 2);
+  strokePath(ctx, [[4.5, HALO], [2, color]]);
+  for (const corner of shown.corners) disk(ctx, view.toScreen(corner), 4, "white", color, 2);
 }
 
 function drawCage(ctx, { view, colors, shown, painting }, loops, hover) {

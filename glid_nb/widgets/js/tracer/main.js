@@ -110,7 +110,8 @@ function render({ model, el, signal }) {
     } else if (discarded) {
       text += " · your edits were lost with the old outline; Undo brings them back";
     } else if (count > 1) {
-      text += ` · ${component ? `component ${component + 1}` : "the largest"} of ${count} components`;
+      const which = component ? `component ${component + 1}` : "the largest";
+      text += ` · ${which} of ${count} components`;
     }
     if (kind === "ok" && doubt) [kind, text] = ["guess", `A guess, as ${doubt} · ${text}`];
     root.dataset.status = kind;

@@ -44,7 +44,7 @@ function numberControl([name, label, unit, title, share, power, digits], choose)
     choose({ [name]: slid() }, gesture);
   };
   slider.onchange = () => (gesture = null);
-  number.onchange = () => choose({ [name]: Number.isNaN(number.valueAsNumber) ? null : number.valueAsNumber });
+  number.onchange = () => choose({ [name]: number.value === "" ? null : Number(number.value) });
   auto.onclick = () => choose({ [name]: null });
 
   function update({ options, automatic, size, component_area: area }) {
@@ -57,8 +57,8 @@ function numberControl([name, label, unit, title, share, power, digits], choose)
     const part = Math.min(Math.max(seen / most, 0), 1);
     slider.value = Math.round(STEPS * part ** (1 / power));
   }
-  const parts = [make("label", {}, label), auto, number, make("span", { className: "glid-unit" }, unit), slider];
-  const element = make("div", { className: "glid-control", title, "data-name": name }, ...parts);
+  const element = make("div", { className: "glid-control", title, "data-name": name },
+    make("label", {}, label), auto, number, make("span", { className: "glid-unit" }, unit), slider);
   return { element, update };
 }
 
@@ -68,12 +68,16 @@ export function makePanel(act, stage) {
   const row = (...parts) => make("div", { className: "glid-row" }, ...parts);
   const numbers = NUMBERS.map((one) => numberControl(one, choose));
   const [threshold, smoothing, offset, simplify, leastHole] = numbers.map(({ element }) => element);
-  const methods = METHODS.map(([value, label, title]) =>
-    make("button", { title, role: "radio", "data-value": value, onclick: () => choose({ method: value }) }, label));
-  const invert = make("input", { type: "checkbox", onchange: () => choose({ invert: invert.checked }) });
-  const invertRow = make("label", { className: "glid-row" }, invert, "Swap foreground and background");
+  const methods = METHODS.map(([method, label, title]) => {
+    const onclick = () => choose({ method });
+    return make("button", { title, role: "radio", "data-value": method, onclick }, label);
+  });
+  const swap = () => choose({ invert: invert.checked });
+  const invert = make("input", { type: "checkbox", onchange: swap });
+  const inverts = make("label", { className: "glid-row" }, invert, "Swap foreground and background");
   const pickColor = make("button", { "data-tool": "color" }, "Pick the background's colour");
-  const brush = (name, label) => make("button", { className: `glid-brush glid-${name}`, "data-tool": name }, label);
+  const brush = (name, label) =>
+    make("button", { className: `glid-brush glid-${name}`, "data-tool": name }, label);
   const scribbles = row(brush("foreground", "Shape"), brush("background", "Background"),
     make("button", { onclick: () => act("clear_scribbles") }, "Clear"));
   const component = make("select", {
@@ -82,21 +86,24 @@ export function makePanel(act, stage) {
   });
   const components = row(make("span", { className: "glid-grow" }, "Component"), component,
     make("button", { "data-tool": "component" }, "Pick"));
-  const hand = OUTLINES.map(([tool, label, title]) =>
-    make("button", { title, ...(tool ? { "data-tool": tool } : { onclick: () => act("draw") }) }, label));
+  const hand = OUTLINES.map(([tool, label, title]) => {
+    const does = tool ? { "data-tool": tool } : { onclick: () => act("draw") };
+    return make("button", { title, ...does }, label);
+  });
   const doubt = make("p");
   const byHand = make("div", { className: "glid-by-hand" }, doubt, ...hand);
   const holes = make("div", { className: "glid-holes" }), holesTitle = make("h4");
-  const notes = make("ul");
-  const notesBox = make("details", { className: "glid-notes" }, make("summary", {}, "Notes"), notes);
+  const notes = make("ul"), summary = make("summary", {}, "Notes");
+  const notesBox = make("details", { className: "glid-notes" }, summary, notes);
+  const group = { className: "glid-methods", role: "radiogroup", "aria-label": "Method" };
   const element = make(
     "div",
     { className: "glid-panel" },
     make("h4", {}, "By hand"),
     byHand,
     make("h4", {}, "Foreground"),
-    make("div", { className: "glid-methods", role: "radiogroup", "aria-label": "Method" }, ...methods),
-    scribbles, pickColor, threshold, invertRow, smoothing, components,
+    make("div", group, ...methods),
+    scribbles, pickColor, threshold, inverts, smoothing, components,
     make("h4", {}, "Outline"),
     offset, simplify, holesTitle, leastHole, holes, notesBox,
   );
@@ -113,17 +120,19 @@ export function makePanel(act, stage) {
     }
     scribbles.hidden = used !== "scribbles";
     pickColor.hidden = used !== "color";
-    invertRow.hidden = used !== "color" && used !== "threshold";
+    inverts.hidden = used !== "color" && used !== "threshold";
     invert.checked = options.invert === true;
     invert.indeterminate = options.invert === null && used === "threshold";
     const guess = Boolean(shown.doubt) || !loops.length;
     byHand.classList.toggle("glid-guess", guess);
     doubt.hidden = !guess;
-    doubt.textContent = `${shown.doubt ? `This outline is a guess: ${shown.doubt}. ` : ""}Show it the shape:`;
+    const why = shown.doubt ? `This outline is a guess: ${shown.doubt}. ` : "";
+    doubt.textContent = `${why}Show it the shape:`;
     components.hidden = count < 2;
     const listed = Math.min(count, MOST_LISTED);
     if (component.length !== listed) {
-      component.replaceChildren(...Array.from({ length: listed }, (_, i) => new Option(i ? `${i + 1}.` : "Largest", i)));
+      const option = (_, i) => new Option(i ? `${i + 1}.` : "Largest", i);
+      component.replaceChildren(...Array.from({ length: listed }, option));
     }
     component.value = shown.component;
     showHoles(shown);
@@ -133,24 +142,27 @@ export function makePanel(act, stage) {
 
   function holeRow(hole, i) {
     const onchange = () => act("toggle_hole", { number: i });
-    const area = hole.area >= 1e4 ? `${(hole.area / 1e3).toFixed(0)}k px²` : `${hole.area.toFixed(0)} px²`;
+    const [size, unit] = hole.area >= 1e4 ? [hole.area / 1e3, "k px²"] : [hole.area, " px²"];
+    const made = hole.by_offset ? " (made by the offset)" : "";
     const point = (index) => () => stage.highlightHole(index);
     return make(
       "label",
       { className: "glid-hole", onpointerenter: point(i), onpointerleave: point(null) },
       make("input", { type: "checkbox", checked: hole.kept, onchange }),
-      make("span", { className: "glid-grow" }, `Hole ${i + 1}${hole.by_offset ? " (made by the offset)" : ""}`),
-      make("span", { className: "glid-unit" }, area),
+      make("span", { className: "glid-grow" }, `Hole ${i + 1}${made}`),
+      make("span", { className: "glid-unit" }, `${size.toFixed(0)}${unit}`),
     );
   }
 
   function showHoles({ holes: listed, n_holes: count, n_filled: filled, loops }) {
-    const kept = Math.max(loops.length - 1, 0) || "no", small = filled ? `, ${filled} small filled` : "";
+    const kept = Math.max(loops.length - 1, 0) || "no";
+    const small = filled ? `, ${filled} small filled` : "";
     holesTitle.textContent = `${kept} ${kept === 1 ? "hole" : "holes"} in the cage${small}`;
     const rows = listed.map(holeRow), left = count - listed.length;
     if (left) rows.push(make("div", { className: "glid-unit" }, `and ${left} smaller ones`));
     // Rebuilding takes the focus; the row that had it gets it back.
-    const at = [...holes.children].findIndex((one) => one.contains(holes.getRootNode().activeElement));
+    const focused = holes.getRootNode().activeElement;
+    const at = [...holes.children].findIndex((one) => one.contains(focused));
     holes.replaceChildren(...rows);
     rows[at]?.querySelector("input")?.focus();
   }

@@ -12,7 +12,8 @@ const ZOOM = 1.25; // by a button or a key
 const MARGIN = 24; // CSS pixels around a picture that fits
 const MOST_ZOOM = 40; // CSS pixels per pixel of the picture
 const COLORS = [
-  "accent", "accent-soft", "warn", "warn-soft", "faint", "veil", "foreground", "background", "check-light", "check-dark",
+  "accent", "accent-soft", "warn", "warn-soft", "faint", "veil", "foreground", "background",
+  "check-light", "check-dark",
 ];
 export const TOOLS = { // what their buttons say, and a hint over the picture
   edit: ["Edit vertices and holes (V)",
