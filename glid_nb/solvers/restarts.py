@@ -2,13 +2,15 @@
 
 The energy has many local minima. Which one a map leads to is mostly decided by how it turns the
 lines between handles (:mod:`glid_nb.solvers.turning`): where other turns may cost less, the targets
-are led along them in stages; where the shape is wound up beside a line, along the same ones. The
-identity as start, instead of the rigidly aligned one, frees a line that is squeezed though it could
-bend. Where the first way does not converge or ends very high, everything is tried: ``lambda``
-raised in stages, too, for with the usual ``1e5`` the first Newton steps rush the handles to their
-targets, whatever that does to the shape. An energy that is no barrier (ARAP), or none against a
-shape that shrinks to nothing (MIPS), can run against the limit of local injectivity far from its
-targets; it then starts at the symmetric Dirichlet minimum.
+are led along them in stages, and where the shape is wound up at the end of a line, along the same
+ones, but that end the other way round. Wanted angles that cost much are left out at first: the best
+map without them may come to them from the other side. The identity as start, instead of the rigidly
+aligned one, frees a line that is squeezed though it could bend. Where the first way does not
+converge or ends very high, everything is tried: ``lambda`` raised in stages, too, for with the
+usual ``1e5`` the first Newton steps rush the handles to their targets, whatever that does to the
+shape. An energy that is no barrier (ARAP), or none against a shape that shrinks to nothing (MIPS),
+can run against the limit of local injectivity far from its targets; it then starts at the symmetric
+Dirichlet minimum.
 """
 
 import functools
@@ -22,7 +24,7 @@ import numpy as np
 from glid_nb._jax import jnp
 from glid_nb._runtime import double_precision
 from glid_nb.energies import MIPS, Energy, SymmetricDirichlet
-from glid_nb.harmonic import HarmonicMap, as_complex
+from glid_nb.harmonic import as_complex
 from glid_nb.solvers.method import Inputs
 from glid_nb.solvers.result import Attempt, Result, Status
 from glid_nb.solvers.turning import Stages, turning_of
@@ -35,10 +37,11 @@ Way = tuple[str, list[Inputs], list[float]]  # a name, problems and limits, as o
 LOW_ENERGY, HIGH_ENERGY, HIGHEST_ENERGY, LEAST_ISOMETRY = 1.02, 2.5, 25.0, 0.5
 SAME_ENERGY = 1e-6
 # A way is tried that would gain so much of the energy if it cost so little of what the best does:
-# the other way round, of what the turns tell; an arc; targets staged as they are; the identity.
-GAIN, REVERSED, ARC, STAGED, STILL = 0.015, 0.9, 0.6, 0.8, 0.4
-# Turns tell less above so many times an isometry's energy; most ways round without a gain.
-UNSURE, MOST_MISSES = 1.1, 3
+# the other way round, of what the turns tell; an arc; no angles; staged targets; the identity.
+GAIN, REVERSED, ARC, FREED, STAGED, STILL = 0.015, 0.9, 0.6, 0.8, 0.8, 0.4
+# Turns tell less above so many times an isometry's energy; most ways round without a gain; what
+# ends that are held may add to what a stage costs.
+UNSURE, MOST_MISSES, HELD = 1.1, 3, 2.0
 # Lines that turn by so much may turn the other way round (the second number: from a high energy
 # on); where one turns by so much, others of the same turns may end lower.
 FAR, HALF_CIRCLE = np.deg2rad((80, 60)), np.deg2rad(140)
@@ -77,7 +80,6 @@ def improve(first: Result, inputs: Inputs, descend: Descend) -> Result:
 
 def _ways(first: Result, inputs: Inputs, best: Callable[[], Result]) -> Iterator[Way]:
     """Those that may end lower than the best so far, the likeliest first."""
-    assert isinstance(first.map, HarmonicMap)
     turning, isometry = turning_of(first.map, inputs.pose), isometry_energy(inputs.energy)
     high, hopeless = _is_above(first, HIGH_ENERGY), _is_above(first, HIGHEST_ENERGY)
     loose = _loosened(inputs, align=True)
@@ -86,28 +88,40 @@ def _ways(first: Result, inputs: Inputs, best: Callable[[], Result]) -> Iterator
         least = isometry + ratio * (best().energy - isometry)
         return _is_above(best(), least / (1 - GAIN) / max(isometry, LEAST_ISOMETRY))
 
-    def led(name: str, stages: Stages, ratio: float = 1) -> Way:
+    def led(name: str, stages: Stages, most: float = 1) -> Way:
         problems = [*(replace(loose, pose=pose) for _, pose in stages), inputs]
-        return name, problems, [time**GROWTH / min(ratio, 1) for time, _ in stages]
+        return name, problems, [most * time**GROWTH for time, _ in stages]
 
     if hopeless and (not inputs.energy.is_barrier or isinstance(inputs.energy, MIPS)):
         barrier = replace(inputs, energy=SymmetricDirichlet())
         yield "from the symmetric Dirichlet minimum", [barrier, inputs], []
         if best().energy <= HIGH_ENERGY * isometry:
             return
-    misses, unsure = 0, max(first.energy / max(isometry, LEAST_ISOMETRY) / UNSURE, 1)
-    for lines, ratio in turning.reversals(FAR[int(high)]).items():
-        if misses < MOST_MISSES and may_cost(REVERSED * ratio / unsure):
-            before = best()
+    now, misses, known = turning, 0, {turning.key()}
+    reversals = turning.reversals(FAR[int(high)])
+    while reversals and misses < MOST_MISSES:
+        lines, before = next(iter(reversals)), best()
+        ratio, key = reversals.pop(lines), now.key(lines)
+        unsure = max(before.energy / max(isometry, LEAST_ISOMETRY) / UNSURE, 1)
+        if key not in known and may_cost(REVERSED * ratio / unsure):
             name = f"the other way round at {', '.join(map(str, lines))}"
-            yield led(name, turning.stages(lines), ratio)
+            yield led(name, now.stages(lines), 1 / min(ratio, 1))
             misses += best() is before
+        known.add(key)
+        if best() is not before:  # what it turns may turn on from there
+            now = turning_of(best().map, inputs.pose)
+            reversals = now.reversals(FAR[int(high)])
     for line in turning.lines:
         if line.curled and may_cost(ARC):
             yield led(f"along an arc at {line.child}", turning.stages(bent=line.child))
+    if not np.isnan(inputs.pose.angles).all() and may_cost(FREED):
+        free = replace(inputs, pose=replace(inputs.pose, angles=None, scales=None))
+        free = _with(free, tolerance=STAGE_TOLERANCE)
+        yield "without its angles first", [free, inputs], [FREED]
     turned = max((abs(line.turn) for line in turning.lines), default=0) > HALF_CIRCLE
-    wound = any(line.wound for line in turning.lines)
-    if (wound or hopeless or (high and turned)) and may_cost(STAGED):
+    if any(line.wound for line in turning.lines) and may_cost(STAGED):
+        yield led("ends the other way round", turning.stages(unwound=True), HELD)
+    elif (hopeless or (high and turned)) and may_cost(STAGED):
         yield led("staged targets", turning.stages())
     z, w = (as_complex(p - p.mean(axis=0)) for p in (inputs.pose.handles, inputs.pose.targets))
     along, rigid = np.vdot(z, w), RIGID * np.vdot(z, z).real

@@ -25,6 +25,7 @@ from glid_nb.harmonic.cauchy import edge_coefficients, first_by_edges
 from glid_nb.solvers.discretisation import discretise
 from glid_nb.solvers.pose import Pose
 from glid_nb.solvers.problem import matrix_at, unknowns_of
+from glid_nb.solvers.result import DeformationMap
 from glid_nb.solvers.whitening import pulled_back
 
 _VERTICES = 300
@@ -45,7 +46,7 @@ class Link(NamedTuple):
     turn: float  # against the parent's line; at the root against the shape, or the other of two
     squeezed: bool  # its targets are closer than its handles, and what lies between stays straight
     curled: bool  # it ends free and turns, but its end is turned far from twice as much
-    wound: bool  # the shape is turned at its child by far more or less than it is
+    wound: float  # by how much more the shape is turned at its child, if that is far; else 0
 
 
 class Turning(NamedTuple):
@@ -83,6 +84,11 @@ class Turning(NamedTuple):
             angles[i] = angles[j] + turn - 2 * np.pi * np.sign(turn) * (i in reversed)
         return angles
 
+    def key(self, reversed: tuple[int, ...] = ()) -> tuple[float, ...]:
+        """The lines' turns against the first, by which maps of a pose can be told apart."""
+        turns = np.array([*self._angles(reversed).values()][1:])
+        return tuple(np.round(turns - turns[:1], 3))
+
     def cost(self, reversed: tuple[int, ...] = ()) -> float:
         """What the turns would cost if that grew with their square, as it does in the beginning."""
         moved = as_points(self._at(_SMALL, self._angles(reversed))) - self.pose.handles
@@ -90,16 +96,25 @@ class Turning(NamedTuple):
         form = _firmness(self.domain, self.pose.handles.tobytes())
         return max(float(moves @ form @ moves), _SMALL**2)
 
-    def stages(self, reversed: tuple[int, ...] = (), bent: int | None = None) -> Stages:
+    def stages(
+        self, reversed: tuple[int, ...] = (), bent: int | None = None, unwound: bool = False
+    ) -> Stages:
         """The poses on the way, where nothing turns by over 60 degrees from one to the next; turned
-        as a whole in the beginning, so that no line turns by more than it must."""
-        free, angles = replace(self.pose, angles=None, scales=None), self._angles(reversed)
+        as a whole in the beginning, so that no line turns by more than it must. Unwound, ends that
+        are wound up are held, turned the other way round."""
+        angles, ends = self._angles(reversed), np.full(len(self.pose), np.nan)
+        for i, *_, wound in self.lines:
+            if unwound and wound:
+                ends[i] = angles[i] + wound - 2 * np.pi * np.sign(wound)
         middle = (max(angles.values()) + min(angles.values())) / 2
         turns = [*angles.values(), *(middle + angles[i] - angles[j] for i, j, *_ in self.lines)]
-        count = max(int(np.ceil(np.abs(np.array(turns) - middle).max() / _STAGE)), 2)
-        times = [i / count for i in range(1, count)]
-        at = (self._at(time, angles, middle, bent) for time in times)
-        return [(t, free.with_targets(as_points(z))) for t, z in zip(times, at, strict=True)]
+        count = max(int(np.ceil(np.nanmax(np.abs(np.append(turns, ends) - middle)) / _STAGE)), 2)
+        stages, free = Stages(), replace(self.pose, scales=None)
+        for time in (i / count for i in range(1, count)):
+            at = as_points(self._at(time, angles, middle, bent))
+            held = replace(free, targets=at, angles=middle + time * (ends - middle))
+            stages.append((time, held))
+        return stages
 
     def _at(
         self, time: float, angles: dict[int, float], middle: float = 0, bent: int | None = None
@@ -117,8 +132,9 @@ class Turning(NamedTuple):
         return at
 
 
-def turning_of(map: HarmonicMap, pose: Pose) -> Turning:
+def turning_of(map: DeformationMap, pose: Pose) -> Turning:
     """What a map does to the lines between a pose's handles, of which there is at least one."""
+    assert isinstance(map, HarmonicMap)
     root, lines, rows = _tree(map.domain, pose.handles.tobytes())
     z, w = as_complex(pose.handles), as_complex(pose.targets)
     basis = basis_of(map.domain)
@@ -141,8 +157,8 @@ def turning_of(map: HarmonicMap, pose: Pose) -> Turning:
         turn = angles[i] - angles[j]
         off = abs(turns[i] - angles[j] - 2 * turn) > np.pi
         curled = i not in parents and _BENT < abs(turn) < np.pi - _BENT and off
-        wound = abs(turns[i] - angles[i]) > _WOUND
-        found.append(Link(i, j, turn, short, curled, wound))
+        more = turns[i] - angles[i]
+        found.append(Link(i, j, turn, short, curled, more if abs(more) > _WOUND else 0.0))
     return Turning(map.domain, pose, root, whole, found)
 
 
