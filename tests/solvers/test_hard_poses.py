@@ -310,3 +310,32 @@ def test_mips_meets_its_targets_where_the_direct_way_is_blocked() -> None:
     assert direct.energy > 1000
     assert len(result.attempts) == 2
     assert result.energy < 1.1
+
+
+def test_an_end_that_is_wound_up_is_led_the_other_way_round() -> None:
+    domain = Domain.from_cage(Cage([[-10, -1], [10, -1], [10, 1], [-10, 1]]))
+    pose = Pose([[9.6, -0.6], [-9.2, -0.3], [0.3, -0.3]], [[-2.5, -2.1], [1.4, -9.7], [0.3, -0.3]])
+    direct = solve(domain, pose, options=Options(restarts=0))
+    result = solve(domain, pose)
+    check_certified(result)
+    assert [a.name for a in result.attempts] == ["direct", "ends the other way round"]
+    assert direct.energy > 1.1 * result.energy
+
+
+def test_a_wanted_angle_is_met_from_the_map_without_it_where_that_is_better() -> None:
+    """Turned by 127 degrees at the tip of a limb that folds back: from which side, tells the map
+    that is free there; the direct way ends 15 % higher."""
+    along = np.exp(2j * np.pi * (np.arange(3) / 3 + 0.25))[:, None]
+    star = (along * [1.8 - 1j, 10 - 1j, 10 + 1j, 1.8 + 1j]).ravel()
+    domain = Domain.from_cage(Cage(np.stack([star.real, star.imag], axis=1)))
+    handles = np.array([[8.3, -4.5], [-7.8, -4.5], [-0.3, 9.5]])
+    targets = np.array([[8.3, -4.5], [-7.8, -4.5], [-0.7, -3.7]])
+    pose = Pose(handles, targets, angles=[np.nan, 0, -2.2])
+    direct = solve(domain, pose, options=Options(restarts=0))
+    result = solve(domain, pose)
+    check_certified(result)
+    assert [a.name for a in result.attempts] == ["direct", "without its angles first"]
+    assert direct.energy > 1.1 * result.energy
+    assert result.map.wirtinger(handles[2:])[0] == pytest.approx(
+        abs(result.map.wirtinger(handles[2:])[0]) * np.exp(-2.2j), abs=1e-2
+    )

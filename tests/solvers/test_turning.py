@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from glid_nb.geometry import Cage, Domain, meshes
 from glid_nb.harmonic import HarmonicMap
-from glid_nb.solvers import Options, Pose, solve
+from glid_nb.solvers import Options, Pose, Result, solve
 from glid_nb.solvers.problem import aligned
 from glid_nb.solvers.restarts import FAR
 from glid_nb.solvers.turning import turning_of
@@ -144,3 +144,15 @@ def test_other_handles_of_a_shape_need_no_other_mesh(monkeypatch: pytest.MonkeyP
     for handles in ([[1, 0.5]], [[1, 0.5], [2, 0.5]], [[2, 0.5], [2.5, 0.4]]):
         turning_of(identity, Pose(handles, handles))
     assert len(made) == 1
+
+
+@pytest.mark.slow
+def test_the_map_of_lines_led_the_other_way_round_is_known_by_its_key() -> None:
+    pose, first = half_turned()
+    turning = turning_of(first, pose)
+    (lines,) = [lines for lines in turning.reversals(np.deg2rad(80)) if len(lines) == 1]
+    start: Result | None = None
+    for _, stage in turning.stages(lines):
+        start = solve(first.domain, stage, start=start)
+    other = solve(first.domain, pose, start=start)
+    assert turning_of(other.map, pose).key() == turning.key(lines) != turning.key()
