@@ -36,9 +36,9 @@ class PinBar(EditControls):
         style = {"description_width": "initial"}
         look: dict[str, Any] = {"layout": ipywidgets.Layout(width="84px"), "style": style}
         late: dict[str, Any] = {"style": style, "continuous_update": False}
-        shown: Any = {"tooltip": "The selected pin", "layout": {"width": "100px"}}
+        shown: Any = {"tooltip": "The selected pin", "layout": {"width": "94px"}}
         self.list = ipywidgets.Dropdown(options=[("No pin", -1)], **shown)
-        shown = {"tooltip": "The selected pin's name", "layout": {"width": "96px"}}
+        shown = {"tooltip": "The selected pin's name", "layout": {"width": "90px"}}
         self.name = ipywidgets.Text(placeholder="name", **shown, **late)
         self.x = ipywidgets.FloatText(description="x", step=0.1, tooltip="Target", **look)
         self.y = ipywidgets.FloatText(description="y", step=0.1, tooltip="Target", **look)
