@@ -50,7 +50,9 @@ def pytest_configure(config: pytest.Config) -> None:
     if "GLID_NB_CACHE" not in os.environ and cache is not None:
         os.environ["GLID_NB_CACHE"] = str(cache.mkdir("glid_nb"))
     # Editors keep their work there; nothing of the user's is touched.
-    os.environ["GLID_NB_DATA"] = tempfile.mkdtemp(prefix="glid_nb-")
+    kept = tempfile.TemporaryDirectory(prefix="glid_nb-", ignore_cleanup_errors=True)
+    config.add_cleanup(kept.cleanup)
+    os.environ["GLID_NB_DATA"] = kept.name
 
 
 @pytest.fixture
