@@ -112,7 +112,7 @@ def _ways(first: Result, inputs: Inputs, best: Callable[[], Result]) -> Iterator
             now = turning_of(best().map, inputs.pose)
             reversals = now.reversals(FAR[int(high)])
     for line in turning.lines:
-        if line.curled and may_cost(ARC):
+        if line.curled and not line.wound and may_cost(ARC):
             yield led(f"along an arc at {line.child}", turning.stages(bent=line.child))
     if not np.isnan(inputs.pose.angles).all() and may_cost(FREED):
         free = replace(inputs, pose=replace(inputs.pose, angles=None, scales=None))

@@ -105,3 +105,12 @@ def test_a_tail_that_turns_by_over_180_degrees_may_turn_with_what_it_hangs_at(
     z = pose.handles @ np.array([1, 1j])
     targets = turned(pose.handles, [([2], z[4], 111.83), ([2, 4], z[1], 115.33)])
     assert solve(domain, Pose(pose.handles, targets)).energy < 1.02 * 2.7469
+
+
+def test_from_a_better_map_other_lines_are_led_the_other_way_round(reference_folder: Path) -> None:
+    """An archer who turns twice: with what the first map turns alone 15.2 is the best."""
+    domain, pose, _ = problem(reference_folder, "Archery")
+    hip = complex(*pose.handles[0])
+    turns = [([4, 5], -5.27 - 5.66j, -95.26), ([3, 4, 5, 7], hip, -133.61)]
+    result = solve(domain, Pose(pose.handles, turned(pose.handles, turns)))
+    assert result.energy < 13
