@@ -25,13 +25,13 @@ from glid_nb._files import write_atomically
 from glid_nb._jax import jax, serialize_executable
 from glid_nb._runtime import COMPILER_OPTIONS, jax_option, stage
 
-_UNUSED = 30.0  # seconds
+_MOST_LOADED = 4  # of 15 MB each; one solve uses up to four
 
 
 class Program:
     """A function compiled once for each kind of arguments, also where several threads want it.
 
-    One in a file that was not used for a while leaves the memory, 15 MB, when another comes.
+    Of those in files the few that were used last stay in memory.
 
     The call takes its argument number ``donated``. ``may_keep(*arguments)`` says whether their
     types and our own code tell what is compiled.
@@ -63,7 +63,7 @@ class Program:
             lowered = self._lowered(arguments, "")
             stage("compile")
             return lowered.compile()
-        self._forget_unused()
+        self._make_room()
         self._last_use[key] = time.monotonic()
         known_as = Path(folder) / f"glid_nb-arguments-{_digest(repr((_files(), key)))}"
         if known_as.is_file() and (known := _kept(Path(folder) / known_as.read_text())):
@@ -83,11 +83,11 @@ class Program:
         write_atomically(known_as, path.name)
         return kept
 
-    def _forget_unused(self) -> None:
-        for key, at in list(self._last_use.items()):
-            if at < time.monotonic() - _UNUSED:
-                self._ready.pop(key, None)
-                self._last_use.pop(key, None)
+    def _make_room(self) -> None:
+        latest = sorted(self._last_use.items(), key=lambda item: item[1], reverse=True)
+        for key, _ in latest[_MOST_LOADED - 1 :]:
+            self._ready.pop(key, None)
+            self._last_use.pop(key, None)
 
     def _lowered(self, arguments: Any, name: str) -> Any:
         def program(*arguments: Any) -> Any:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import threading
 from pathlib import Path
-from types import SimpleNamespace
 from typing import Any
 
 import jax
@@ -118,22 +117,19 @@ def test_whoever_watches_can_end_it() -> None:
     assert stages(program, ONES, ONES) == ["trace", "lower", "compile"]
 
 
-def test_what_was_not_used_for_long_leaves_the_memory_if_it_is_in_a_file(
+def test_of_those_in_files_the_few_used_last_stay_in_memory(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    now = 0.0
-    monkeypatch.setattr(_programs, "time", SimpleNamespace(monotonic=lambda: now))
+    monkeypatch.setattr(_programs, "_MOST_LOADED", 2)
     program = Program(double, donated=1, may_keep=lambda x, _: len(x) != 3)
-    threes, twos, ones = ((ONES[:n], ONES[:n]) for n in (3, 2, 1))
-    for arguments in (threes, twos):
+    kinds = threes, twos, ones, mixed = [
+        (np.ones(n), ONES[:k]) for n, k in ((3, 3), (2, 2), (1, 1), (1, 3))
+    ]
+    for arguments in kinds[:3]:
         assert stages(program, *arguments) == ["trace", "lower", "compile"]
-    now = 25.0
-    assert stages(program, *ones) == ["trace", "lower", "compile"]
     assert stages(program, *twos) == []
-    now = 50.0  # those were used 25 seconds ago
-    assert stages(program, ONES[:1], ONES) == ["trace", "lower", "compile"]
-    assert stages(program, *twos) == stages(program, *threes) == []
-    now = 58.0
-    assert stages(program, ONES[:1], ONES[:2]) == ["trace", "lower", "compile"]
-    assert stages(program, *twos) == stages(program, *threes) == []
+    assert stages(program, *mixed) == ["trace", "lower", "compile"]
+    assert stages(program, *twos) == stages(program, *mixed) == []
     assert stages(program, *ones) == ["load"]
+    assert stages(program, *twos) == ["load"]
+    assert stages(program, *ones) == stages(program, *threes) == []
