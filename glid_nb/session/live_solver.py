@@ -134,10 +134,28 @@ def solve_edited(
     return solve(edited.map.domain, edited.pose, *how, method=edited.method)
 
 
+def _carried(
+    start: HarmonicMap, last: Result | None, edited: NamedPose
+) -> tuple[HarmonicMap, Result | None]:
+    """Both moved along where all targets have moved alike since a solve that was blocked, or
+    stopped before it was: a step to there that also lowers the energy may not be possible."""
+    if last is None or last.status.ok or not edited.pose.pins_alike(last.pose):
+        return start, last
+    moves = edited.pose.targets - last.pose.targets
+    far = np.abs(edited.pose.targets).max()
+    if not moves.any() or not np.allclose(moves, moves[0], rtol=1e-6, atol=1e-12 * far):
+        return start, last
+    phi = start.phi.copy()
+    phi[: len(start.domain.offset_cage.loops_complex[0])] += complex(*moves[0])
+    moved = HarmonicMap(start.domain, phi, start.psi)
+    return moved, replace(last, map=moved)
+
+
 def _starting_point(edited: NamedPose, last: Result | None) -> DeformationMap | Result:
     start = edited.map if last is None else last.map
     if isinstance(start, MeshMap):
         return start
+    start, last = _carried(start, last, edited)
     conformal = edited.options.conformal and "conformal" in edited.method.options
     if conformal and np.abs(start.psi - start.psi[0]).max() > 0:
         # The solver needs a conformal start; the identity is one.

@@ -14,7 +14,7 @@ import pytest
 
 from glid_nb._runtime import stage
 from glid_nb.certificate import certify
-from glid_nb.energies import AMIPS
+from glid_nb.energies import AMIPS, ARAP
 from glid_nb.session.deformation import Deformation
 from glid_nb.session.edit_state import EditError
 from glid_nb.solvers import Pose, Status
@@ -148,6 +148,22 @@ def test_an_unreachable_target_is_followed_as_far_as_it_goes(ring: Deformation) 
     if solution.status is Status.BLOCKED:
         assert ring.status.level == "blocked"
     assert np.isfinite(ring.map(ring.pose.handles)).all()
+
+
+def test_a_blocked_shape_follows_when_all_its_pins_move_together(ring: Deformation) -> None:
+    ring.add_handle((0, 2))
+    ring.set_energy(ARAP())
+    ring.drag(2, to=(0, -20))
+    assert ring.solve(TIMEOUT)
+    assert ring.status.level == "blocked"
+    before = ring.map(ring.pose.handles)
+    ring.begin_drag([0, 1, 2])
+    for _ in range(3):
+        ring.drag_to(ring.pose.targets + (0.5, -0.25))
+        ring.solve(TIMEOUT)
+    ring.end_drag()
+    np.testing.assert_allclose(ring.map(ring.pose.handles), before + (1.5, -0.75), atol=0.05)
+    assert certify(ring.map).certified
 
 
 def test_solver_errors_reach_the_status(ring: Deformation, monkeypatch: pytest.MonkeyPatch) -> None:
