@@ -36,6 +36,8 @@ _ROUNDING = 1e-13
 def add_handles(state: EditState, points: ArrayLike, targets: ArrayLike | None = None) -> EditState:
     """Add handles at points (h, 2) of the domain; by default they and the shape stay in place."""
     points = _points(points, "point")
+    if not len(points):
+        return state
     pose, cage = state.pose, state.domain.cage
     for i, (point, inside) in enumerate(zip(points, cage.contains(points), strict=True)):
         where = place(point, 4)

@@ -82,13 +82,13 @@ def _ways(first: Result, inputs: Inputs, best: Callable[[], Result]) -> Iterator
     """Those that may end lower than the best so far, the likeliest first."""
     turning, isometry = turning_of(first.map, inputs.pose), isometry_energy(inputs.energy)
     high, hopeless = _is_above(first, HIGH_ENERGY), _is_above(first, HIGHEST_ENERGY)
-    loose = _loosened(inputs, align=True)
 
     def may_cost(ratio: float) -> bool:
         least = isometry + ratio * (best().energy - isometry)
         return _is_above(best(), least / (1 - GAIN) / max(isometry, LEAST_ISOMETRY))
 
     def led(name: str, stages: Stages, most: float = 1) -> Way:
+        loose = _loosened(inputs, align=True)
         problems = [*(replace(loose, pose=pose) for _, pose in stages), inputs]
         return name, problems, [most * time**GROWTH for time, _ in stages]
 
@@ -127,11 +127,11 @@ def _ways(first: Result, inputs: Inputs, best: Callable[[], Result]) -> Iterator
     along, rigid = np.vdot(z, w), RIGID * np.vdot(z, z).real
     misled = high and not turned and abs(np.angle(along)) > ALIGNED and abs(along) < rigid
     bends = misled or hopeless or any(line.squeezed for line in turning.lines)
-    still = _with(inputs, align=False)
+    still = functools.partial(_with, inputs, align=False)
     if inputs.options.align and bends and may_cost(STILL):
-        yield "from the identity", [still], []
+        yield "from the identity", [still()], []
     if inputs.options.align and hopeless and _is_above(best(), HIGHEST_ENERGY):
-        yield "staged weights from the identity", _raised(still), []
+        yield "staged weights from the identity", _raised(still()), []
     if hopeless and _is_above(best(), HIGHEST_ENERGY):
         yield "staged weights", _raised(inputs), []
 

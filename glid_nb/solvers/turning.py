@@ -132,6 +132,7 @@ class Turning(NamedTuple):
         return at
 
 
+@single_blas_thread()
 def turning_of(map: DeformationMap, pose: Pose) -> Turning:
     """What a map does to the lines between a pose's handles, of which there is at least one."""
     assert isinstance(map, HarmonicMap)

@@ -33,6 +33,10 @@ def test_a_handle_is_pinned_where_it_is(state: EditState) -> None:
     assert not new.current.solved
 
 
+def test_no_new_handles_are_no_step(state: EditState) -> None:
+    assert actions.add_handles(state, []) is state
+
+
 def test_what_has_moved_is_pinned_where_it_has_moved_to(state: EditState) -> None:
     identity = state.map
     turned = HarmonicMap(state.domain, 1j * identity.phi, -1j * identity.psi)
