@@ -39,7 +39,7 @@ def slack_factor(n_columns: int) -> float:
 
 def carried_slack_factor(n_columns: int) -> float:
     """The factor for carried values, relative to the largest coefficients so far (Lemma 15)."""
-    return (1 + 2 * CARRIED_STEPS + 4) * slack_factor(n_columns)
+    return (1 + 2 * CARRIED_STEPS + 6) * slack_factor(n_columns)
 
 
 def allowance(slack: Float[Array, "*k p"], probe: Float[Array, ""]) -> Float[Array, "*k p"]:
