@@ -159,10 +159,10 @@ def test_a_blocked_shape_follows_when_all_its_pins_move_together(ring: Deformati
     before = ring.map(ring.pose.handles)
     ring.begin_drag([0, 1, 2])
     for _ in range(3):
-        ring.drag_to(ring.pose.targets + (0.5, -0.25))
+        ring.drag_to(np.add(ring.pose.targets, (0.5, -0.25)))
         ring.solve(TIMEOUT)
     ring.end_drag()
-    np.testing.assert_allclose(ring.map(ring.pose.handles), before + (1.5, -0.75), atol=0.05)
+    np.testing.assert_allclose(ring.map(ring.pose.handles), np.add(before, (1.5, -0.75)), atol=0.05)
     assert certify(ring.map).certified
 
 
