@@ -49,7 +49,7 @@ class PinBar(EditControls):
         self.angle, self.scale = (ipywidgets.Text(description=tip.format(*w), **free) for w in tips)
         self.angle.layout.width = self.scale.layout.width = "124px"
         tooltip = "How firmly the pin is held: soft to the left, firm to the right"
-        scale: Any = {"min": -6, "max": 2, "step": 0.25, "value": 1, "readout_format": ".2~g"}
+        scale: Any = {"min": -6, "max": 2, "step": 0.25, "value": 1, "readout_format": ".2g"}
         scale |= {"tooltip": tooltip, "layout": {"width": "196px"}}
         self.weight = ipywidgets.FloatLogSlider(description="Weight", base=10, **scale, **late)
         tooltip = "Where parts overlap, those near pins of greater depth are in front"
