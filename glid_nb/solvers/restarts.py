@@ -98,11 +98,11 @@ def _ways(first: Result, inputs: Inputs, best: Callable[[], Result]) -> Iterator
         if best().energy <= HIGH_ENERGY * isometry:
             return
     now, misses, known = turning, 0, {turning.key()}
+    unsure = max(first.energy / max(isometry, LEAST_ISOMETRY) / UNSURE, 1)
     reversals = turning.reversals(FAR[int(high)])
     while reversals and misses < MOST_MISSES:
         lines, before = next(iter(reversals)), best()
         ratio, key = reversals.pop(lines), now.key(lines)
-        unsure = max(before.energy / max(isometry, LEAST_ISOMETRY) / UNSURE, 1)
         if key not in known and may_cost(REVERSED * ratio / unsure):
             name = f"the other way round at {', '.join(map(str, lines))}"
             yield led(name, now.stages(lines), 1 / min(ratio, 1))
