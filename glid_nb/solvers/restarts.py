@@ -98,19 +98,27 @@ def _ways(first: Result, inputs: Inputs, best: Callable[[], Result]) -> Iterator
         if best().energy <= HIGH_ENERGY * isometry:
             return
     now, misses, known = turning, 0, {turning.key()}
+    told = dict[tuple[float, ...], float]()  # the least that any map's turns tell of others' costs
     unsure = max(first.energy / max(isometry, LEAST_ISOMETRY) / UNSURE, 1)
-    reversals = turning.reversals(FAR[int(high)])
-    while reversals and misses < MOST_MISSES:
-        lines, before = next(iter(reversals)), best()
-        ratio, key = reversals.pop(lines), now.key(lines)
-        if key not in known and may_cost(REVERSED * ratio / unsure):
+
+    def reversals() -> list[tuple[tuple[int, ...], float]]:
+        costs = best().energy - isometry
+        found = list(now.reversals(FAR[int(high)]).items())
+        for lines, ratio in found:
+            told[now.key(lines)] = min(ratio * costs, told.get(now.key(lines), np.inf))
+        return [(lines, told[now.key(lines)] / costs) for lines, _ in found]
+
+    left = reversals()
+    while left and misses < MOST_MISSES:
+        (lines, ratio), before = left.pop(0), best()
+        if (key := now.key(lines)) not in known and may_cost(REVERSED * ratio / unsure):
             name = f"the other way round at {', '.join(map(str, lines))}"
             yield led(name, now.stages(lines), 1 / min(ratio, 1))
             misses += best() is before
         known.add(key)
         if best() is not before:  # what it turns may turn on from there
             now = turning_of(best().map, inputs.pose)
-            reversals = now.reversals(FAR[int(high)])
+            left = reversals()
     for line in turning.lines:
         if line.curled and not line.wound and may_cost(ARC):
             yield led(f"along an arc at {line.child}", turning.stages(bent=line.child))

@@ -263,6 +263,17 @@ def test_limbs_bent_by_over_100_degrees_end_near_the_best_minimum_known(bent: An
     check_certified(result)
 
 
+def test_after_a_gain_turns_that_may_cost_a_little_more_are_still_tried() -> None:
+    """A C closes to the other side: its second best way round is found first."""
+    out = np.linspace(-2.4, 2.4, 25)
+    outline = np.concatenate([10 * np.exp(1j * out), 7 * np.exp(-1j * out)])
+    handles = [(-5.66, -6.34), (6.12, -5.9), (6.12, 5.9), (-5.66, 6.34)]
+    pose = Pose(handles, [(0, 0), (5.89, 9.82), (14.58, 2.35), (5.75, -4.95)])
+    result = solve(Domain.from_cage(Cage(real(outline))), pose)
+    assert result.energy < 1.02 * 2.4439
+    assert sum(not attempt.given_up for attempt in result.attempts) == 3
+
+
 @pytest.mark.parametrize("turn", ["end", "over"])
 def test_a_bar_of_four_vertices_bends_as_a_finely_divided_one(turn: str) -> None:
     """An end turned by 180 degrees, or set upside down and bent over the other."""
