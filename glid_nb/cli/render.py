@@ -52,7 +52,7 @@ def run(chosen: argparse.Namespace) -> None:
 
 
 def _pixels(text: str) -> int:
-    count = int(text)
-    if not 1 <= count <= MAX_SIDE:
-        raise argparse.ArgumentTypeError(f"a side has 1 to {MAX_SIDE} pixels, not {count}")
-    return count
+    if len(text) > 9 or not text.isdecimal() or not 1 <= int(text) <= MAX_SIDE:
+        wanted = f"a side is a whole number of pixels, 1 to {MAX_SIDE}"
+        raise argparse.ArgumentTypeError(f"{wanted}, not {text!r:.40}")
+    return int(text)

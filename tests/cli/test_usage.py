@@ -10,6 +10,8 @@ import pytest
 
 import glid_nb
 
+WHOLE_PIXELS = "--size: a side is a whole number of pixels, 1 to 20000, not '10.5'"
+
 
 @pytest.mark.parametrize(
     ("words", "message"),
@@ -22,6 +24,7 @@ import glid_nb
         (["trace", "a.png"], "the following arguments are required: --out"),
         (["render", "a.png", "m.json", "--out", "b.png", "--view", "top"], "invalid choice: 'top'"),
         (["render", "a.png", "m.json", "--out", "b.png", "--size", "0", "9"], "--size"),
+        (["render", "a.png", "m.json", "--out", "b.png", "--size", "10.5", "20"], WHOLE_PIXELS),
         (["animate", "a.glid", "--out", "b.gif", "--background", "reddish"], "is no colour"),
         (["demo", "--unheard-of"], "unrecognized arguments: --unheard-of"),
     ],
