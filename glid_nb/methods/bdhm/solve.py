@@ -14,13 +14,13 @@ import numpy as np
 
 from glid_nb._arrays import Array
 from glid_nb._runtime import single_blas_thread
-from glid_nb.certificate import Certificate, certify
+from glid_nb.certificate import Certificate, certificate_of, certify
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.methods.bdhm import program
 from glid_nb.solvers import Inputs, Iteration, Method, MethodError, Result, Status
 from glid_nb.solvers.loop import Ending, GeneratedDescent, Reached, Steps, follow
 from glid_nb.solvers.problem import measured_apart
-from glid_nb.solvers.subspace import KEPT, MOST_PINS
+from glid_nb.solvers.subspace import KEPT, MOST_PINS, StartError
 
 _PROOF = 0.4  # how much of the margin the proof may take
 # How often one program is solved again with more samples.
@@ -45,10 +45,10 @@ class BDHM(program.DistortionBounds, Method):
 
     Bounded distortion harmonic maps (Chen & Weber 2015). ``k``, ``sigma1`` and ``sigma2`` bound the
     distortion of the whole map; an isometry must satisfy them with room to spare. The energy never
-    rises, and every map is proved to keep the bounds. A start that is not gives way to the
-    identity. The method has converged when the program at the current map can, by its dual, lower
-    the energy by no more than ``tolerance`` of it: the map is then stationary within bounds at
-    samples that are stricter than those asked for by `MARGIN` or, where it uses more, by less.
+    rises, and every map is proved to keep the bounds. A certified start that is not gives way
+    to the identity. The method has converged when the program at the current map can, by its dual,
+    lower the energy by no more than ``tolerance`` of it: the map is then stationary within bounds
+    at samples that are stricter than those asked for by `MARGIN` or, where it uses more, by less.
     """
 
     name = "bdhm"
@@ -104,6 +104,8 @@ class _Descent(GeneratedDescent):
     def steps(self) -> Steps:
         identity = HarmonicMap.identity(self.inputs.domain)
         start = self.method.harmonic_start(self.inputs) or identity
+        if not (proof := certificate_of(start)).certified and start is not identity:
+            raise StartError(f"the map to start from is not certified: {proof.reason}")
         start = HarmonicMap(identity.domain, start.phi, start.psi)
         self._measure(start)
         for map_ in (start, identity):
