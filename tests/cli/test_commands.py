@@ -170,9 +170,22 @@ def solved(run, problem: Path, tmp_path: Path) -> Path:
 
 def test_render_warps_the_picture(run, picture: Path, solved: Path, tmp_path: Path) -> None:
     out = tmp_path / "warped.png"
-    assert run("render", picture, solved, "--out", out).code == 0
+    outcome = run("render", picture, solved, "--out", out)
+    assert (outcome.code, outcome.err) == (0, "")
     with Image.open(out) as warped:
         assert (warped.size, warped.mode) == ((160, 120), "RGBA")
+
+
+def test_render_tells_that_a_map_folds(run, picture: Path, solved: Path, tmp_path: Path) -> None:
+    data, out = read(solved), tmp_path / "warped.png"
+    mirrored = [[1.5 * x, -1.5 * y] for x, y in data["phi"]]
+    mirrored[-1] = data["psi"][-1]  # the hole's, which is phi's conjugate
+    solved.write_text(json.dumps({**data, "psi": mirrored}), encoding="utf-8")
+    outcome = run("render", picture, solved, "--out", out)
+    assert (outcome.code, outcome.out) == (0, f"{out}: 160 x 120 pixels\n")
+    assert outcome.err.startswith(f"glid-nb: {solved} is not proved locally injective. The map is")
+    assert outcome.err.count("\n") == 1
+    assert out.exists()
 
 
 def test_depths_go_from_the_problem_into_the_map_and_its_picture(
