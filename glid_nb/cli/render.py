@@ -1,9 +1,8 @@
 """Warp a picture through a map.
 
 The picture must be the one that the map's cage was traced from, or one of the same size; another
-is refused. Its longer side is 20 world units. Maps without image_size_px, from problems without
-it, do not tell the size: their cage must then lie on the picture. What is not proved locally
-injective is drawn too, with a line on stderr that says so.
+is refused. Its longer side is 20 world units. Maps without image_size_px do not tell the size:
+their cage must then lie on the picture. A line on stderr says which map is not proved injective.
 """
 
 import argparse
@@ -51,8 +50,7 @@ def run(chosen: argparse.Namespace) -> None:
         picture = glid_nb.export.picture_png(image, harmonic_map, size, chosen.view, pose)
     write_atomically(chosen.out, picture)
     print(f"{chosen.out}: {size[0]} x {size[1]} pixels")
-    proof = glid_nb.certify(harmonic_map)
-    if not proof.certified:
+    if not (proof := glid_nb.certify(harmonic_map)).certified:
         what = f"{chosen.map} is not proved locally injective"
         print(f"glid-nb: {what}. {proof.reason}", file=sys.stderr)
 

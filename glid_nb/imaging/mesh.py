@@ -18,6 +18,7 @@ _MOST_VERTICES = 1_000_000
 _MOST_ROUNDS = 12
 
 _PER_EDGE = 4  # parts of a cage's edge before refinement
+_ALL = -np.inf, -np.inf, np.inf, np.inf
 
 # The pieces of a triangle, by the sum of 1, 2 and 4 for sides 0, 1 and 2 that have a new vertex.
 # 0 to 2 are its corners, 3 to 5 the new vertices on the sides opposite to them.
@@ -37,6 +38,7 @@ _PIECES = np.array(
 
 Ints = NDArray[np.int32]
 Evaluation = Callable[[Floats], Floats]
+Bounds = tuple[float, float, float, float]  # xmin, ymin, xmax, ymax
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,20 +61,22 @@ def deformed_mesh(
     n_vertices: int = 5000,
     tolerance: float | None = None,
     pose: Pose | None = None,
+    seen: Bounds = _ALL,
 ) -> DeformedMesh:
     """Triangulate a map's domain with about so many even vertices, and map them.
 
     With a ``tolerance``, world units, edges are halved until the map takes no midpoint of an edge
-    further than this from the middle of the image edge, or there are a million vertices.
+    further than this from the middle of the image edge, or there are a million vertices; far from
+    the part of the plane that is ``seen`` they are not.
     """
-    vertices, images, triangles = fine_mesh(map.domain.cage, map, n_vertices, tolerance)
+    vertices, images, triangles = fine_mesh(map.domain.cage, map, n_vertices, tolerance, seen)
     heights = order_of(map.domain.cage, pose)(vertices)
     triangles = triangles[np.argsort(heights[triangles].mean(axis=1), kind="stable")]
     return DeformedMesh(vertices, images, triangles, heights)
 
 
 def fine_mesh(
-    cage: Cage, image: Evaluation, n_vertices: int, tolerance: float | None
+    cage: Cage, image: Evaluation, n_vertices: int, tolerance: float | None, seen: Bounds = _ALL
 ) -> tuple[Floats, Floats, Ints]:
     """Vertices (v, 2), their images (v, 2 m) under m maps, as ``image`` evaluates, and triangles,
     as fine as the map that bends most needs them."""
@@ -87,8 +91,10 @@ def fine_mesh(
     first = 0
     for _ in range(_MOST_ROUNDS):
         edges, edge_of = unique_edges(triangles)
+        near = np.zeros(len(edges), dtype=bool)
+        near[edge_of[_near(images[triangles], seen)]] = True
         # All others were straight enough in an earlier round.
-        fresh = np.flatnonzero(edges.max(axis=1) >= first)
+        fresh = np.flatnonzero(near & (edges.max(axis=1) >= first))
         middles, middle_images, bend = _halved(image, vertices, images, edges[fresh])
         bent = bend > tolerance
         if not bent.any() or len(vertices) + bent.sum() > _MOST_VERTICES:
@@ -131,6 +137,13 @@ def _halved(
     middle_images = image(middles)
     away = middle_images - images[edges].mean(axis=1)
     return middles, middle_images, np.hypot(away[:, ::2], away[:, 1::2]).max(axis=1)
+
+
+def _near(corners: Floats, seen: Bounds) -> NDArray[np.bool_]:
+    """(t,) bool: images (t, 3, 2 m) under m maps that are at most their size, being bent, away."""
+    low, high = (limit.reshape(len(corners), -1, 2) for limit in (corners.min(1), corners.max(1)))
+    room = (high - low).max(axis=2, keepdims=True)
+    return ((low - room <= seen[2:]) & (high + room >= seen[:2])).all(axis=2).any(axis=1)
 
 
 def unique_edges(triangles: NDArray[np.integer]) -> tuple[NDArray[np.integer], Ints]:

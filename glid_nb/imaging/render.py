@@ -61,7 +61,7 @@ def render(
     if n_vertices is None:
         tolerance = TOLERANCE_PX * frame.units_per_pixel
         n_vertices = int(np.clip(frame.width * frame.height / _PIXELS_PER_VERTEX, *_EVEN_VERTICES))
-    return draw_mesh(texture, deformed_mesh(map, n_vertices, tolerance, pose), frame)
+    return draw_mesh(texture, deformed_mesh(map, n_vertices, tolerance, pose, frame.bounds), frame)
 
 
 def frame_of(

@@ -11,7 +11,8 @@ from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging.frame import PixelFrame
 from glid_nb.imaging.mesh import DeformedMesh, deformed_mesh
 from glid_nb.imaging.order import order_of
-from glid_nb.imaging.render import frame_of, render, share_outside
+from glid_nb.imaging.render import draw_mesh, frame_of, render, share_outside
+from glid_nb.imaging.texture import Texture
 
 pytestmark = pytest.mark.slow  # most of the time is compiling
 
@@ -244,3 +245,18 @@ def test_the_frame_converts_to_pixels():
     np.testing.assert_allclose(frame.to_pixel([[1, 2], [2, 3]]), [[100, 50], [110, 40]])
     assert (frame.zoom, frame.centre) == (1.0, (1.0, 2.0))
     assert frame.bounds == (-9.0, -3.0, 11.0, 7.0)
+
+
+def test_what_lies_far_outside_the_picture_is_not_refined(bar: Domain) -> None:
+    curved = bent(bar, 0.2)
+    large = HarmonicMap(bar, 1e4 * curved.phi, 1e4 * curved.psi)
+    frame = PixelFrame(200, 20)
+    seen = deformed_mesh(large, 1000, 0.25 * frame.units_per_pixel, seen=frame.bounds)
+    assert len(seen.vertices) < 5000
+    # Where it is seen it is as fine as any mesh.
+    moderate = HarmonicMap(bar, 20 * curved.phi, 20 * curved.psi)
+    image = coordinates_as_colours(200, 20)
+    whole = deformed_mesh(moderate, 1000, 0.25 * frame.units_per_pixel)
+    expected = draw_mesh(Texture.from_image(image), whole, frame)
+    np.testing.assert_array_equal(render(image, moderate), expected)
+    assert expected[..., 3].any()
