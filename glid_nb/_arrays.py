@@ -61,7 +61,7 @@ class _Frozen(bytes):
 
 
 def frozen(array: A) -> A:
-    """A copy that nobody can write to, whatever flags are set; of such a copy, itself."""
+    """A copy whose bytes nobody can write to, whatever flags are set; of such a copy, itself."""
     if type(array) is np.ndarray and isinstance(array.base, _Frozen):
         return array
     return np.ndarray(array.shape, array.dtype, _Frozen(array.tobytes()))  # type: ignore[return-value]
