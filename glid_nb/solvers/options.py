@@ -46,9 +46,8 @@ class Options:
     """The exact Hessian where it is positive definite, else the projected one (Section 7); with
     "projected" always that, as in the paper; with "exact" never, halting where it is indefinite."""
     p2p_weight: float = option(1e5, "How strongly handles are held at targets", "Weight λ", above=0)
-    """``lambda`` of (20), positive. Of certified maps a handle's counts as at most 1e13 over the
-    square of the cage's longer side, with which targets are met to some 1e-13 of that: beside
-    larger ones double precision rounds the distortion off. Energies are with what counts."""
+    """``lambda`` of (20), positive. For certified maps, and in their energies, it is at most 1e13
+    over the square of the cage's longer side: beside more the distortion is lost in rounding."""
     conformal: bool = option(False, "No shear anywhere", "Conformal maps only")
     """Restrict the maps to conformal ones, ``psi = 0`` (Section 6)."""
     align: bool = option(True, "Begin at the best rigid motion to the targets", "Align")
