@@ -15,7 +15,7 @@ Dirichlet minimum.
 
 import functools
 import itertools
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Generator, Iterator
 from dataclasses import replace
 from typing import Any
 
@@ -27,7 +27,7 @@ from glid_nb.energies import MIPS, Energy, SymmetricDirichlet
 from glid_nb.harmonic import as_complex
 from glid_nb.solvers.method import Inputs
 from glid_nb.solvers.result import Attempt, Result, Status
-from glid_nb.solvers.turning import Stages, turning_of
+from glid_nb.solvers.turning import Stages, Turning, turning_of
 
 Descend = Callable[[Inputs], Result]
 Way = tuple[str, list[Inputs], list[float]]  # a name, problems and limits, as of _followed
@@ -59,7 +59,7 @@ def improve(first: Result, inputs: Inputs, descend: Descend) -> Result:
     if not (inputs.options.restarts and len(inputs.pose)) or not _is_above(first, LOW_ENERGY):
         return first
     best, tried = first, [("direct", first)]
-    ways = _ways(first, inputs, lambda: best)
+    ways = _Ways(first, inputs, lambda: best)
     for way in itertools.islice(ways, inputs.options.restarts):
         result = _followed(way, descend, best)
         tried.append((way[0], result))
@@ -78,70 +78,90 @@ def improve(first: Result, inputs: Inputs, descend: Descend) -> Result:
     return replace(best, options=inputs.options, attempts=attempts, **times)
 
 
-def _ways(first: Result, inputs: Inputs, best: Callable[[], Result]) -> Iterator[Way]:
+class _Ways:
     """Those that may end lower than the best so far, the likeliest first."""
-    turning, isometry = turning_of(first.map, inputs.pose), isometry_energy(inputs.energy)
-    high, hopeless = _is_above(first, HIGH_ENERGY), _is_above(first, HIGHEST_ENERGY)
 
-    def may_cost(ratio: float) -> bool:
-        least = isometry + ratio * (best().energy - isometry)
-        return _is_above(best(), least / (1 - GAIN) / max(isometry, LEAST_ISOMETRY))
+    def __init__(self, first: Result, inputs: Inputs, best: Callable[[], Result]) -> None:
+        self.first, self.inputs, self.best = first, inputs, best
+        self.isometry = isometry_energy(inputs.energy)
+        self.high, self.hopeless = (_is_above(first, e) for e in (HIGH_ENERGY, HIGHEST_ENERGY))
 
-    def led(name: str, stages: Stages, most: float = 1) -> Way:
-        loose = _loosened(inputs, align=True)
-        problems = [*(replace(loose, pose=pose) for _, pose in stages), inputs]
+    def __iter__(self) -> Iterator[Way]:
+        inputs, hopeless, energy = self.inputs, self.hopeless, self.inputs.energy
+        if hopeless and (not energy.is_barrier or isinstance(energy, MIPS)):
+            barrier = replace(inputs, energy=SymmetricDirichlet())
+            yield "from the symmetric Dirichlet minimum", [barrier, inputs], []
+            if self.best().energy <= HIGH_ENERGY * self.isometry:
+                return
+        turning = turning_of(self.first.map, inputs.pose)
+        known = yield from self.with_other_turns(turning)
+        for line in turning.lines:
+            if line.curled and not line.wound and self.may_cost(ARC):
+                yield self.led(f"along an arc at {line.child}", turning.stages(bent=line.child))
+        if not np.isnan(inputs.pose.angles).all() and self.may_cost(FREED):
+            free = replace(inputs, pose=replace(inputs.pose, angles=None, scales=None))
+            free = _with(free, tolerance=STAGE_TOLERANCE)
+            yield "without its angles first", [free, inputs], [FREED]
+        turned = max((abs(line.turn) for line in turning.lines), default=0) > HALF_CIRCLE
+        wound = [each for each in known if any(line.wound for line in each.lines)]
+        for each in wound:
+            if self.may_cost(STAGED):
+                yield self.led("ends the other way round", each.stages(unwound=True), HELD)
+        if not wound and (hopeless or (self.high and turned)) and self.may_cost(STAGED):
+            yield self.led("staged targets", turning.stages())
+        bends = any(line.squeezed for line in turning.lines) or (not turned and self.misled())
+        still = functools.partial(_with, inputs, align=False)
+        if inputs.options.align and (bends or hopeless) and self.may_cost(STILL):
+            yield "from the identity", [still()], []
+        if inputs.options.align and hopeless and _is_above(self.best(), HIGHEST_ENERGY):
+            yield "staged weights from the identity", _raised(still()), []
+        if hopeless and _is_above(self.best(), HIGHEST_ENERGY):
+            yield "staged weights", _raised(inputs), []
+
+    def with_other_turns(self, first: Turning) -> Generator[Way, None, list[Turning]]:
+        """Led by lines that turn the other way round; returns the turns of the first map, and of
+        the best if that is another."""
+        now, misses, known = first, 0, {first.key()}
+        told = dict[tuple[float, ...], float]()  # the least that any map tells of others' costs
+        unsure = max(self.first.energy / max(self.isometry, LEAST_ISOMETRY) / UNSURE, 1)
+
+        def reversals() -> list[tuple[tuple[int, ...], float]]:
+            costs = self.best().energy - self.isometry
+            found = list(now.reversals(FAR[int(self.high)]).items())
+            for lines, ratio in found:
+                told[now.key(lines)] = min(ratio * costs, told.get(now.key(lines), np.inf))
+            return [(lines, told[now.key(lines)] / costs) for lines, _ in found]
+
+        left = reversals()
+        while left and misses < MOST_MISSES:
+            (lines, ratio), before = left.pop(0), self.best()
+            if (key := now.key(lines)) not in known and self.may_cost(REVERSED * ratio / unsure):
+                name = f"the other way round at {', '.join(map(str, lines))}"
+                yield self.led(name, now.stages(lines), 1 / min(ratio, 1))
+                misses += self.best() is before
+            known.add(key)
+            if self.best() is not before:  # what it turns may turn on from there
+                now = turning_of(self.best().map, self.inputs.pose)
+                left = reversals()
+        return [first] if now is first else [first, now]
+
+    def may_cost(self, ratio: float) -> bool:
+        """Whether a way pays that costs so much of what the best does above an isometry."""
+        best = self.best()
+        least = self.isometry + ratio * (best.energy - self.isometry)
+        return _is_above(best, least / (1 - GAIN) / max(self.isometry, LEAST_ISOMETRY))
+
+    def led(self, name: str, stages: Stages, most: float = 1) -> Way:
+        loose = _loosened(self.inputs, align=True)
+        problems = [*(replace(loose, pose=pose) for _, pose in stages), self.inputs]
         return name, problems, [most * time**GROWTH for time, _ in stages]
 
-    if hopeless and (not inputs.energy.is_barrier or isinstance(inputs.energy, MIPS)):
-        barrier = replace(inputs, energy=SymmetricDirichlet())
-        yield "from the symmetric Dirichlet minimum", [barrier, inputs], []
-        if best().energy <= HIGH_ENERGY * isometry:
-            return
-    now, misses, known = turning, 0, {turning.key()}
-    told = dict[tuple[float, ...], float]()  # the least that any map's turns tell of others' costs
-    unsure = max(first.energy / max(isometry, LEAST_ISOMETRY) / UNSURE, 1)
-
-    def reversals() -> list[tuple[tuple[int, ...], float]]:
-        costs = best().energy - isometry
-        found = list(now.reversals(FAR[int(high)]).items())
-        for lines, ratio in found:
-            told[now.key(lines)] = min(ratio * costs, told.get(now.key(lines), np.inf))
-        return [(lines, told[now.key(lines)] / costs) for lines, _ in found]
-
-    left = reversals()
-    while left and misses < MOST_MISSES:
-        (lines, ratio), before = left.pop(0), best()
-        if (key := now.key(lines)) not in known and may_cost(REVERSED * ratio / unsure):
-            name = f"the other way round at {', '.join(map(str, lines))}"
-            yield led(name, now.stages(lines), 1 / min(ratio, 1))
-            misses += best() is before
-        known.add(key)
-        if best() is not before:  # what it turns may turn on from there
-            now = turning_of(best().map, inputs.pose)
-            left = reversals()
-    for line in turning.lines:
-        if line.curled and not line.wound and may_cost(ARC):
-            yield led(f"along an arc at {line.child}", turning.stages(bent=line.child))
-    if not np.isnan(inputs.pose.angles).all() and may_cost(FREED):
-        free = replace(inputs, pose=replace(inputs.pose, angles=None, scales=None))
-        free = _with(free, tolerance=STAGE_TOLERANCE)
-        yield "without its angles first", [free, inputs], [FREED]
-    turned = max((abs(line.turn) for line in turning.lines), default=0) > HALF_CIRCLE
-    if any(line.wound for line in turning.lines) and may_cost(STAGED):
-        yield led("ends the other way round", turning.stages(unwound=True), HELD)
-    elif (hopeless or (high and turned)) and may_cost(STAGED):
-        yield led("staged targets", turning.stages())
-    z, w = (as_complex(p - p.mean(axis=0)) for p in (inputs.pose.handles, inputs.pose.targets))
-    along, rigid = np.vdot(z, w), RIGID * np.vdot(z, z).real
-    misled = high and not turned and abs(np.angle(along)) > ALIGNED and abs(along) < rigid
-    bends = misled or hopeless or any(line.squeezed for line in turning.lines)
-    still = functools.partial(_with, inputs, align=False)
-    if inputs.options.align and bends and may_cost(STILL):
-        yield "from the identity", [still()], []
-    if inputs.options.align and hopeless and _is_above(best(), HIGHEST_ENERGY):
-        yield "staged weights from the identity", _raised(still()), []
-    if hopeless and _is_above(best(), HIGHEST_ENERGY):
-        yield "staged weights", _raised(inputs), []
+    def misled(self) -> bool:
+        """Whether the rigid start turned the shape far, though its targets hardly follow that."""
+        pose = self.inputs.pose
+        z, w = (as_complex(p - p.mean(axis=0)) for p in (pose.handles, pose.targets))
+        along, rigid = np.vdot(z, w), RIGID * np.vdot(z, z).real
+        return bool(self.high and abs(np.angle(along)) > ALIGNED and abs(along) < rigid)
 
 
 def _raised(inputs: Inputs) -> list[Inputs]:

@@ -274,6 +274,16 @@ def test_after_a_gain_turns_that_may_cost_a_little_more_are_still_tried() -> Non
     assert sum(not attempt.given_up for attempt in result.attempts) == 3
 
 
+def test_what_the_better_map_winds_up_is_led_the_other_way_round_too() -> None:
+    """An arm of an L turns twice; the first map winds up neither of its ends."""
+    domain, *_ = bent_ell()
+    handles = [(-9.4, 7.63), (7.45, -5.92), (-7.29, -7.48), (-8.19, 0.34), (-0.07, -7.48)]
+    targets = [handles[0], (-4.73, -3.74), *handles[2:4], (-5.84, -11.34), (-9.4, -3.83)]
+    result = solve(domain, Pose([*handles, targets[-1]], targets))
+    names = [attempt.name for attempt in result.attempts]
+    assert names == ["direct", "the other way round at 1", "ends the other way round"]
+
+
 @pytest.mark.parametrize("turn", ["end", "over"])
 def test_a_bar_of_four_vertices_bends_as_a_finely_divided_one(turn: str) -> None:
     """An end turned by 180 degrees, or set upside down and bent over the other."""
