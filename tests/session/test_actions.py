@@ -95,9 +95,13 @@ def test_targets_move_and_are_nudged(state: EditState) -> None:
 
 
 def test_reset_goes_back_to_the_undeformed_shape(state: EditState) -> None:
-    new = actions.reset(state)
+    turned = actions.set_pins(state, [0], angles=-0.5)
+    turned = actions.set_pins(turned, [1], scales=1.5)
+    new = actions.reset(turned)
     assert new.pose.targets.tolist() == state.pose.handles.tolist()
     np.testing.assert_allclose(new.map([[2, 0]]), [[2, 0]], atol=1e-9)
+    np.testing.assert_array_equal(new.pose.angles, [0, np.nan])  # what was free stays so
+    np.testing.assert_array_equal(new.pose.scales, [np.nan, 1])
 
 
 def test_a_dropped_hole_keeps_the_handles(state: EditState) -> None:

@@ -82,6 +82,19 @@ def test_a_drag_is_one_step_and_undo_is_exact(ring: Deformation) -> None:
     assert ring.state is after
 
 
+def test_the_undeformed_shape_stays_so_and_undo_brings_all_back(ring: Deformation) -> None:
+    ring.move_target(0, (3, 0.2))
+    ring.set_pins([1], angles=0.5)
+    assert ring.solve(TIMEOUT)
+    before = ring.state
+    ring.reset()
+    assert ring.solve(TIMEOUT)
+    points = np.array([(2, 0), (-2, 0), (0, 2)])
+    np.testing.assert_allclose(ring.map(points), points, atol=1e-9)
+    ring.undo()
+    assert ring.state is before
+
+
 def test_a_cancelled_drag_leaves_no_trace(ring: Deformation) -> None:
     before, history = ring.state, ring.history
     ring.begin_drag([0])
