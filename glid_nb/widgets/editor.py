@@ -3,7 +3,6 @@
 import base64
 import html
 from collections.abc import Callable
-from datetime import datetime
 from pathlib import Path
 from typing import Any
 
@@ -31,8 +30,7 @@ from glid_nb.widgets import exporting
 from glid_nb.widgets.brush import BrushBar
 from glid_nb.widgets.canvas import DeformCanvas, Toolbar, check_size
 from glid_nb.widgets.closing import ClosingWidget, close_with_parts, one_a_cell
-from glid_nb.widgets.controls import REFUSED, button, paragraph
-from glid_nb.widgets.file_panel import FilePanel, OpenPanel
+from glid_nb.widgets.file_panel import FilePanel, KeptOffer, OpenPanel
 from glid_nb.widgets.monitor import SolverMonitor
 from glid_nb.widgets.pins import PinBar
 from glid_nb.widgets.solver_panel import SolverPanel
@@ -53,7 +51,6 @@ _NOT_SAVED = (
     "The session could not be saved: {error}. The next change tries again; "
     "Save in the Files tab writes it elsewhere."
 )
-_KEPT = "Another editor's work on this picture is kept, last changed on {:%d %B at %H:%M}."
 
 
 class Editor(ClosingWidget, ipywidgets.VBox):
@@ -124,12 +121,11 @@ class Editor(ClosingWidget, ipywidgets.VBox):
         covering = {"display": "none", "height": "0", "margin": "0", "overflow": "visible"}
         self.unsaved = ipywidgets.HTML(layout=covering)
         """Why the session file is not up to date; hidden while it is."""
-        self.kept = ipywidgets.HBox(layout={"display": "none", "align_items": "center"})
+        self.kept = KeptOffer(self.model)
         """Offers what an earlier editor of the picture has kept; hidden without that."""
         super().__init__([self.unsaved, self.kept, self.tabs], **kwargs)
         self.add_class("glid-editor")
         self._build()
-        self._offer()
         show = {"replaced": self._build, "saved": self._show_saving}
         self.model.observe(lambda what: show[what]())
         self.tabs.observe(self._on_tab, ["selected_index"])
@@ -279,30 +275,6 @@ class Editor(ClosingWidget, ipywidgets.VBox):
         self.model.load(path)
 
     # The widgets
-
-    def _offer(self) -> None:
-        if (path := self.model.kept) is None:
-            return
-
-        def bring() -> None:
-            try:
-                self.model.recover()
-            except (OSError, ValueError) as error:  # damaged, or gone meanwhile
-                self.kept.children[0].value = paragraph(str(error), REFUSED)
-            else:
-                self.kept.layout.display = "none"
-
-        def discard() -> None:
-            self.kept.layout.display = "none"
-            self.model.discard_kept()
-
-        at = datetime.fromtimestamp(path.stat().st_mtime)
-        self.kept.children = [
-            ipywidgets.HTML(paragraph(_KEPT.format(at))),
-            button("Bring it back", "history", "Go on with it", bring),
-            button("Discard", "trash", "Delete it", discard),
-        ]
-        self.kept.layout.display = "flex"
 
     def _build(self) -> None:
         with self.model.locked():

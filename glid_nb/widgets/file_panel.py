@@ -3,6 +3,7 @@
 import contextlib
 import time
 from collections.abc import Callable, Mapping
+from datetime import datetime
 from pathlib import Path
 from typing import Any
 
@@ -36,6 +37,8 @@ _UNSAVED = (
     "under another name first."
 )
 
+_KEPT = "Another editor's work on this picture is kept, last changed on {:%d %B at %H:%M}."
+
 _Action = Callable[[bool], str]  # what a button does, if it is sure; says what was done
 
 
@@ -61,6 +64,78 @@ def existing_path(text: str) -> Path:
     """The file that somebody wants to open: any that is there, else as in `session_path`."""
     path = Path(text.strip()).expanduser()
     return path if path.is_file() else session_path(text)
+
+
+def check_saved(model: EditorModel, path: Path) -> None:
+    """Raise if to go on with a session file would discard what is in no file."""
+    if model.unsaved:
+        open_document(path)  # what cannot be opened needs no answer
+        raise _UnsavedError(_UNSAVED)
+
+
+class Asking:
+    """Buttons that may ask for a second click, which makes them sure; ``message`` says why."""
+
+    message: ipywidgets.HTML
+    _asked: tuple[ipywidgets.Button | None, str, float] = None, "", 0.0  # its label, and when
+
+    def _button(
+        self, label: str, icon: str, tooltip: str, action: _Action, question: str = "Replace?"
+    ) -> ipywidgets.Button:
+        """A button whose ``action(sure)`` returns what was done."""
+
+        def click() -> None:
+            asked, _, at = self._asked
+            # The second half of a double click is no answer.
+            sure = asked is made and time.monotonic() - at >= _DOUBLE_CLICK
+            self._show()
+            try:
+                self._say(action(sure))
+            except (exporting.OccupiedError, _UnsavedError) as error:
+                self._asked = made, label, time.monotonic()
+                made.description, made.button_style = question, "warning"
+                self._say(error.plain, REFUSED)
+            except (OSError, ValueError) as error:  # refusals for the user; others are bugs
+                self._say(str(error), REFUSED)
+
+        made = button(label, icon, tooltip, click)
+        return made
+
+    def _say(self, text: str, style: str = "") -> None:
+        self.message.value = paragraph(text, style)
+
+    def _show(self, _: Any = None) -> None:
+        """Ask nothing any more."""
+        (asked, label, _), self._asked = self._asked, (None, "", 0.0)
+        if asked is not None:
+            asked.description, asked.button_style = label, ""
+
+
+class KeptOffer(Asking, ipywidgets.HBox):
+    """Offers what an earlier editor of the picture has kept; hidden without that."""
+
+    def __init__(self, model: EditorModel) -> None:
+        self.model = model
+        super().__init__(layout={"display": "none", "align_items": "center"})
+        if (path := model.kept) is None:
+            return
+        self.message = ipywidgets.HTML()
+        self._say(_KEPT.format(datetime.fromtimestamp(path.stat().st_mtime)))
+        bring = self._button("Bring it back", "history", "Go on with it", self._bring)
+        discard = self._button("Discard", "trash", "Delete it", self._discard)
+        self.children, self.layout.display = [self.message, bring, discard], "flex"
+
+    def _bring(self, sure: bool) -> str:
+        if self.model.kept is not None and not sure:
+            check_saved(self.model, self.model.kept)
+        self.model.recover()
+        self.layout.display = "none"
+        return ""
+
+    def _discard(self, _: bool) -> str:
+        self.layout.display = "none"
+        self.model.discard_kept()
+        return ""
 
 
 class OpenPanel(ipywidgets.VBox):
@@ -112,7 +187,7 @@ class Clipboard(anywidget.AnyWidget):
         done(copied)
 
 
-class FilePanel(ipywidgets.VBox):
+class FilePanel(Asking, ipywidgets.VBox):
     """Sessions to open and save, and exports; files of others are replaced by a second click."""
 
     def __init__(self, model: EditorModel, animation: Animation | None = None) -> None:
@@ -142,8 +217,6 @@ class FilePanel(ipywidgets.VBox):
         """The lines of "Copy as Python"."""
         self.clipboard = Clipboard()
         self.message = ipywidgets.HTML()  # what was done, or why it was not
-        self._asked: tuple[ipywidgets.Button | None, float] = (None, 0.0)
-        self._labels: dict[ipywidgets.Button, str] = {}
         self._add_buttons()
         self._moving = _row("Motion", *([] if self.motion is None else [self.motion]))
         super().__init__(
@@ -182,29 +255,6 @@ class FilePanel(ipywidgets.VBox):
         self.download_button = made("Download", "download", browser, self._download)
         self.code_button = made("Copy as Python", "code", lines, self._copy)
 
-    def _button(
-        self, label: str, icon: str, tooltip: str, action: _Action, question: str = "Replace?"
-    ) -> ipywidgets.Button:
-        """A button whose ``action(sure)`` returns what was done; a second click makes it sure."""
-
-        def click() -> None:
-            asked, at = self._asked
-            # The second half of a double click is no answer.
-            sure = asked is made and time.monotonic() - at >= _DOUBLE_CLICK
-            self._show()
-            try:
-                self._say(action(sure))
-            except (exporting.OccupiedError, _UnsavedError) as error:
-                self._asked = made, time.monotonic()
-                made.description, made.button_style = question, "warning"
-                self._say(error.plain, REFUSED)
-            except (OSError, ValueError) as error:  # refusals for the user; others are bugs
-                self._say(str(error), REFUSED)
-
-        made = button(label, icon, tooltip, click)
-        self._labels[made] = label
-        return made
-
     @property
     def size(self) -> tuple[int, int]:
         """Width and height of an exported picture, of the original's proportions."""
@@ -225,9 +275,8 @@ class FilePanel(ipywidgets.VBox):
 
     def _open(self, sure: bool) -> str:
         path = existing_path(self.path.value)
-        if self.model.unsaved and not sure:
-            open_document(path)  # what cannot be opened needs no answer
-            raise _UnsavedError(_UNSAVED)
+        if not sure:
+            check_saved(self.model, path)
         self.model.load(path)
         return f"Opened {path.absolute()}"
 
@@ -297,14 +346,9 @@ class FilePanel(ipywidgets.VBox):
         self.clipboard.copy(lines, done)
         return "These lines make the map." + needed
 
-    def _say(self, text: str, style: str = "") -> None:
-        self.message.value = paragraph(text, style)
-
     def _show(self, _: Any = None) -> None:
         """Update what depends on the model and on other controls, and ask nothing any more."""
-        self._asked = (None, 0.0)
-        for asking, label in self._labels.items():
-            asking.description, asking.button_style = label, ""
+        super()._show()
         self._picture.layout.display = "flex" if self.format.value == ".png" else "none"
         moving = str(self.format.value).startswith(_MOTION)
         self._moving.layout.display = "flex" if moving else "none"

@@ -189,6 +189,29 @@ def test_the_next_editor_of_a_picture_offers_what_was_done(
     again.close()
 
 
+def test_kept_work_replaces_no_unsaved_work_unasked(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("GLID_NB_DATA", str(tmp_path))
+    monkeypatch.setattr("glid_nb.widgets.file_panel._DOUBLE_CLICK", 0.0)
+    first = Editor(bar(), n_vertices=300)
+    first.deformation.paused = True
+    first.add_handle((-7, 0))
+    first.close()
+    again = Editor(bar(), n_vertices=300)
+    again.deformation.paused = True
+    again.deformation.add_handles([(-7, 0), (7, 0)])
+    text, bring, _ = again.kept.children
+    bring.click()
+    assert len(again.pose) == 2
+    assert "Click again to open the other one without saving" in text.value
+    assert bring.description == "Replace?"
+    bring.click()
+    assert len(again.pose) == 1
+    assert again.kept.layout.display == "none"
+    again.close()
+
+
 def test_where_no_kernel_runs_a_picture_stands_for_the_editor(editor: Editor) -> None:
     def shown() -> np.ndarray:
         bundle = editor._repr_mimebundle_()
