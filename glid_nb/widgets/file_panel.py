@@ -26,6 +26,7 @@ from glid_nb.widgets.controls import REFUSED, button, paragraph
 _SUFFIX = ".glid"
 _DOUBLE_CLICK = 0.5  # seconds
 _MOTION = "motion"  # before the suffixes of moving pictures
+_MOVING = {".html": ".motion", ".glb": ".motion", ".zip": ".frames"}  # in names, before these
 _LABEL = {"width": "58px", "flex": "0 0 auto"}
 _WIDE = {"width": "auto", "min_width": "0", "flex": "1 1 auto"}
 _VIEWS = (("Whole shape", "fit"), ("Original frame", "source"))
@@ -289,8 +290,9 @@ class FilePanel(Asking, ipywidgets.VBox):
     def _chosen(self) -> tuple[Path, bool]:
         """The file to export, and whether it is of the motion."""
         chosen = str(self.format.value)
-        path = session_path(self.path.value).with_suffix(chosen.removeprefix(_MOTION))
-        return path, chosen.startswith(_MOTION)
+        moving, suffix = chosen.startswith(_MOTION), chosen.removeprefix(_MOTION)
+        suffix = _MOVING.get(suffix, "") * moving + suffix
+        return session_path(self.path.value).with_suffix(suffix), moving
 
     def _export(self, sure: bool) -> str:
         path, moving = self._chosen
@@ -305,12 +307,11 @@ class FilePanel(Asking, ipywidgets.VBox):
         return self._made(deliver)
 
     def _download(self, _: bool) -> str:
-        path, moving = self._chosen
-        stem = path.stem if moving else path.name.removesuffix(str(self.format.value))
+        together = f"{self._chosen[0].name.removesuffix('.json')}.zip"
 
         def deliver(files: Mapping[str, bytes]) -> str:
             one = len(files) == 1
-            name, data = next(iter(files.items())) if one else (f"{stem}.zip", zipped(files))
+            name, data = next(iter(files.items())) if one else (together, zipped(files))
             self.clipboard.download(name, data)
             return f"Sent {name} to the browser's downloads"
 

@@ -47,7 +47,7 @@ def test_the_exported_picture_is_the_rendering_and_what_the_canvas_shows(
     np.testing.assert_array_equal(imread(tmp_path / "bent.png"), whole)
 
     # The same through the browser, and files that belong together as one.
-    for label, stem in (("Picture (PNG)", "bent.png"), ("Mesh and texture (OBJ)", "bent.zip")):
+    for label, stem in (("Picture (PNG)", "bent.png"), ("Mesh and texture (OBJ)", "bent.obj.zip")):
         what.select_option(label=label)
         with page.expect_download() as download:
             files.get_by_role("button", name="Download").click()

@@ -16,6 +16,7 @@ from PIL import Image
 
 import glid_nb as glid
 from glid_nb.export import FORMATS, ExportError
+from glid_nb.export.formats import MOTION_FORMATS, file_names
 from glid_nb.imaging import PixelFrame
 from glid_nb.session.animation import Animation
 from glid_nb.session.editor_model import EditorModel
@@ -301,11 +302,38 @@ def test_every_export_can_be_had_through_the_browser(
         assert content["name"] == f"bent{suffix}"
         assert data == written[0].read_bytes()
     else:
-        assert content["name"] == "bent.zip"
+        assert content["name"] == f"bent{suffix.removesuffix('.json')}.zip"
         with zipfile.ZipFile(io.BytesIO(data)) as archive:
             assert {n: archive.read(n) for n in archive.namelist()} == {
                 path.name: path.read_bytes() for path in written
             }
+
+
+def test_no_two_exports_have_the_same_name(
+    model: EditorModel, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    animation, sent = Animation(model.deformation), list[str]()
+    panel = FilePanel(model, animation)
+    monkeypatch.setattr(panel.clipboard, "download", lambda name, _: sent.append(name))
+
+    def made(deliver: Any) -> str:
+        path, moving = panel._chosen
+        return deliver(dict.fromkeys(file_names(path.name, MOTION_FORMATS if moving else FORMATS)))
+
+    monkeypatch.setattr(panel, "_made", made)
+    monkeypatch.setattr("glid_nb.widgets.file_panel.zipped", lambda _: b"")
+    panel.path.value, written = "cat", list[str]()
+    for _, chosen in panel.format.options:
+        panel.format.value = chosen
+        panel.download_button.click()
+        written.append(panel._chosen[0].name)
+    assert len(sent) == len(written) == len(FORMATS) + len(MOTION_FORMATS)
+    assert len(set(sent)) == len(sent)
+    assert len(set(written)) == len(written)
+    still = {"cat.obj.zip", "cat.py.zip", "cat.proof.zip", "cat.html", "cat.glb"}
+    moving = {"cat.motion.html", "cat.motion.glb", "cat.frames.zip", "cat.motion.zip", "cat.gif"}
+    assert still | moving < set(sent)
+    animation.close()
 
 
 def test_files_are_named_after_the_picture(tmp_path: Path) -> None:
