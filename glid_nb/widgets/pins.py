@@ -13,6 +13,7 @@ from glid_nb.widgets.controls import EditControls, button
 
 _NOTHING = Pose([(0, 0)], [(0, 0)])  # what the fields show while nothing is selected
 _SCALE = "a scale from {:g} to {:g}, such as 1.5".format(*SCALES)
+_DEPTH = f"a depth from {-DEEPEST:g} to {DEEPEST:g}", -DEEPEST, DEEPEST
 
 
 class PinBar(EditControls):
@@ -34,40 +35,46 @@ class PinBar(EditControls):
 
     def _add_fields(self) -> None:
         style = {"description_width": "initial"}
-        look: dict[str, Any] = {"layout": ipywidgets.Layout(width="84px"), "style": style}
         late: dict[str, Any] = {"style": style, "continuous_update": False}
         shown: Any = {"tooltip": "The selected pin", "layout": {"width": "94px"}}
         self.list = ipywidgets.Dropdown(options=[("No pin", -1)], **shown)
         shown = {"tooltip": "The selected pin's name", "layout": {"width": "90px"}}
         self.name = ipywidgets.Text(placeholder="name", **shown, **late)
-        self.x = ipywidgets.FloatText(description="x", step=0.1, tooltip="Target", **look)
-        self.y = ipywidgets.FloatText(description="y", step=0.1, tooltip="Target", **look)
-        # A text field that has a description shows no tooltip, but that of a span in it.
-        free: Any = {"placeholder": "free", "description_allow_html": True, **late}
-        tip = "<span title='By how much the shape is {} at the pin; empty: free ({}, X)'>{}</span>"
-        tips = (("turned", "&lt; and &gt;", "Angle °"), ("scaled", "+ and -", "Scale"))
-        self.angle, self.scale = (ipywidgets.Text(description=tip.format(*w), **free) for w in tips)
-        self.angle.layout.width = self.scale.layout.width = "124px"
+
+        def field(name: str, tip: str, width: str, **more: Any) -> ipywidgets.Text:
+            # A text field that has a description shows no tooltip, but that of a span in it.
+            said: Any = {"description": f"<span title='{tip}'>{name}</span>", **more, **late}
+            return ipywidgets.Text(description_allow_html=True, layout={"width": width}, **said)
+
+        self.x, self.y = (field(name, "Target", "84px") for name in "xy")
+        free: Any = {"width": "124px", "placeholder": "free"}
+        tip = "By how much the shape is {} at the pin; empty: free ({}, X)".format
+        self.angle = field("Angle °", tip("turned", "&lt; and &gt;"), **free)
+        self.scale = field("Scale", tip("scaled", "+ and -"), **free)
+        tip = "Where parts overlap, those near pins of greater depth are in front"
+        self.depth = field("Depth", tip, "104px")
         tooltip = "How firmly the pin is held: soft to the left, firm to the right"
         scale: Any = {"min": -6, "max": 2, "step": 0.25, "value": 1, "readout_format": ".2g"}
         scale |= {"tooltip": tooltip, "layout": {"width": "196px"}}
         self.weight = ipywidgets.FloatLogSlider(description="Weight", base=10, **scale, **late)
-        tooltip = "Where parts overlap, those near pins of greater depth are in front"
-        look |= {"description": "Depth", "tooltip": tooltip, "layout": {"width": "104px"}}
-        self.depth = ipywidgets.BoundedFloatText(min=-DEEPEST, max=DEEPEST, **look)
 
     def _bind_fields(self, model: Deformation) -> None:
         def set_pins(**numbers: Any) -> None:
             model.set_pins(model.selection, **numbers)
 
+        def move(axis: int, text: str) -> None:
+            [target] = model.pose.targets[[model.selection[-1]]].tolist()
+            target[axis] = _number(text, "a coordinate, such as 7.5")
+            model.move_target(model.selection[-1], target)
+
         self._bind(self.list, lambda chosen: model.select([] if chosen == -1 else [chosen]))
         self._bind(self.name, lambda name: model.name_pin(model.selection[-1], name))
-        self._bind(self.x, lambda x: model.move_target(model.selection[-1], (x, self.y.value)))
-        self._bind(self.y, lambda y: model.move_target(model.selection[-1], (self.x.value, y)))
+        self._bind(self.x, lambda text: move(0, text))
+        self._bind(self.y, lambda text: move(1, text))
         self._bind(self.angle, lambda text: set_pins(angles=_radians(text)))
-        self._bind(self.scale, lambda text: set_pins(scales=_number(text, _SCALE, *SCALES)))
+        self._bind(self.scale, lambda text: set_pins(scales=_free(text, _SCALE, *SCALES)))
         self._bind(self.weight, lambda weight: set_pins(weights=weight))
-        self._bind(self.depth, lambda depth: model.set_depths(model.selection, depth))
+        self._bind(self.depth, lambda d: model.set_depths(model.selection, _number(d, *_DEPTH)))
 
     def _add_buttons(self, model: Deformation) -> None:
         narrow = ipywidgets.Layout(width="38px")
@@ -102,11 +109,12 @@ class PinBar(EditControls):
             control.disabled = not selection
         self.mirror.disabled = not len(pose)
         shown = pose.only([selection[-1]]) if selection else _NOTHING
-        [(self.x.value, self.y.value)] = shown.targets.round(3).tolist()
+        places = (*shown.targets[0], *shown.depths)
+        self.x.value, self.y.value, self.depth.value = (f"{v.round(3) + 0.0:.8g}" for v in places)
         [self.name.value] = shown.names.tolist()
         self.angle.value = _free_or(np.degrees(shown.angles[0]))
         self.scale.value = _free_or(shown.scales[0])
-        self.weight.value, self.depth.value = float(shown.weights[0]), float(shown.depths[0])
+        self.weight.value = float(shown.weights[0])
 
 
 def _free_or(number: float) -> str:
@@ -114,20 +122,23 @@ def _free_or(number: float) -> str:
 
 
 def _radians(text: str) -> float | None:
-    degrees = _number(text, "an angle in degrees, such as 30")
+    degrees = _free(text, "an angle in degrees, such as 30")
     return None if degrees is None else float(wrapped(np.radians(degrees)))
 
 
-def _number(text: str, wanted: str, least: float = -1e9, most: float = 1e9) -> float | None:
+def _free(text: str, wanted: str, *limits: float) -> float | None:
     """The number in a field; None for an empty one or the word "free"."""
-    text = text.strip().rstrip("°").replace(",", ".")
-    if text in ("", "free"):
+    if text.strip() in ("", "free"):
         return None
+    return _number(text, f"{wanted}, or nothing to leave it free", *limits)
+
+
+def _number(text: str, wanted: str, least: float = -1e9, most: float = 1e9) -> float:
     try:
-        number = float(text)
+        number = float(text.strip().rstrip("°").replace(",", "."))
     except ValueError:
         number = np.nan
     if not least <= number <= most:
         wrong = "no number" if np.isnan(number) else "out of range"
-        raise EditError(f"{text!r:.40} is {wrong}; type {wanted}, or nothing to leave it free")
+        raise EditError(f"{text!r:.40} is {wrong}; type {wanted}")
     return number

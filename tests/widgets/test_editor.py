@@ -472,21 +472,30 @@ def test_the_numbers_of_pins_and_the_model_show_each_other() -> None:
         model.add_handles([(2, 0), (-2, 0.25)])
         model.select([0, 1])
         assert [name for name, _ in bar.list.options] == ["No pin", "Pin 1", "Pin 2"]
-        assert (bar.list.value, bar.x.value, bar.y.value, bar.depth.value) == (1, -2, 0.25, 0)
+        assert (bar.list.value, bar.x.value, bar.y.value, bar.depth.value) == (1, "-2", "0.25", "0")
         bar.name.value = "tail"
         assert model.pose.names.tolist() == ["", "tail"]
         assert [name for name, _ in bar.list.options] == ["No pin", "Pin 1", "2 tail"]
         bar.back.click()
         assert model.pose.depths.tolist() == [-1, -1]
-        assert bar.depth.value == -1
+        assert bar.depth.value == "-1"
         bar.list.value = 0
         assert model.selection == (0,)
-        bar.x.value = 2.5
-        bar.depth.value = 0.5
+        bar.x.value = "2,5"
+        bar.depth.value = "0,5"
         assert model.pose.targets.tolist() == [[2.5, 0], [-2, 0.25]]
         assert model.pose.depths.tolist() == [0.5, -1]
+        for field, refused, needed in (
+            (bar.x, "", "is no number; type a coordinate, such as 7.5<"),
+            (bar.y, "abc", "is no number; type a coordinate"),
+            (bar.y, "1e30", "is out of range; type a coordinate"),
+            (bar.depth, "1e30", "is out of range; type a depth from -100 to 100<"),
+        ):
+            field.value = refused
+            assert needed in bar.refusal.value
+        assert (bar.x.value, bar.y.value, bar.depth.value) == ("2.5", "0", "0.5")
         model.undo()
-        assert bar.depth.value == -1
+        assert bar.depth.value == "-1"
         bar.angle.value, bar.scale.value, bar.weight.value = "30", "1,5", 0.01
         assert np.degrees(model.pose.angles[0]) == pytest.approx(30)
         assert (model.pose.scales[0], model.pose.weights[0]) == (1.5, 0.01)
@@ -511,7 +520,7 @@ def test_the_numbers_of_pins_and_the_model_show_each_other() -> None:
         bar.list.value = -1
         assert model.selection == ()
         assert bar.depth.disabled
-        assert (bar.x.value, bar.name.value, bar.angle.value, bar.weight.value) == (0, "", "", 1)
+        assert (bar.x.value, bar.name.value, bar.angle.value, bar.weight.value) == ("0", "", "", 1)
         bar.close()
 
 
