@@ -348,6 +348,19 @@ def test_what_is_beside_the_canvas_neither_takes_undo_nor_moves_it(
         book.wait_for(f"len(model.pose) == {left}")
     page.keyboard.press("Control+Shift+Z")
     book.wait_for("len(model.pose) == 1")
+    # Also where a button of them ran out, which loses the focus.
+    for title, counts, key, left in (
+        ("Undo (Ctrl+Z)", (0,), "Control+Shift+Z", 1),
+        ("Redo (Ctrl+Shift+Z)", (2, 3), "Control+z", 2),
+    ):
+        for count in counts:
+            page.locator(f".glid-tools button[title='{title}']").click()
+            book.wait_for(f"len(model.pose) == {count}")
+        page.wait_for_function("document.activeElement.matches('.glid-editor')")
+        page.keyboard.press(key)
+        book.wait_for(f"len(model.pose) == {left}")
+    page.keyboard.press("Control+z")
+    book.wait_for("len(model.pose) == 1")
     page.get_by_role("tab", name="Files").click()
     page.get_by_placeholder("Name.glid").click()
     page.keyboard.press("Control+z")

@@ -23,9 +23,10 @@ export function keysAround(element, act, signal, whole = element) {
   const on = (e) => {
     const editor = element.closest(".glid-editor") ?? whole, { target } = e;
     if (!editor.contains(target) || !element.checkVisibility()) return;
-    if (e.type === "pointerdown") { // a click on any part of it focuses it; after one on a tab, so does this
-      editor.tabIndex = -1;
-      return void (target.closest("[role=tab]") && editor.focus({ preventScroll: true }));
+    if (e.type !== "keydown") { // a click on any part of it focuses it; after one on a tab, so does this
+      editor.tabIndex = -1; // and when Undo, which has the focus, runs out
+      const lost = e.type === "focusout" ? target.disabled : target.closest("[role=tab]");
+      return void (lost && editor.focus({ preventScroll: true }));
     }
     const command = e.ctrlKey || e.metaKey, outside = !element.contains(target);
     const ours = undoOrRedo(e) || !(command || (outside && e.shiftKey && e.key === "Enter"));
@@ -36,7 +37,7 @@ export function keysAround(element, act, signal, whole = element) {
     const chosen = !command && free.test(e.key) && !target.matches("select");
     if (undoOrRedo(e) ? !e.altKey : chosen) act(e);
   };
-  for (const name of ["pointerdown", "keydown"]) {
+  for (const name of ["pointerdown", "focusout", "keydown"]) {
     window.addEventListener(name, on, { capture: true, signal });
   }
 }
