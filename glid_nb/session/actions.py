@@ -152,8 +152,7 @@ def set_stiffness(state: EditState, stiffness: Stiffness) -> EditState:
 def reset(state: EditState) -> EditState:
     """The undeformed shape: the identity map, and all pins at rest; what is free stays free."""
     old = state.pose
-    unturned: Any = {"angles": abs(0 * old.angles), "scales": 0 * old.scales + 1}
-    pose = replace(old, targets=old.handles, **unturned)
+    pose = replace(old, targets=old.handles, angles=abs(0 * old.angles), scales=0 * old.scales + 1)
     return state.changed(pose=pose, map=state.identity)
 
 

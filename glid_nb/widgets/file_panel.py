@@ -37,10 +37,9 @@ _UNSAVED = (
     "This session is in no file yet. Click again to open the other one without saving, or save it "
     "under another name first."
 )
-
 _KEPT = "Another editor's work on this picture is kept, last changed on {:%d %B at %H:%M}."
 
-_Action = Callable[[bool], str]  # what a button does, if it is sure; says what was done
+_Action = Callable[[bool], str | None]  # what a button does, if it is sure; says what was done
 
 
 class _UnsavedError(InputError):
@@ -67,16 +66,10 @@ def existing_path(text: str) -> Path:
     return path if path.is_file() else session_path(text)
 
 
-def check_saved(model: EditorModel, path: Path) -> None:
-    """Raise if to go on with a session file would discard what is in no file."""
-    if model.unsaved:
-        open_document(path)  # what cannot be opened needs no answer
-        raise _UnsavedError(_UNSAVED)
-
-
 class Asking:
     """Buttons that may ask for a second click, which makes them sure; ``message`` says why."""
 
+    model: EditorModel
     message: ipywidgets.HTML
     _asked: tuple[ipywidgets.Button | None, str, float] = None, "", 0.0  # its label, and when
 
@@ -91,7 +84,7 @@ class Asking:
             sure = asked is made and time.monotonic() - at >= _DOUBLE_CLICK
             self._show()
             try:
-                self._say(action(sure))
+                self._say(action(sure) or "")
             except (exporting.OccupiedError, _UnsavedError) as error:
                 self._asked = made, label, time.monotonic()
                 made.description, made.button_style = question, "warning"
@@ -101,6 +94,11 @@ class Asking:
 
         made = button(label, icon, tooltip, click)
         return made
+
+    def _check_saved(self, path: Path, sure: bool) -> None:
+        if self.model.unsaved and not sure:
+            open_document(path)  # what cannot be opened needs no answer
+            raise _UnsavedError(_UNSAVED)
 
     def _say(self, text: str, style: str = "") -> None:
         self.message.value = paragraph(text, style)
@@ -120,42 +118,33 @@ class KeptOffer(Asking, ipywidgets.HBox):
         super().__init__(layout={"display": "none", "align_items": "center"})
         if (path := model.kept) is None:
             return
+
+        def bring(sure: bool) -> None:
+            self._check_saved(path, sure)
+            end(model.recover)
+
+        def end(act: Callable[[], None]) -> None:
+            act()
+            self.layout.display = "none"
+
         self.message = ipywidgets.HTML()
         self._say(_KEPT.format(datetime.fromtimestamp(path.stat().st_mtime)))
-        bring = self._button("Bring it back", "history", "Go on with it", self._bring)
-        discard = self._button("Discard", "trash", "Delete it", self._discard)
-        self.children, self.layout.display = [self.message, bring, discard], "flex"
-
-    def _bring(self, sure: bool) -> str:
-        if self.model.kept is not None and not sure:
-            check_saved(self.model, self.model.kept)
-        self.model.recover()
-        self.layout.display = "none"
-        return ""
-
-    def _discard(self, _: bool) -> str:
-        self.layout.display = "none"
-        self.model.discard_kept()
-        return ""
+        back = self._button("Bring it back", "history", "Go on with it", bring)
+        discard = self._button("Discard", "trash", "Delete it", lambda _: end(model.discard_kept))
+        self.children, self.layout.display = [self.message, back, discard], "flex"
 
 
-class OpenPanel(ipywidgets.VBox):
+class OpenPanel(Asking, ipywidgets.VBox):
     """Opens a session file by its name, before there is a picture."""
 
     def __init__(self, model: EditorModel) -> None:
-        self.model = model
         self.path = ipywidgets.Text(placeholder="session.glid", layout={"width": "280px"})
         """The file, relative to the notebook."""
-        self.button = button("Open session", "folder-open", "Go on with a session file", self._open)
+        look = "Open session", "folder-open", "Go on with a session file"
+        self.button = self._button(*look, lambda _: model.load(existing_path(self.path.value)))
         self.message = ipywidgets.HTML()
         row = ipywidgets.HBox([self.path, self.button])
         super().__init__([row, self.message], layout={"padding": "0 0 2em 2em"})
-
-    def _open(self) -> None:
-        try:
-            self.model.load(existing_path(self.path.value))
-        except (OSError, ValueError) as error:  # refusals for the user; anything else is a bug
-            self.message.value = paragraph(str(error))
 
 
 class Clipboard(anywidget.AnyWidget):
@@ -276,8 +265,7 @@ class FilePanel(Asking, ipywidgets.VBox):
 
     def _open(self, sure: bool) -> str:
         path = existing_path(self.path.value)
-        if not sure:
-            check_saved(self.model, path)
+        self._check_saved(path, sure)
         self.model.load(path)
         return f"Opened {path.absolute()}"
 

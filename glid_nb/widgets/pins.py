@@ -12,8 +12,11 @@ from glid_nb.solvers.pose import DEEPEST, SCALES, Pose
 from glid_nb.widgets.controls import EditControls, button
 
 _NOTHING = Pose([(0, 0)], [(0, 0)])  # what the fields show while nothing is selected
-_SCALE = "a scale from {:g} to {:g}, such as 1.5".format(*SCALES)
-_DEPTH = f"a depth from {-DEEPEST:g} to {DEEPEST:g}", -DEEPEST, DEEPEST
+# What to type, the limits, and whether nothing sets free.
+_PLACE = "a coordinate, such as 7.5", -1e9, 1e9, False
+_DEPTH = f"a depth from {-DEEPEST:g} to {DEEPEST:g}", -DEEPEST, DEEPEST, False
+_ANGLE = "an angle in degrees, such as 30", -1e9, 1e9, True
+_SCALE = "a scale from {:g} to {:g}, such as 1.5".format(*SCALES), *SCALES, True
 
 
 class PinBar(EditControls):
@@ -47,12 +50,12 @@ class PinBar(EditControls):
             return ipywidgets.Text(description_allow_html=True, layout={"width": width}, **said)
 
         self.x, self.y = (field(name, "Target", "84px") for name in "xy")
+        tip = "Where parts overlap, those near pins of greater depth are in front"
+        self.depth = field("Depth", tip, "104px")
         free: Any = {"width": "124px", "placeholder": "free"}
         tip = "By how much the shape is {} at the pin; empty: free ({}, X)".format
         self.angle = field("Angle °", tip("turned", "&lt; and &gt;"), **free)
         self.scale = field("Scale", tip("scaled", "+ and -"), **free)
-        tip = "Where parts overlap, those near pins of greater depth are in front"
-        self.depth = field("Depth", tip, "104px")
         tooltip = "How firmly the pin is held: soft to the left, firm to the right"
         scale: Any = {"min": -6, "max": 2, "step": 0.25, "value": 1, "readout_format": ".2g"}
         scale |= {"tooltip": tooltip, "layout": {"width": "196px"}}
@@ -64,15 +67,15 @@ class PinBar(EditControls):
 
         def move(axis: int, text: str) -> None:
             [target] = model.pose.targets[[model.selection[-1]]].tolist()
-            target[axis] = _number(text, "a coordinate, such as 7.5")
+            target[axis] = _number(text, *_PLACE)
             model.move_target(model.selection[-1], target)
 
         self._bind(self.list, lambda chosen: model.select([] if chosen == -1 else [chosen]))
         self._bind(self.name, lambda name: model.name_pin(model.selection[-1], name))
         self._bind(self.x, lambda text: move(0, text))
         self._bind(self.y, lambda text: move(1, text))
-        self._bind(self.angle, lambda text: set_pins(angles=_radians(text)))
-        self._bind(self.scale, lambda text: set_pins(scales=_free(text, _SCALE, *SCALES)))
+        self._bind(self.angle, lambda a: set_pins(angles=wrapped(np.radians(_number(a, *_ANGLE)))))
+        self._bind(self.scale, lambda text: set_pins(scales=_number(text, *_SCALE)))
         self._bind(self.weight, lambda weight: set_pins(weights=weight))
         self._bind(self.depth, lambda d: model.set_depths(model.selection, _number(d, *_DEPTH)))
 
@@ -121,24 +124,17 @@ def _free_or(number: float) -> str:
     return "" if np.isnan(number) else f"{round(number, 4) + 0.0:.4g}"  # neither -0 nor 3e-14
 
 
-def _radians(text: str) -> float | None:
-    degrees = _free(text, "an angle in degrees, such as 30")
-    return None if degrees is None else float(wrapped(np.radians(degrees)))
-
-
-def _free(text: str, wanted: str, *limits: float) -> float | None:
-    """The number in a field; None for an empty one or the word "free"."""
-    if text.strip() in ("", "free"):
-        return None
-    return _number(text, f"{wanted}, or nothing to leave it free", *limits)
-
-
-def _number(text: str, wanted: str, least: float = -1e9, most: float = 1e9) -> float:
+def _number(text: str, wanted: str, least: float, most: float, free: bool) -> float:
+    """The number in a field; NaN for an empty one, or the word "free", where that may be."""
+    text = text.strip().rstrip("°").replace(",", ".")
+    if free and text in ("", "free"):
+        return np.nan
     try:
-        number = float(text.strip().rstrip("°").replace(",", "."))
+        number = float(text)
     except ValueError:
         number = np.nan
     if not least <= number <= most:
         wrong = "no number" if np.isnan(number) else "out of range"
+        wanted += ", or nothing to leave it free" * free
         raise EditError(f"{text!r:.40} is {wrong}; type {wanted}")
     return number
