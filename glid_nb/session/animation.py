@@ -100,7 +100,7 @@ class Animation(Observed):
         """Keep the next drag as keyframes, or do not."""
         with self.locked():
             self.recording, self._began, self._samples = on, None, []
-            self._tell("recording")
+            self.tell("recording")
 
     def wait(self, timeout: float | None = None) -> bool:
         """Wait until all is proved or refused; whether that is within ``timeout`` seconds."""
@@ -111,7 +111,7 @@ class Animation(Observed):
         self._worker.close()
 
     def _on_model(self, what: str) -> None:
-        if what == "selection":
+        if what in ("selection", "hand"):
             return
         model, finished = self.deformation, None
         with model.locked():  # always before this one's lock
@@ -132,7 +132,7 @@ class Animation(Observed):
             spans = _spans(task)
             if [(*s[:2], "computing") for s in spans] != [(*s[:2], s.status) for s in self.spans]:
                 self.spans = spans
-                self._tell("motion")
+                self.tell("motion")
         self._task = task
         at_rest = not moment.dragged and (settled or (self.deformation.begun and not moment.busy))
         left = not moment.paused and not self._worker.busy and _left(task) is not None
@@ -160,7 +160,7 @@ class Animation(Observed):
             return None
         (began, before), samples = self._began, self._samples
         self.recording, self._began, self._samples = False, None, []
-        self._tell("recording")
+        self.tell("recording")
         if not past or past[-1] is not before:
             return None  # the drag was cancelled
         samples = [(began, before.current), *samples, (now, state.current)]
@@ -201,7 +201,7 @@ class Animation(Observed):
         with self.locked():
             if _same_motion(task, self._task):
                 self.spans = tuple(spans)
-                self._tell("motion")
+                self.tell("motion")
 
 
 def _left(task: EditState) -> NamedPose | None:

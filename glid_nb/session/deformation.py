@@ -43,8 +43,8 @@ class Deformation(Undoable[EditState], AbstractContextManager["Deformation"]):
     """A domain being deformed: its state, its undo history, and a thread that solves.
 
     Every method may be called from any thread. ``observe`` reports changes by name: ``"state"``
-    (handles, targets, poses, options, undo), ``"frame"`` (a new map), ``"selection"`` and
-    ``"status"``. It begins without handles unless a pose is given, with
+    (handles, targets, poses, options, undo), ``"frame"`` (a new map), ``"selection"``, ``"status"``
+    and ``"hand"`` (a canvas' gesture ended). It begins without handles unless a pose is given, with
     :data:`~glid_nb.session.edit_state.LIVE_OPTIONS` unless others are. With ``begin`` it solves
     from the start; else from :meth:`begin` or the first change on.
 
@@ -270,7 +270,7 @@ class Deformation(Undoable[EditState], AbstractContextManager["Deformation"]):
             self.history = self.history.step(moved, gesture=self.dragged)
             self._error = None
             self._submit()
-            self._tell("state", "status")
+            self.tell("state", "status")
 
     def end_drag(self) -> None:
         """End the drag, if any; the whole drag is one step for undo."""
@@ -282,7 +282,7 @@ class Deformation(Undoable[EditState], AbstractContextManager["Deformation"]):
             if origin is not None and _asks_alike(origin.present.pose, self.pose):
                 self.history = origin.refined(self.state)  # the drag came back to its start
             self.history = self.history.ended()
-            self._tell("state")
+            self.tell("state")
 
     def cancel_drag(self) -> bool:
         """End the drag and go back to exactly the state before it; whether there was one."""
@@ -290,7 +290,7 @@ class Deformation(Undoable[EditState], AbstractContextManager["Deformation"]):
             if not self.dragged:
                 return False
             self.dragged = ()
-            self._tell("state")
+            self.tell("state")
             self._go_to(self.history.cancelled())
             return True
 
@@ -309,7 +309,7 @@ class Deformation(Undoable[EditState], AbstractContextManager["Deformation"]):
             if pose is not state.current and not self._closed:
                 poses = tuple(solved if each is pose else each for each in state.poses)
                 self.history = self.history.refined(replace(state, poses=poses))
-                self._tell("state")
+                self.tell("state")
 
     # Undo
 
@@ -334,7 +334,7 @@ class Deformation(Undoable[EditState], AbstractContextManager["Deformation"]):
             chosen = tuple(dict.fromkeys(int(i) for i in indices if 0 <= i < count))
             if chosen != self.selection:
                 self.selection = chosen
-                self._tell("selection")
+                self.tell("selection")
 
     # Solving
 
@@ -343,7 +343,7 @@ class Deformation(Undoable[EditState], AbstractContextManager["Deformation"]):
         with self.locked():
             if not self.begun:
                 self._submit()
-                self._tell("status")
+                self.tell("status")
 
     def solve(self, timeout: float | None = None) -> bool:
         """Wait until the present pose is solved; whether it is within ``timeout`` seconds.
@@ -378,7 +378,7 @@ class Deformation(Undoable[EditState], AbstractContextManager["Deformation"]):
             self._paused = value
             if not self.moment.solved and (self.begun or not value):
                 self._submit()
-            self._tell("state", "status")
+            self.tell("state", "status")
 
     def step(self) -> None:
         """Make one compiled call of the solver, also while paused."""
@@ -413,7 +413,7 @@ class Deformation(Undoable[EditState], AbstractContextManager["Deformation"]):
                 self._frame = None
         self.selection = _still_there(self.selection, old.pose, new.pose)
         self._submit()
-        self._tell("state", "frame", "selection", "status")
+        self.tell("state", "frame", "selection", "status")
         return True
 
     def _submit(self, single: bool = False) -> None:
@@ -435,19 +435,19 @@ class Deformation(Undoable[EditState], AbstractContextManager["Deformation"]):
                 new = replace(current, map=frame.map, solution=frame.solution if latest else None)
                 self.history = self.history.refined(self.state.with_current(new))
             self._frame, self._error = frame, None
-            self._tell("frame", "status")
+            self.tell("frame", "status")
 
     def _prepare(self, share: float) -> None:
         with self.locked():
             self._prepared = share
-            self._tell("status")
+            self.tell("status")
 
     def _fail(self, error: Exception) -> None:
         with self.locked():
             self._error = error
             if self.moment.comparison is not None:
                 self._frame = None  # of an earlier problem
-            self._tell("frame", "status")
+            self.tell("frame", "status")
 
 
 def _asks_alike(a: Pose, b: Pose) -> bool:

@@ -322,7 +322,7 @@ class EditorModel(Observed):
         old, self._session = self._session, self._session_of(deformation)
         if old is not None:
             old.deformation.close()  # without waiting for its thread, which may want this lock
-        self._tell("replaced")
+        self.tell("replaced")
         deformation.observe(functools.partial(self._on_change, deformation))
 
     def _on_change(self, deformation: Deformation, what: str) -> None:
@@ -351,7 +351,7 @@ class EditorModel(Observed):
     def _saved(self, error: Exception | None) -> None:
         keeps = self._named_path is None  # what no file can hold is said when it is saved
         self.save_error = None if keeps and isinstance(error, DocumentError) else error
-        self._announce("saved")  # not by _tell: a thread that waits for the save may hold the lock
+        self._announce("saved")  # not by tell: a thread that waits for the save may hold the lock
 
 
 def _apply(deformation: Deformation, domain: Domain) -> str:

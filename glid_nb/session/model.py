@@ -99,10 +99,10 @@ class Observed:
 
         return end
 
-    def _tell(self, *names: str) -> None:
-        """Report these changes once the lock, which must be held, is released."""
-        assert self._depth
-        self._changes.update(dict.fromkeys(names))
+    def tell(self, *names: str) -> None:
+        """Report these changes once the lock is released."""
+        with self.locked():
+            self._changes.update(dict.fromkeys(names))
 
     def _announce(self, *names: str) -> None:
         for observer in tuple(self._observers) if names else ():
@@ -147,5 +147,5 @@ class Undoable(Observed, Generic[S]):
         changes = history is not self.history
         if changes:
             self.history = history
-            self._tell("state")
+            self.tell("state")
         return changes

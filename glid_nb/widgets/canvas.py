@@ -272,6 +272,8 @@ class DeformCanvas(ClosingWidget, ipywidgets.HBox):
         stage = self.pane.stage
         stage.notice = self.gestures.handle(events) or ""
         stage.set_trait("cursor", self.gestures.cursor)
+        if events[-1]["type"] not in ("down", "move"):  # nothing is held
+            self.deformation.tell("hand")
         return stage.notice or None
 
     def _show_source(self, _: Any = None) -> None:

@@ -30,6 +30,7 @@ from glid_nb.widgets import exporting
 from glid_nb.widgets.brush import BrushBar
 from glid_nb.widgets.canvas import DeformCanvas, Toolbar, check_size
 from glid_nb.widgets.closing import ClosingWidget, close_with_parts, one_a_cell
+from glid_nb.widgets.controls import REFUSED, paragraph
 from glid_nb.widgets.file_panel import FilePanel, KeptOffer, OpenPanel
 from glid_nb.widgets.monitor import SolverMonitor
 from glid_nb.widgets.pins import PinBar
@@ -295,11 +296,11 @@ class Editor(ClosingWidget, ipywidgets.VBox):
         if self._displayed and self.model.has_shape:
             self.deformation.begin()
 
-    def _fill(self) -> None:
-        """Make the parts that are still missing."""
+    def _fill(self, *names: str) -> None:
+        """Make these parts, by default all, where they are still missing."""
         with self.model.locked():
             if not self._closed:
-                for name in self._boxes:
+                for name in names or self._boxes:
                     self._part(name)
 
     def _part(self, name: str) -> Any:
@@ -313,7 +314,12 @@ class Editor(ClosingWidget, ipywidgets.VBox):
             if name not in self._parts:
                 if self._closed:
                     raise RuntimeError("the editor is closed; this part of it was never made")
-                self._parts[name] = part = makers[name]()
+                try:
+                    part = self._parts[name] = makers[name]()
+                except Exception as error:  # logged by the kernel, where nobody looks
+                    what = paragraph(f"{type(error).__name__}: {error}", REFUSED)
+                    self._boxes[name].children = [ipywidgets.HTML(what)]
+                    raise
                 self._boxes[name].children = [part]
             return self._parts[name]
 
@@ -326,11 +332,13 @@ class Editor(ClosingWidget, ipywidgets.VBox):
     def _deform_tab(self) -> ipywidgets.Widget:
         model, image = self.model.deformation, self.model.image
         assert image is not None
-        self.canvas = DeformCanvas(image, model, **self._asked)
+        self.canvas = canvas = DeformCanvas(image, model, **self._asked)
         self.toolbar = Toolbar(self.canvas)
         self.monitor = monitor = SolverMonitor(model, _SIDE_WIDTH, _PLOTS_HEIGHT)
-        # A first drag has the processor before the numbers and what other tabs hide.
+        # A first drag has the processor before what other tabs hide, and ends before the numbers.
         monitor.observe(lambda _: self._fill(), ["rested"])
+        canvas.brush.observe(lambda _: model.tell("hand"), ["tool"])
+        model.observe(lambda what: self._fill("pins") if what == "hand" else None)
         self.timeline = TimelinePanel(self.canvas, self._open_files)
         # Boxes to be filled: if the children changed, the page would select another tab.
         self._boxes |= {"solver": ipywidgets.VBox(), "files": ipywidgets.VBox()}

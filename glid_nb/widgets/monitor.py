@@ -93,7 +93,6 @@ class SolverMonitor(ClosingWidget, ipywidgets.VBox):
         how: Any = {"interval": _INTERVAL, "waits": False}  # it may be importing matplotlib
         self._worker = LatestWins[None](weakly(self._update), self, "monitor", **how)
         self._drawn: Any = None
-        self._failed = ""  # the error of what waited for rest, or of the plots
         super().__init__([self.line, self.plots] if plots else [self.line], **kwargs)
         self.add_class("glid-monitor")
         self.image.add_class("glid-plots")
@@ -119,15 +118,6 @@ class SolverMonitor(ClosingWidget, ipywidgets.VBox):
             self._worker.submit(None)
 
     def _update(self, *_: Any) -> None:
-        try:
-            self._follow()
-        except Exception as error:  # the thread reports it where nobody looks
-            if not self._failed:
-                self._worker.submit(None)  # so that the line says it
-            self._failed = f" · {type(error).__name__}: {error}"
-            raise
-
-    def _follow(self) -> None:
         with self.deformation.locked():
             if self._closed:
                 return
@@ -151,10 +141,8 @@ class SolverMonitor(ClosingWidget, ipywidgets.VBox):
             self._draw(moment)
 
     def _status(self, moment: Moment) -> StatusLine:
-        """The model's status; in a solve with the frames per second; what failed in this thread."""
+        """The model's status; during a solve with the number of frames per second."""
         status = describe(moment)
-        if self._failed:
-            return StatusLine("error", status.text + self._failed)
         while self._frames and self._frames[0] < time.monotonic() - _RATE_WINDOW:
             self._frames.popleft()
         rate = len(self._frames)

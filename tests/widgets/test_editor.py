@@ -405,6 +405,52 @@ def test_a_tab_is_filled_when_it_is_chosen(editor: Editor) -> None:
     assert box.children == (editor.solver_panel,)
 
 
+def test_the_numbers_come_when_the_first_gesture_has_ended(
+    editor: Editor, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    canvas, numbers = editor.canvas, editor._boxes["pins"]
+    assert canvas is not None
+    editor.deformation.paused = True
+    where = {"x": -7.0, "y": 0.0, "button": 0, "shift": False, "reach": 0.3, "unit": 0.02}
+    for step in (0.0, 0.5, 1.0):  # nothing takes the processor from the first drag
+        canvas.handle([{**where, "type": "move" if step else "down", "x": where["x"] + step}])
+        assert numbers.children == ()
+    canvas.handle([{**where, "type": "up"}])
+    assert len(editor.pose) == 1
+    assert len(numbers.children) == 1
+    # With no lock held, which another thread may hold that wants the editor's.
+    depths = []
+    monkeypatch.setattr(editor, "_fill", lambda _: depths.append(editor.deformation._depth))
+    canvas.handle([{**where, "type": "key", "key": "b"}])
+    assert set(depths) == {0}
+
+
+def test_the_numbers_come_with_the_brush(editor: Editor) -> None:
+    assert editor._boxes["pins"].children == ()
+    editor.toolbar.stiff.value = True
+    assert len(editor._boxes["pins"].children) == 1
+
+
+def test_a_part_that_cannot_be_made_says_why_in_its_place(
+    editor: Editor, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def fail(_: object) -> None:
+        raise ValueError("no such <option>")
+
+    caught: list[Any] = []
+    monkeypatch.setattr(threading, "excepthook", caught.append)
+    monkeypatch.setattr("glid_nb.widgets.monitor._REST", 0.0)
+    with monkeypatch.context() as patched:
+        patched.setattr("glid_nb.widgets.editor.PinBar", fail)
+        assert editor.solve(TIMEOUT)
+        assert editor.monitor.refresh(TIMEOUT)
+        [said] = editor._boxes["pins"].children
+        assert "ValueError: no such &lt;option&gt;" in said.value
+        assert [str(report.exc_value) for report in caught] == ["no such <option>"]  # for the log
+    editor.toolbar.stiff.value = True
+    assert said not in editor._boxes["pins"].children
+
+
 def test_the_colours_are_those_of_the_figures() -> None:
     expected = distortion_colors()(np.linspace(0, 1, N_COLORS))[:, :3]
     np.testing.assert_allclose(rgb(COLORS), expected, atol=0.5 / 255 + 1e-9)

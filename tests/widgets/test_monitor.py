@@ -139,24 +139,6 @@ def test_at_rest_all_say_what_the_final_certificate_proves(
     assert shown_bound(monitor) == f"σ₂ ≥ {lower}"
 
 
-def test_what_fails_at_rest_is_said(
-    model: Deformation, monitor: SolverMonitor, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    def fail(_: object) -> None:
-        raise ValueError("no such <option>")
-
-    caught: list[Any] = []
-    monkeypatch.setattr(threading, "excepthook", caught.append)
-    monkeypatch.setattr("glid_nb.widgets.monitor._REST", 0.0)
-    monitor.observe(fail, ["rested"])
-    model.begin()
-    assert model.solve(TIMEOUT)
-    assert monitor.refresh(TIMEOUT)
-    assert monitor.text.endswith(" · ValueError: no such <option>")
-    assert "ValueError: no such &lt;option&gt;" in monitor.line.value
-    assert [str(report.exc_value) for report in caught] == ["no such <option>"]  # for the log
-
-
 @pytest.mark.slow
 def test_the_last_drawing_is_that_at_rest(
     model: Deformation, monitor: SolverMonitor, monkeypatch: pytest.MonkeyPatch
