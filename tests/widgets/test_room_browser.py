@@ -127,9 +127,9 @@ def test_the_tracer_takes_the_room_that_there_is(open_notebook: OpenNotebook) ->
         page.wait_for_function(
             """() => {
               const stage = document.querySelector('.glid-stage[data-viewport]');
-              const [scale, left] = (stage?.dataset.viewport ?? '').split(' ').map(Number);
+              const [scale, left, top] = (stage?.dataset.viewport ?? '').split(' ').map(Number);
               return Math.abs(2 * left + 200 * scale - stage?.clientWidth) < 1
-                && Math.min(left, (stage.clientHeight - 100 * scale) / 2) < 30;
+                && Math.min(left, top) < 30;
             }"""
         )
         return float((stage.get_attribute("data-viewport") or "").split()[0])
@@ -153,6 +153,23 @@ def test_the_tracer_takes_the_room_that_there_is(open_notebook: OpenNotebook) ->
     page.set_viewport_size({"width": 1500, "height": 768})
     page.evaluate("new Promise((go) => requestAnimationFrame(() => requestAnimationFrame(go)))")
     assert float(page.evaluate(zoomed)) > 1.1 * scales[1366]
+
+
+def test_the_hint_hides_no_vertex_of_a_picture_that_fits(open_notebook: OpenNotebook) -> None:
+    book = open_notebook([SETUP, "glid.CageTracer(np.rot90(picture).copy())"])
+    page = book.page
+    stage, hint = page.locator(".glid-stage[data-viewport]"), page.locator(".glid-hint")
+    for width, lines in ((1920, 1), (640, 2)):
+        page.set_viewport_size({"width": width, "height": 900})
+        page.wait_for_function(
+            "([hint, lines]) => (hint.offsetHeight > 30) === (lines > 1)",
+            arg=[hint.element_handle(), lines],
+        )
+        page.evaluate("new Promise((go) => requestAnimationFrame(() => requestAnimationFrame(go)))")
+        scale, _, top = map(float, (stage.get_attribute("data-viewport") or "").split())
+        stage.scroll_into_view_if_needed()
+        book.screenshot(f"tracer-hint-{width}")
+        assert box(stage)[1] + top + 200 * scale <= box(hint)[1]
 
 
 def test_nothing_wraps_jumps_or_covers_a_mark(open_notebook: OpenNotebook) -> None:
@@ -202,6 +219,25 @@ def test_nothing_wraps_jumps_or_covers_a_mark(open_notebook: OpenNotebook) -> No
     corner = box(page.locator(".glid-corner").first)
     page.mouse.click(corner[0] - 12, corner[1] + 8)
     book.wait_for("abs(np.array(canvas.pane.stage.view[:2]) - (40.0, 20.0)).max() < 1e-6")
+
+    # A ring's knob below the buttons can be dragged all the same, and they fade.
+    (cx, cy, unit), width, height = book.value(
+        "[stage.view, stage.width, stage.height]", "stage = canvas.pane.stage"
+    )
+    target = (cx + (width / 2 - 21 - 42) * unit, cy + (height / 2 - 21) * unit)
+    book.value("None", setup="model.select([0]); model.set_pins([0], angles=0.0, scales=1.0)")
+    book.value("None", setup=f"model.move_target(0, {target})")
+    page.locator(".glid-corner.glid-through").wait_for()
+    pad = box(hand.pad)
+    book.screenshot("knob-below-corner")
+    page.mouse.move(pad[0] + width - 21, pad[1] + 21)
+    page.mouse.down()
+    page.mouse.move(pad[0] + width - 42, pad[1] + 21, steps=5)
+    page.mouse.up()
+    book.wait_for("abs(model.pose.scales[0] - 0.5) < 0.05")
+    book.value("None", setup="model.undo(); model.select([])")
+    page.locator(".glid-corner:not(.glid-through)").first.wait_for()
+    book.value("None", setup="model.select([0])")
 
     # The largest depth can be read.
     book.value("None", setup="model.set_depths([0], 100.0)")

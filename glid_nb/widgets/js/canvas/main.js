@@ -10,7 +10,7 @@ import { Pad, keysAround } from "../pad/pad.js";
 import { painter } from "../pad/pen.js";
 import { View, distance } from "../pad/view.js";
 import {
-  drawBrush, drawLasso, drawMarks, drawOnion, drawStiff, lostMarks, markAt, ringAt,
+  drawBrush, drawLasso, drawMarks, drawOnion, drawStiff, knobInCorner, lostMarks, markAt, ringAt,
 } from "./marks.js";
 import { Room } from "./room.js";
 import { Shapes, coveredNear, drawingTime, uniformVectors } from "./shapes.js";
@@ -127,6 +127,7 @@ function render({ model, el, signal }) {
   const shapes = new Shapes(model, view);
   const soon = painter(paper, view, signal, (pen) => {
     const { found, held, focused } = pad, cursor = focused ? model.get("cursor") : null;
+    corner.classList.toggle("glid-through", !shapes.motion && knobInCorner(view, marks(), held));
     if (shapes.motion) return; // pins belong to the pose that is edited
     drawOnion(pen, view, model.get("onion"));
     drawStiff(pen, view, model.get("stiff"), paints());

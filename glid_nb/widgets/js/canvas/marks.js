@@ -67,6 +67,12 @@ function dial(view, marks, held) {
   return { centre, radius, knob: [x + radius * Math.cos(angle), y - radius * Math.sin(angle)] };
 }
 
+// Whether the ring's knob is below the corner's buttons.
+export function knobInCorner(view, marks, held) {
+  const [x, y] = dial(view, marks, held)?.knob ?? [0, 0];
+  return x > view.width - CORNER[0] - KNOB && y < CORNER[1] + KNOB;
+}
+
 // The part of the ring at a place on the screen, as `part`; null for none.
 export function ringAt(view, marks, place, reach) {
   const ring = dial(view, marks);

@@ -9,7 +9,7 @@ import { drawStage } from "./draw.js";
 
 const REACH = { mouse: 9, pen: 12, touch: 18 }; // CSS pixels around the pointer
 const ZOOM = 1.25; // by a button or a key
-const MARGIN = 24; // CSS pixels around a picture that fits
+const MARGIN = 24, HINT = 8; // CSS pixels around a picture that fits, and below the hint
 const MOST_ZOOM = 40; // CSS pixels per pixel of the picture
 const COLORS = [
   "accent", "accent-soft", "warn", "warn-soft", "faint", "veil", "foreground", "background",
@@ -114,9 +114,11 @@ export class Stage {
     const { view, element } = this;
     if (!this.shown?.size) return;
     const [w, h] = this.shown.size;
-    const room = [element.clientWidth, element.clientHeight].map((n) => Math.max(n - 2 * MARGIN, 1));
+    this.hintText.textContent = this.hint(); // it takes two lines where it is narrow
+    const below = Math.max(this.hintText.offsetHeight + 2 * HINT, MARGIN);
+    const room = [element.clientWidth - 2 * MARGIN, element.clientHeight - MARGIN - below].map((n) => Math.max(n, 1));
     const unit = Math.min(Math.max(w / room[0], h / room[1]), 1e3);
-    Object.assign(view, { x: w / 2, y: h / 2, unit, farthest: 4 * unit });
+    Object.assign(view, { x: w / 2, y: h / 2 + (unit * (below - MARGIN)) / 2, unit, farthest: 4 * unit });
     this.fitted = true;
     this.changed();
   }
