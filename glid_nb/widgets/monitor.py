@@ -114,7 +114,7 @@ class SolverMonitor(ClosingWidget, ipywidgets.VBox):
         self._changed = time.monotonic()
         if what == "frame":
             self._frames.append(self._changed)
-        if what != "selection":
+        if what not in ("selection", "hand"):
             self._worker.submit(None)
 
     def _update(self, *_: Any) -> None:
