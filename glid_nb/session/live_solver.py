@@ -13,8 +13,9 @@ from glid_nb.harmonic import HarmonicMap
 from glid_nb.session.document import NamedPose, Solution
 from glid_nb.session.edit_state import Frame, Task
 from glid_nb.session.worker import LatestWins, weakly
-from glid_nb.solvers import DeformationMap, Iteration, Newton, Progress, Result, solve
+from glid_nb.solvers import DeformationMap, Iteration, Newton, Pose, Progress, Result, solve
 from glid_nb.solvers.discretisation import discretise
+from glid_nb.solvers.problem import moved
 
 FRAME_INTERVAL = 1 / 40
 """Least number of seconds between two frames of one solve; the last frame is always sent."""
@@ -134,28 +135,23 @@ def solve_edited(
     return solve(edited.map.domain, edited.pose, *how, method=edited.method)
 
 
-def _carried(
-    start: HarmonicMap, last: Result | None, edited: NamedPose
-) -> tuple[HarmonicMap, Result | None]:
-    """Both moved along where all targets have moved alike since a solve that was blocked, or
-    stopped before it was: a step to there that also lowers the energy may not be possible."""
-    if last is None or last.status.ok or not edited.pose.pins_alike(last.pose):
-        return start, last
-    moves = edited.pose.targets - last.pose.targets
-    far = np.abs(edited.pose.targets).max()
-    if not moves.any() or not np.allclose(moves, moves[0], rtol=1e-6, atol=1e-12 * far):
-        return start, last
-    phi = start.phi.copy()
-    phi[: len(start.domain.offset_cage.loops_complex[0])] += complex(*moves[0])
-    moved = HarmonicMap(start.domain, phi, start.psi)
-    return moved, replace(last, map=moved)
+def _carried(last: Result, pose: Pose) -> Result:
+    """Moved along where all targets have moved alike since a solve that was blocked, or stopped
+    before it was: a step to there that also lowers the energy may not be possible."""
+    start, before = last.map, last.pose
+    if last.status.ok or isinstance(start, MeshMap) or not pose.pins_alike(before):
+        return last
+    moves, off = pose.targets - before.targets, 1e-12 * np.abs(pose.targets).max(initial=0)
+    if not moves.any() or not np.allclose(moves, moves[0], rtol=1e-6, atol=off):
+        return last
+    return replace(last, map=moved(start, 1, complex(*moves[0])))
 
 
 def _starting_point(edited: NamedPose, last: Result | None) -> DeformationMap | Result:
+    last = None if last is None else _carried(last, edited.pose)
     start = edited.map if last is None else last.map
     if isinstance(start, MeshMap):
         return start
-    start, last = _carried(start, last, edited)
     conformal = edited.options.conformal and "conformal" in edited.method.options
     if conformal and np.abs(start.psi - start.psi[0]).max() > 0:
         # The solver needs a conformal start; the identity is one.

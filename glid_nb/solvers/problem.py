@@ -134,8 +134,13 @@ def aligned(map: HarmonicMap, pose: Pose) -> HarmonicMap:
     phi, psi = rows_of(map)
     images = rows @ phi + np.conj(rows @ psi)
     turn, middle, aim = rigid_motion(images, as_complex(pose.targets))
+    return moved(map, turn, aim - turn * middle)
+
+
+def moved(map: HarmonicMap, turn: complex, by: complex) -> HarmonicMap:
+    """The map followed by a turn, of modulus 1, and a translation."""
     phi, psi = map.phi * turn, map.psi * np.conj(turn)
-    phi[: len(map.domain.offset_cage.loops_complex[0])] += aim - turn * middle
+    phi[: len(map.domain.offset_cage.loops_complex[0])] += by
     return HarmonicMap(map.domain, phi, psi)
 
 

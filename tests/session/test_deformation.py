@@ -179,6 +179,18 @@ def test_a_blocked_shape_follows_when_all_its_pins_move_together(ring: Deformati
     assert certify(ring.map).certified
 
 
+def test_steps_without_pins_go_on_from_each_other(ring: Deformation) -> None:
+    ring.paused = True
+    ring.drag(0, to=(5, 4))
+    ring.step()
+    assert ring.solve(TIMEOUT)
+    ring.clear_handles()
+    for _ in range(3):
+        ring.step()
+        assert ring.solve(TIMEOUT)
+        assert ring.status.level == "idle", ring.status.text
+
+
 def test_solver_errors_reach_the_status(ring: Deformation, monkeypatch: pytest.MonkeyPatch) -> None:
     def broken(*_: object, **__: object) -> None:
         raise RuntimeError("no more magic smoke")
