@@ -8,6 +8,7 @@ from typing import Any, ClassVar, Literal
 
 from glid_nb._arguments import check_fields, field_kinds
 from glid_nb._errors import InputError
+from glid_nb.certificate import Certificate, certificate_of
 from glid_nb.energies import Energy
 from glid_nb.geometry import Domain
 from glid_nb.harmonic import HarmonicMap
@@ -24,6 +25,10 @@ _DISTRIBUTIONS = {"igl": "libigl"}
 
 class MethodError(InputError):
     """A method is unknown, cannot minimise the energy, lacks its package or a setting is wrong."""
+
+
+class StartError(InputError):
+    """The map to start from cannot be used."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -130,10 +135,18 @@ class Method:
             broken = f"{needs}, which is installed but cannot be imported ({error})"
             raise MethodError(f"{broken}; install it again with: {again}") from error
 
-    def harmonic_start(self, inputs: Inputs) -> HarmonicMap | None:
-        """The map to start from; :class:`MethodError` where it is one of a mesh."""
-        start = inputs.start_map
-        if start is None or isinstance(start, HarmonicMap):
-            return start
-        cannot = f"the method {self.name!r} cannot start from a map of a mesh"
-        raise MethodError(f"{cannot}; give a HarmonicMap, or none")
+    def proved_start(self, inputs: Inputs) -> Certificate | None:
+        """The map to start from, if one is given, with its own proof or a new one; a
+        :class:`MethodError` where it is one of a mesh, a :class:`StartError` without a proof."""
+        start, map = inputs.start, inputs.start_map
+        if map is None:
+            return None
+        if not isinstance(map, HarmonicMap):
+            cannot = f"the method {self.name!r} cannot start from a map of a mesh"
+            raise MethodError(f"{cannot}; give a HarmonicMap, or none")
+        proof = start.proof if isinstance(start, Result) else None
+        if proof is None or not (proof.certified and proof.belongs_to(map)):
+            proof = certificate_of(map)
+        if not proof.certified:
+            raise StartError(f"the map to start from is not certified: {proof.reason}")
+        return proof

@@ -6,16 +6,15 @@ from typing import Any
 import numpy as np
 
 from glid_nb._arrays import Array
-from glid_nb._errors import InputError
 from glid_nb._jax import jit
-from glid_nb.certificate import Certificate, certificate_of, certify, proved_by
+from glid_nb.certificate import Certificate, certify, proved_by
 from glid_nb.geometry import Panels
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.solvers import evaluation, problem
 from glid_nb.solvers.discretisation import Discretisation, Matrices, discretise
 from glid_nb.solvers.evaluation import Point
 from glid_nb.solvers.loop import Descent, Ending, Reached
-from glid_nb.solvers.method import Inputs, Method
+from glid_nb.solvers.method import Inputs, Method, StartError
 from glid_nb.solvers.problem import SubspaceProblem, canonical, map_from, unknowns_of
 from glid_nb.solvers.result import Iteration, Result, Status
 from glid_nb.solvers.stiffness import stiff_matrices
@@ -23,10 +22,6 @@ from glid_nb.solvers.stiffness import stiff_matrices
 # Measurements of angles and scales, after which the directions found are kept by that damping.
 MOST_PINS, KEPT = 16, 1e9
 _FAR, _DAMPING = 0.2, 3.0  # a measurement that far from the last one, radians, overshot
-
-
-class StartError(InputError):
-    """The map to start from cannot be used."""
 
 
 class SubspaceDescent(Descent):
@@ -137,18 +132,14 @@ def _starting_point(
 ) -> tuple[HarmonicMap, Certificate | None, Discretisation]:
     domain, options, start = inputs.domain, inputs.options, inputs.start
     fresh = functools.partial(discretise, domain, options.sampling, options.certificate)
-    map_ = method.harmonic_start(inputs)
-    if map_ is None:
+    proof = method.proved_start(inputs)
+    if proof is None:
         return HarmonicMap.identity(domain), None, fresh()
+    map_ = proof.map
     if options.conformal and np.abs(map_.psi - map_.psi[0]).max() > 0:
         what = "the map to start from is not conformal (psi is not constant)"
         raise StartError(f"{what}; start from one that is, or turn the option conformal off")
-    proof, disc = (start.proof, start.discretisation) if isinstance(start, Result) else (None, None)
-    if proof is None or not (proof.certified and proof.belongs_to(map_)):
-        proof = certificate_of(map_)
-    if not proof.certified:
-        raise StartError(f"the map to start from is not certified: {proof.reason}")
-    wanted = options.sampling, options.certificate
-    if disc is None or (disc.sampling, disc.certificate) != wanted:
+    disc = start.discretisation if isinstance(start, Result) else None
+    if disc is None or (disc.sampling, disc.certificate) != (options.sampling, options.certificate):
         disc = fresh()
     return canonical(HarmonicMap(disc.domain, map_.phi, map_.psi)), proof, disc

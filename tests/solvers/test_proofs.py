@@ -19,7 +19,7 @@ from glid_nb.imaging import TraceOptions
 from glid_nb.session.document import Document, DocumentError, NamedPose
 from glid_nb.session.report import build_report
 from glid_nb.solvers import Options, Pose, Progress, Result, Status, solve
-from glid_nb.solvers.subspace import StartError
+from glid_nb.solvers.method import StartError
 
 from ..domains import domain
 

@@ -14,13 +14,13 @@ import numpy as np
 
 from glid_nb._arrays import Array
 from glid_nb._runtime import single_blas_thread
-from glid_nb.certificate import Certificate, certificate_of, certify
+from glid_nb.certificate import Certificate, certify
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.methods.bdhm import program
 from glid_nb.solvers import Inputs, Iteration, Method, MethodError, Result, Status
 from glid_nb.solvers.loop import Ending, GeneratedDescent, Reached, Steps, follow
 from glid_nb.solvers.problem import measured_apart
-from glid_nb.solvers.subspace import KEPT, MOST_PINS, StartError
+from glid_nb.solvers.subspace import KEPT, MOST_PINS
 
 _PROOF = 0.4  # how much of the margin the proof may take
 # How often one program is solved again with more samples.
@@ -103,9 +103,8 @@ class _Descent(GeneratedDescent):
 
     def steps(self) -> Steps:
         identity = HarmonicMap.identity(self.inputs.domain)
-        start = self.method.harmonic_start(self.inputs) or identity
-        if not (proof := certificate_of(start)).certified and start is not identity:
-            raise StartError(f"the map to start from is not certified: {proof.reason}")
+        given = self.method.proved_start(self.inputs)
+        start = identity if given is None else given.map
         start = HarmonicMap(identity.domain, start.phi, start.psi)
         self._measure(start)
         for map_ in (start, identity):
