@@ -94,7 +94,7 @@ class _Ways:
             if self.best().energy <= HIGH_ENERGY * self.isometry:
                 return
         turning = turning_of(self.first.map, inputs.pose)
-        known = yield from self.with_other_turns(turning)
+        seen = yield from self.with_other_turns(turning)
         for line in turning.lines:
             if line.curled and not line.wound and self.may_cost(ARC):
                 yield self.led(f"along an arc at {line.child}", turning.stages(bent=line.child))
@@ -103,7 +103,7 @@ class _Ways:
             free = _with(free, tolerance=STAGE_TOLERANCE)
             yield "without its angles first", [free, inputs], [FREED]
         turned = max((abs(line.turn) for line in turning.lines), default=0) > HALF_CIRCLE
-        wound = [each for each in known if any(line.wound for line in each.lines)]
+        wound = [each for each in seen if any(line.wound for line in each.lines)]
         for each in wound:
             if self.may_cost(STAGED):
                 yield self.led("ends the other way round", each.stages(unwound=True), HELD)
@@ -125,17 +125,18 @@ class _Ways:
         told = dict[tuple[float, ...], float]()  # the least that any map tells of others' costs
         unsure = max(self.first.energy / max(self.isometry, LEAST_ISOMETRY) / UNSURE, 1)
 
-        def reversals() -> list[tuple[tuple[int, ...], float]]:
-            costs = self.best().energy - self.isometry
-            found = list(now.reversals(FAR[int(self.high)]).items())
-            for lines, ratio in found:
-                told[now.key(lines)] = min(ratio * costs, told.get(now.key(lines), np.inf))
-            return [(lines, told[now.key(lines)] / costs) for lines, _ in found]
+        def reversals() -> list[tuple[tuple[int, ...], tuple[float, ...], float]]:
+            costs = max(self.best().energy - self.isometry, SAME_ENERGY)
+            ratios = now.reversals(FAR[int(self.high)]).items()
+            found = [(lines, now.key(lines), ratio) for lines, ratio in ratios]
+            for _, key, ratio in found:
+                told[key] = min(ratio * costs, told.get(key, np.inf))
+            return [(lines, key, told[key] / costs) for lines, key, _ in found]
 
         left = reversals()
         while left and misses < MOST_MISSES:
-            (lines, ratio), before = left.pop(0), self.best()
-            if (key := now.key(lines)) not in known and self.may_cost(REVERSED * ratio / unsure):
+            (lines, key, ratio), before = left.pop(0), self.best()
+            if key not in known and self.may_cost(REVERSED * ratio / unsure):
                 name = f"the other way round at {', '.join(map(str, lines))}"
                 yield self.led(name, now.stages(lines), 1 / min(ratio, 1))
                 misses += self.best() is before
