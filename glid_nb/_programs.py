@@ -31,10 +31,9 @@ _MOST_LOADED = 4  # of 15 MB each; one solve uses up to four
 class Program:
     """A function compiled once for each kind of arguments, also where several threads want it.
 
-    Of those in files the few that were used last stay in memory.
-
-    The call takes its argument number ``donated``. ``may_keep(*arguments)`` says whether their
-    types and our own code tell what is compiled.
+    Of those in files the few that were used last stay in memory. The call takes its argument number
+    ``donated``. ``may_keep(*arguments)`` says whether their types and our own code tell what is
+    compiled.
     """
 
     def __init__(

@@ -119,17 +119,15 @@ class KeptOffer(Asking, ipywidgets.HBox):
         if (path := model.kept) is None:
             return
 
-        def bring(sure: bool) -> None:
+        def end(act: Callable[[], None], sure: bool = True) -> None:
             self._check_saved(path, sure)
-            end(model.recover)
-
-        def end(act: Callable[[], None]) -> None:
             act()
             self.layout.display = "none"
 
         self.message = ipywidgets.HTML()
         self._say(_KEPT.format(datetime.fromtimestamp(path.stat().st_mtime)))
-        back = self._button("Bring it back", "history", "Go on with it", bring)
+        look = "Bring it back", "history", "Go on with it"
+        back = self._button(*look, lambda sure: end(model.recover, sure))
         discard = self._button("Discard", "trash", "Delete it", lambda _: end(model.discard_kept))
         self.children, self.layout.display = [self.message, back, discard], "flex"
 
