@@ -43,6 +43,26 @@ def settle(waits: bool = False) -> None:
         _lock.release()
 
 
+class CompiledOnUse:
+    """``jax.jit(function, **options())``, made when it is first called."""
+
+    def __init__(self, function: Callable[..., Any], options: Callable[[], dict[str, Any]]) -> None:
+        functools.update_wrapper(self, function)
+        self._options = options
+
+    @functools.cached_property
+    def _program(self) -> Any:
+        return jax.jit(self.__wrapped__, **self._options())  # type: ignore[attr-defined]
+
+    def __call__(self, *args: Any, **kwargs: Any) -> Any:
+        return self._program(*args, **kwargs)
+
+    def __getattr__(self, name: str) -> Any:
+        if name.startswith("__"):  # doctest and others probe for optional attributes
+            raise AttributeError(name)
+        return getattr(self._program, name)
+
+
 if TYPE_CHECKING:
     import jax
     import jax.numpy as jnp
@@ -66,25 +86,8 @@ else:
             settle(waits=True)
             return getattr(self._module, name)
 
-    class _Compiled:
-        def __init__(self, function: Callable[..., Any], options: dict[str, Any]) -> None:
-            functools.update_wrapper(self, function)
-            self._options = options
-
-        @functools.cached_property
-        def _program(self) -> Any:
-            return jax.jit(self.__wrapped__, **self._options)
-
-        def __call__(self, *args: Any, **kwargs: Any) -> Any:
-            return self._program(*args, **kwargs)
-
-        def __getattr__(self, name: str) -> Any:
-            if name.startswith("__"):  # doctest and others probe for optional attributes
-                raise AttributeError(name)
-            return getattr(self._program, name)
-
     def jit(function: Callable[..., Any], **options: Any) -> Callable[..., Any]:
-        return _Compiled(function, options)
+        return CompiledOnUse(function, lambda: options)
 
     jax, jnp, lax = _Module("jax"), _Module("jax.numpy"), _Module("jax.lax")
     serialize_executable = _Module("jax.experimental.serialize_executable")

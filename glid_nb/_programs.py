@@ -21,9 +21,10 @@ from typing import Any
 
 import numpy as np
 
+from glid_nb._features import compiler_options
 from glid_nb._files import write_atomically
 from glid_nb._jax import jax, serialize_executable
-from glid_nb._runtime import COMPILER_OPTIONS, jax_option, stage
+from glid_nb._runtime import jax_option, stage
 
 _MOST_LOADED = 4  # of 15 MB each; one solve uses up to four
 
@@ -93,7 +94,7 @@ class Program:
             return self._function(*arguments)
 
         program.__name__ = self._function.__name__ + name
-        jitted = jax.jit(program, donate_argnums=self._donated, compiler_options=COMPILER_OPTIONS)
+        jitted = jax.jit(program, donate_argnums=self._donated, compiler_options=compiler_options())
         stage("trace")
         traced = jitted.trace(*arguments)
         stage("lower")

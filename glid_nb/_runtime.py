@@ -23,9 +23,6 @@ from glid_nb._jax import jax
 P = ParamSpec("P")
 R = TypeVar("R")
 
-COMPILER_OPTIONS = {"xla_cpu_use_fusion_emitters": False}
-"""For programs with many small fusions: XLA's older CPU emitters compile them 1.6 times faster."""
-
 _CHUNK_ELEMENTS = 1 << 15
 
 _watcher: ContextVar[Callable[[str], None] | None] = ContextVar("watcher", default=None)

@@ -5,7 +5,6 @@ vectorised, in lockstep; those that need the host, because a panel must be split
 and are finished one by one.
 """
 
-import functools
 from collections.abc import Iterable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
@@ -17,8 +16,9 @@ from numpy.typing import ArrayLike
 
 from glid_nb._arguments import check_type
 from glid_nb._errors import about
-from glid_nb._jax import jax, jit, jnp
-from glid_nb._runtime import COMPILER_OPTIONS, double_precision, single_blas_thread
+from glid_nb._features import solver_jit
+from glid_nb._jax import jax, jnp
+from glid_nb._runtime import double_precision, single_blas_thread
 from glid_nb.energies import Energy, as_energy
 from glid_nb.geometry import Domain
 from glid_nb.solvers import step
@@ -193,7 +193,7 @@ def _call(chosen: list[_Pose], size: int) -> float:
     return compiling
 
 
-@functools.partial(jit, compiler_options=COMPILER_OPTIONS)
+@solver_jit
 def _together(
     problem: SubspaceProblem, settings: step.Settings, aims: Any, coefficients: Any, limits: Any
 ) -> step.State:

@@ -6,7 +6,8 @@ from typing import Any
 import jax
 import jax.numpy as jnp
 
-from glid_nb._runtime import COMPILER_OPTIONS, double_precision, single_blas_thread
+from glid_nb._features import solver_jit
+from glid_nb._runtime import double_precision, single_blas_thread
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.solvers import Result, cholesky, evaluation, line_search
 from glid_nb.solvers.evaluation import Point
@@ -52,10 +53,10 @@ def measure_stages(result: Result, repeats: int) -> dict[str, float]:
     def factor(h: Any, b: Any) -> Any:
         return cholesky.solve(cholesky.factorise(h), b)
 
-    point = _compiled(evaluation.evaluated)(problem, y)
-    line = _compiled(evaluation.line_along)(problem, -_SMALL * y, jnp.array(-1.0))
-    h = _compiled(hessian)(problem, point).astype(float)
-    h = _compiled(lambda h, unknowns: restrict_hessian(h, unknowns, ridge=_RIDGE))(h, unknowns)
+    point = solver_jit(evaluation.evaluated)(problem, y)
+    line = solver_jit(evaluation.line_along)(problem, -_SMALL * y, jnp.array(-1.0))
+    h = solver_jit(hessian)(problem, point).astype(float)
+    h = solver_jit(lambda h, unknowns: restrict_hessian(h, unknowns, ridge=_RIDGE))(h, unknowns)
     stages: dict[str, tuple[Callable[..., Any], tuple[Any, ...]]] = {
         "gradient": (gradient, (problem, y)),
         "hessian": (hessian, (problem, point)),
@@ -79,10 +80,6 @@ def _hessian(problem: SubspaceProblem, point: Point, projected: bool) -> Any:
     return assemble(matrices.whitened, *given, LocalHessian(*local))
 
 
-def _compiled(function: Callable[..., Any]) -> Callable[..., Any]:
-    return jax.jit(function, compiler_options=COMPILER_OPTIONS)
-
-
 def _seconds(function: Callable[..., Any], arguments: tuple[Any, ...], repeats: int) -> float:
-    program = _compiled(function)
+    program = solver_jit(function)
     return timed(lambda: jax.block_until_ready(program(*arguments)), repeats)["median"]

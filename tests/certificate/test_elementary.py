@@ -17,7 +17,7 @@ import numpy as np
 import pytest
 from flint import acb, arb
 
-from glid_nb._runtime import COMPILER_OPTIONS
+from glid_nb._features import solver_jit
 from glid_nb.certificate import rounding
 from glid_nb.harmonic import cauchy
 from glid_nb.harmonic.cauchy import Singularities
@@ -59,7 +59,7 @@ def exact_ratio(a: complex, b: complex) -> acb:
 
 def compiled(function: Callable[..., Any], *args: Array) -> Array:
     with jax.enable_x64(True):
-        return np.asarray(jax.jit(function, compiler_options=COMPILER_OPTIONS)(*args))
+        return np.asarray(solver_jit(function)(*args))
 
 
 def check(

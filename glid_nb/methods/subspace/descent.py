@@ -7,9 +7,10 @@ from typing import Any, ClassVar, Literal
 import numpy as np
 
 from glid_nb._arrays import Array
-from glid_nb._jax import AnyArray, Bool, jit, jnp
+from glid_nb._features import solver_jit
+from glid_nb._jax import AnyArray, Bool, jnp
 from glid_nb._jax import Array as DeviceArray
-from glid_nb._runtime import COMPILER_OPTIONS, double_precision
+from glid_nb._runtime import double_precision
 from glid_nb.solvers import Inputs, Method, Result, Status, evaluation, line_search
 from glid_nb.solvers.evaluation import Coefficients, Point
 from glid_nb.solvers.hessian import LocalHessian, assemble, local_hessian, positive_part
@@ -188,13 +189,13 @@ class DirectedDescent(SubspaceDescent):
         return max(abs(float(self.point.energy)), LEAST_ENERGY)
 
 
-@functools.partial(jit, compiler_options=COMPILER_OPTIONS)
+@solver_jit
 def _evaluate(problem: SubspaceProblem, coefficients: Coefficients) -> tuple[Point, Coefficients]:
     point = evaluation.evaluated(problem, coefficients)
     return point, restrict_gradient(evaluation.gradient(problem, point), problem.unknowns)
 
 
-@functools.partial(jit, static_argnames="curvature", compiler_options=COMPILER_OPTIONS)
+@functools.partial(solver_jit, static_argnames="curvature")
 def _hessian(problem: SubspaceProblem, point: Point, *, curvature: Curvature) -> DeviceArray:
     """(4c, 4c) Hessian of the isometric energy with respect to the unknowns (33). ``gauss-newton``
     is for ARAP, ``2 (|f_z| - 1)^2 + 2 |f_zbar|^2``, without the residuals' second derivatives;
@@ -219,7 +220,7 @@ def _hessian(problem: SubspaceProblem, point: Point, *, curvature: Curvature) ->
     return upper + jnp.triu(upper, 1).T
 
 
-@functools.partial(jit, compiler_options=COMPILER_OPTIONS)
+@solver_jit
 def _advance(
     problem: SubspaceProblem,
     point: Point,
