@@ -1,6 +1,8 @@
 # make demo   one picture from file to certified deformation, in an environment of its own
 # make test   everything that continuous integration runs; GLID_NB_REFERENCE=DIR adds the paper's shapes
 # make unit   the fast tests only (under a minute)
+# make pythons  the fast tests, the demo and a chapter on every other Python of this machine, and on
+#               the oldest one with the oldest libraries that pyproject.toml allows
 # make leaks  half an hour in a browser: memory in long sessions, cells that run again, a new user's walk
 # make lint   ruff and pyright
 # make dev    the development environment with everything
@@ -9,8 +11,10 @@
 # make docs   the site in site/, checked: pages, links, and each page in Chromium
 # make notebooks  all chapters, run in place and saved; ARGUMENTS="03 07" runs these two
 # make browser  Chromium for the browser tests, by apt
+# The environment is made with the newest Python that tools/pythons.sh finds, or with $PYTHON; another
+# one beside it: make unit VENV=.venv-3.12 PYTHON=python3.12
 SHELL := /bin/sh
-VENV := .venv
+export VENV := .venv
 PYTEST := $(VENV)/bin/python -m pytest
 # One more than there are processors: tests that wait for the browser or a kernel leave theirs idle.
 WORKERS = $(shell expr $$(nproc) + 1)
@@ -18,7 +22,7 @@ WORKERS = $(shell expr $$(nproc) + 1)
 # Without bytecode every process of the tests compiles the package and the test files anew.
 unexport PYTHONDONTWRITEBYTECODE
 
-.PHONY: demo test unit leaks lint format dev compare bench docs notebooks browser clean
+.PHONY: demo test unit pythons chapter leaks lint format dev compare bench docs notebooks browser clean
 .DEFAULT_GOAL := demo
 
 demo: $(VENV)/.demo
@@ -31,6 +35,12 @@ test: $(VENV)/.test browser
 
 unit: $(VENV)/.test
 	$(PYTEST) -p no:nbval --no-skip -m "not slow and not browser" -n auto tests
+
+pythons:
+	tools/other_pythons.sh
+
+chapter: $(VENV)/.test
+	$(PYTEST) --nbval --nbval-current-env --no-skip notebooks/01_quickstart.ipynb
 
 leaks: $(VENV)/.test browser
 	$(PYTEST) -p no:nbval --no-skip -s --minutes 10 -m long tests/widgets
@@ -65,23 +75,23 @@ browser:
 	tools/chromium.sh
 
 # The stamps say what the environment holds; pyproject.toml newer than a stamp installs again.
-$(VENV)/.demo: pyproject.toml tools/environment.sh
+$(VENV)/.demo: pyproject.toml tools/environment.sh tools/pythons.sh
 	tools/environment.sh
 	touch $@
 
-$(VENV)/.studies: pyproject.toml tools/environment.sh
+$(VENV)/.studies: pyproject.toml tools/environment.sh tools/pythons.sh
 	tools/environment.sh studies
 	touch $@ $(VENV)/.demo
 
-$(VENV)/.test: pyproject.toml tools/environment.sh
+$(VENV)/.test: pyproject.toml tools/environment.sh tools/pythons.sh
 	tools/environment.sh test
 	touch $@ $(VENV)/.studies $(VENV)/.demo
 
-$(VENV)/.docs: pyproject.toml tools/environment.sh
+$(VENV)/.docs: pyproject.toml tools/environment.sh tools/pythons.sh
 	tools/environment.sh docs
 	touch $@ $(VENV)/.demo
 
-$(VENV)/.dev: pyproject.toml tools/environment.sh
+$(VENV)/.dev: pyproject.toml tools/environment.sh tools/pythons.sh
 	tools/environment.sh dev
 	touch $@ $(VENV)/.test $(VENV)/.docs $(VENV)/.studies $(VENV)/.demo
 

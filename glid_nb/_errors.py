@@ -32,6 +32,10 @@ class InputError(ValueError):
         return [*lines, f"{type(self).__name__}: {self}"]
 
 
+class IncompatibleVersionsError(InputError, AttributeError):
+    """Installed libraries lack something that the package cannot do without, or do not fit."""
+
+
 class InputFileError(InputError):
     """A file has the wrong content; the message names the file and the key."""
 

@@ -5,16 +5,62 @@ the versions that refuse it. The package then works without that feature, only s
 """
 
 import functools
+import importlib
+import platform
 from collections.abc import Callable
+from contextlib import AbstractContextManager
 from typing import Any
 
-from glid_nb._jax import CompiledOnUse, jax
+import numpy as np
+
+from glid_nb._jax import Array, CompiledOnUse, import_jax, incompatible, jax, lax
 
 _WANTED_OPTIONS: dict[str, Any] = {
     # For programs with many small fusions: XLA's older CPU emitters compile them 1.6 times faster.
     # JAX 0.11 and later no longer have them.
     "xla_cpu_use_fusion_emitters": False,
 }
+
+FACTORISE, SOLVE = "lapack_dpotrf_ffi", "lapack_dtrsm_ffi"
+"""The names under which JAX on a CPU knows LAPACK's Cholesky factorisation and triangular solve."""
+# What JAX's own calls look like in the versions whose way of calling LAPACK we know.
+_KNOWN_CALLS = (
+    f"@{FACTORISE}(",
+    "{uplo = 76 : ui8}",
+    f"@{SOLVE}(",
+    "{diag = 78 : ui8, side = 76 : ui8, trans_x = 84 : ui8, uplo = 76 : ui8}",
+)
+
+
+def enable_x64(enabled: bool = True) -> AbstractContextManager[None]:
+    """``jax.enable_x64``, a context in which JAX computes in double precision.
+
+    JAX before 0.8 has it in ``jax.experimental``.
+    """
+    return _enable_x64()(enabled)
+
+
+@functools.cache
+def _enable_x64() -> Any:
+    return _first_of(("jax", "enable_x64"), ("jax.experimental", "enable_x64"))
+
+
+def typeof(value: Any) -> Any:
+    """``jax.typeof``, the shape and type of an argument; JAX before 0.6 has ``get_aval`` for it."""
+    return _typeof()(value)
+
+
+@functools.cache
+def _typeof() -> Any:
+    return _first_of(("jax", "typeof"), ("jax.core", "get_aval"))
+
+
+def _first_of(*places: tuple[str, str]) -> Any:
+    for module, name in places:
+        found = getattr(import_jax(module), name, None)
+        if found is not None:
+            return found
+    raise incompatible(f"needs {'.'.join(places[0])}")
 
 
 @functools.cache
@@ -23,10 +69,15 @@ def compiler_options() -> dict[str, Any]:
     return {name: value for name, value in _WANTED_OPTIONS.items() if _is_known(name, value)}
 
 
+def unknown_options() -> list[str]:
+    """The options of XLA that we would like to set and this version does not know."""
+    return sorted(set(_WANTED_OPTIONS) - set(compiler_options()))
+
+
 def _is_known(option: str, value: Any) -> bool:
     try:
         jax.jit(lambda x: x, compiler_options={option: value}).lower(0).compile()
-    except jax.errors.JaxRuntimeError as error:
+    except Exception as error:  # its class differs between versions of JAX
         if option in str(error):
             return False
         raise
@@ -36,3 +87,43 @@ def _is_known(option: str, value: Any) -> bool:
 def solver_jit(function: Callable[..., Any], **options: Any) -> Callable[..., Any]:
     """``jax.jit`` for the solver's programs: with :func:`compiler_options`, on first use."""
     return CompiledOnUse(function, lambda: {**options, "compiler_options": compiler_options()})
+
+
+@functools.cache
+def lapack_in_place() -> bool:
+    """Whether this JAX calls LAPACK as ``solvers.cholesky`` does.
+
+    JAX's own calls are read from lowered text, which also makes LAPACK ready to be called. Where
+    they look otherwise, or nothing is known of them, ``jax.lax.linalg`` does the work.
+    """
+
+    def both(h: Array, b: Array) -> Array:
+        lower = lax.linalg.cholesky(h, symmetrize_input=False)
+        return lax.linalg.triangular_solve(lower, b, left_side=True, lower=True, transpose_a=True)
+
+    if not hasattr(jax, "ffi"):
+        return False
+    with enable_x64():
+        shapes = jax.ShapeDtypeStruct((2, 2), np.float64), jax.ShapeDtypeStruct((2, 1), np.float64)
+        text = jax.jit(both).trace(*shapes).lower(lowering_platforms=("cpu",)).as_text()
+    return all(part in text for part in _KNOWN_CALLS)
+
+
+@functools.cache
+def executables() -> Any | None:
+    """The module of JAX that writes compiled programs as bytes; None where it has none."""
+    try:
+        module = importlib.import_module("jax.experimental.serialize_executable")
+    except ImportError:
+        return None
+    return module if hasattr(module, "serialize") else None
+
+
+@functools.cache
+def processor() -> str:
+    """What tells processors apart whose compiled programs differ, as far as NumPy knows it."""
+    # NumPy's table has no public name.
+    umath = getattr(getattr(np, "_core", None), "_multiarray_umath", None)
+    features: dict[str, bool] = getattr(umath, "__cpu_features__", {})
+    names = sorted(name for name, has in features.items() if has)
+    return " ".join([platform.system(), platform.machine(), platform.processor(), *names])

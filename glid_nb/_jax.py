@@ -9,10 +9,13 @@ import importlib
 import sys
 import threading
 from collections.abc import Callable
+from importlib.metadata import PackageNotFoundError, version
 from types import ModuleType
 from typing import TYPE_CHECKING, Annotated, Any, TypeAlias
 
 import numpy as np
+
+from glid_nb._errors import IncompatibleVersionsError
 
 AnyArray: TypeAlias = "jax.Array | np.ndarray[Any, Any]"
 """An array on the device or on the host: data for compiled programs may be either."""
@@ -43,6 +46,37 @@ def settle(waits: bool = False) -> None:
         _lock.release()
 
 
+def installed(*names: str) -> str:
+    """``JAX 0.10.2, jaxlib 0.10.2`` for names of distributions; ``jaxlib missing`` for one."""
+
+    def told(name: str) -> str:
+        try:
+            return f"{name} {version(name)}"
+        except PackageNotFoundError:
+            return f"{name} missing"
+
+    return ", ".join(map(told, names))
+
+
+def incompatible(problem: str) -> IncompatibleVersionsError:
+    """An error that names the versions; ``problem`` goes on from "glid-nb"."""
+    libraries = installed("jax", "jaxlib", "numpy", "scipy", "ml_dtypes")
+    return IncompatibleVersionsError(
+        f"glid-nb {problem}. Installed are {libraries}; install versions that belong together: "
+        "pip install --upgrade glid-nb jax jaxlib"
+    )
+
+
+def import_jax(name: str) -> ModuleType:
+    """The module ``name`` of JAX. Raises IncompatibleVersionsError where it cannot be imported."""
+    try:
+        importlib.import_module("jax")
+        return importlib.import_module(name)
+    except Exception as error:  # JAX and what it imports raise various ones
+        reason = " ".join(str(error).split())
+        raise incompatible(f"cannot import {name} ({type(error).__name__}: {reason})") from error
+
+
 class CompiledOnUse:
     """``jax.jit(function, **options())``, made when it is first called."""
 
@@ -67,7 +101,6 @@ if TYPE_CHECKING:
     import jax
     import jax.numpy as jnp
     from jax import Array, jit, lax
-    from jax.experimental import serialize_executable
     from jaxtyping import Bool, Complex, Float, Int
 else:
     # Nobody evaluates the shapes in annotations, and importing jaxtyping takes 0.1 s.
@@ -81,13 +114,14 @@ else:
         def __getattr__(self, name: str) -> Any:
             if self._module is None:
                 with _lock:  # threads that import parts of JAX at once find them half made
-                    importlib.import_module("jax")
-                    self._module = importlib.import_module(self._name)
+                    self._module = import_jax(self._name)
             settle(waits=True)
-            return getattr(self._module, name)
+            try:
+                return getattr(self._module, name)
+            except AttributeError:
+                raise incompatible(f"needs {self._name}.{name}") from None
 
     def jit(function: Callable[..., Any], **options: Any) -> Callable[..., Any]:
         return CompiledOnUse(function, lambda: options)
 
     jax, jnp, lax = _Module("jax"), _Module("jax.numpy"), _Module("jax.lax")
-    serialize_executable = _Module("jax.experimental.serialize_executable")

@@ -8,22 +8,18 @@ files are the same, and else by its lowered text. Its stages can be watched (`_r
 import functools
 import hashlib
 import os
-import pickle
 import threading
 import time
 import uuid
-import zlib
 from collections import defaultdict
 from collections.abc import Callable
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
-from glid_nb._features import compiler_options
-from glid_nb._files import write_atomically
-from glid_nb._jax import jax, serialize_executable
+from glid_nb._features import compiler_options, processor, typeof
+from glid_nb._jax import jax
+from glid_nb._kept_programs import KeptPrograms
 from glid_nb._runtime import jax_option, stage
 
 _MOST_LOADED = 4  # of 15 MB each; one solve uses up to four
@@ -47,7 +43,7 @@ class Program:
     def __call__(self, *arguments: Any) -> Any:
         leaves, tree = jax.tree.flatten(arguments)
         device = jax_option("jax_default_device") or jax.local_devices()[0]
-        key = (device, tree, *map(jax.typeof, leaves))
+        key = (device, tree, *map(typeof, leaves))
         if (ready := self._ready.get(key)) is None:
             with self._locks[key]:  # a second thread waits for what the first compiles
                 if (ready := self._ready.get(key)) is None:
@@ -65,23 +61,22 @@ class Program:
             return lowered.compile()
         self._make_room()
         self._last_use[key] = time.monotonic()
-        known_as = Path(folder) / f"glid_nb-arguments-{_digest(repr((_files(), key)))}"
-        if known_as.is_file() and (known := _kept(Path(folder) / known_as.read_text())):
+        programs = KeptPrograms(Path(folder))
+        alias = f"glid_nb_arguments_{_digest(repr((_package_files(), key)))}"
+        if (known := programs.by_alias(alias)) is not None:
             return known
         # With a name of its own JAX's cache does not know it: what comes from there loses its
         # functions when it is kept again.
-        name = f"_{uuid.uuid4().hex}"
-        lowered = self._lowered(arguments, name)
-        path = Path(folder) / f"glid_nb-program-{_digest(lowered.as_text().replace(name, ''))}"
-        kept = _kept(path)
-        if kept is None:
-            stage("compile")
-            kept = lowered.compile()
-            content = zlib.compress(pickle.dumps(serialize_executable.serialize(kept)), 1)
-            path.parent.mkdir(parents=True, exist_ok=True)
-            write_atomically(path, hashlib.sha256(content).digest() + content)
-        write_atomically(known_as, path.name)
-        return kept
+        own = f"_{uuid.uuid4().hex}"
+        lowered = self._lowered(arguments, own)
+        name = f"glid_nb_program_{_digest(lowered.as_text().replace(own, ''))}"
+        if (known := programs.by_name(name)) is not None:
+            programs.name_again(name, alias)
+            return known
+        stage("compile")
+        compiled = lowered.compile()
+        programs.keep(compiled, name, [alias])
+        return compiled
 
     def _make_room(self) -> None:
         latest = sorted(self._last_use.items(), key=lambda item: item[1], reverse=True)
@@ -101,20 +96,6 @@ class Program:
         return traced.lower()
 
 
-def _kept(path: Path) -> Any:
-    """What an earlier process has compiled; None if there is nothing, or not all of it."""
-    data = path.read_bytes() if path.is_file() else b""
-    checksum, content = data[:32], data[32:]
-    if hashlib.sha256(content).digest() != checksum:
-        return None
-    stage("load")
-    try:
-        parts = pickle.loads(zlib.decompress(content))
-    except (ImportError, AttributeError):  # a version kept it whose classes were in other modules
-        return None
-    return serialize_executable.deserialize_and_load(*parts)
-
-
 def _digest(text: str) -> str:
     return hashlib.sha256(f"{_here()}{text}".encode()).hexdigest()
 
@@ -122,13 +103,11 @@ def _digest(text: str) -> str:
 @functools.cache
 def _here() -> tuple[Any, ...]:
     """What every program depends on: the libraries, their flags and the processor."""
-    features = np._core._multiarray_umath.__cpu_features__  # type: ignore[attr-defined]
-    versions = [version(name) for name in ("jax", "jaxlib")]
-    return versions, os.environ.get("XLA_FLAGS"), sorted(features.items())
+    return version("jax"), version("jaxlib"), os.environ.get("XLA_FLAGS"), processor()
 
 
 @functools.cache
-def _files() -> list[tuple[Any, ...]]:
+def _package_files() -> list[tuple[Any, ...]]:
     root = Path(__file__).parent
     files = [(str(path.relative_to(root)), path.stat()) for path in sorted(root.glob("**/*.py"))]
     return [(name, stat.st_size, stat.st_mtime_ns) for name, stat in files]

@@ -7,7 +7,9 @@ Importing the package changes no JAX configuration. Entry points that compute ar
 import functools
 import os
 import sys
+import tempfile
 import threading
+import warnings
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, nullcontext
 from contextvars import ContextVar
@@ -18,6 +20,8 @@ import numpy as np
 from numpy.typing import NDArray
 from threadpoolctl import OpenBLASController, ThreadpoolController
 
+from glid_nb._cache_folder import can_write
+from glid_nb._features import enable_x64
 from glid_nb._jax import jax
 
 P = ParamSpec("P")
@@ -81,12 +85,18 @@ def _controller() -> ThreadpoolController:
     return ThreadpoolController()
 
 
+def blas_libraries() -> list[str]:
+    """The BLAS libraries of this process, as ``openblas 0.3.30, 2 threads``."""
+    found = [one for one in _controller().info() if one["user_api"] == "blas"]
+    return [f"{b['internal_api']} {b['version']}, {b['num_threads']} threads" for b in found]
+
+
 def double_precision(function: Callable[P, R]) -> Callable[P, R]:
     """Run ``function`` with 64-bit JAX types, leaving the caller's JAX configuration alone."""
 
     @functools.wraps(function)
     def wrapped(*args: P.args, **kwargs: P.kwargs) -> R:
-        with jax.enable_x64(True):
+        with enable_x64():
             return function(*args, **kwargs)
 
     return wrapped
@@ -126,7 +136,12 @@ def data_directory() -> Path:
 def _directory(own: str, common: str, usual: str) -> Path:
     if named := os.environ.get(own):
         return Path(named)
-    return Path(os.environ.get(common) or Path.home() / usual) / "glid_nb"
+    if not (base := os.environ.get(common)):
+        try:
+            base = Path.home() / usual
+        except RuntimeError:  # a user without a name, as in containers
+            return Path(tempfile.gettempdir()) / f"glid_nb-{os.getuid()}"
+    return Path(base) / "glid_nb"
 
 
 def jax_option(name: str) -> Any:
@@ -134,18 +149,23 @@ def jax_option(name: str) -> Any:
     return getattr(jax.config, name)
 
 
-def enable_compilation_cache() -> Path:
+def enable_compilation_cache() -> Path | None:
     """Keep compiled programs in :func:`cache_directory` between processes; returns that folder.
 
     JAX has one such setting per process, so the command line and the editor call this; importing
-    the package and ``solve`` do not. A folder that the user configured before stays in use.
+    the package and ``solve`` do not. A folder that the user configured before stays in use. Where
+    nothing can be written, one warning says so, and the answer is None.
     """
     if configured := jax_option("jax_compilation_cache_dir"):
         return Path(configured)
     folder = cache_directory() / "compiled"
+    if not can_write(folder):
+        return None
     jax.config.update("jax_compilation_cache_dir", str(folder))
     # Keep small programs too: reading them all takes a quarter of the time of compiling them.
     jax.config.update("jax_persistent_cache_min_compile_time_secs", 0.0)
+    # Should the folder fail later, one warning is enough, which is ours.
+    warnings.filterwarnings("ignore", "Error (reading|writing) persistent compilation cache entry")
     return folder
 
 

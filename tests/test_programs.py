@@ -2,7 +2,13 @@
 
 from __future__ import annotations
 
+import errno
+import hashlib
+import os
+import pickle
+import shutil
 import threading
+import zlib
 from pathlib import Path
 from typing import Any
 
@@ -10,7 +16,7 @@ import jax
 import numpy as np
 import pytest
 
-from glid_nb import _programs
+from glid_nb import _cache_folder, _kept_programs, _programs
 from glid_nb._programs import Program
 from glid_nb._runtime import watched
 
@@ -61,14 +67,14 @@ def test_after_a_change_of_the_package_it_is_found_by_its_text(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     made()(ONES, ONES)
-    monkeypatch.setattr(_programs, "_files", lambda: ["changed"])
+    monkeypatch.setattr(_programs, "_package_files", lambda: ["changed"])
     assert stages(made(), TWOS, ONES) == ["trace", "lower", "load"]
     assert stages(made(), TWOS, ONES) == ["load"]
 
 
 def test_a_damaged_file_is_compiled_again(folder: Path) -> None:
     made()(ONES, ONES)
-    (path,) = folder.glob("glid_nb-program-*")
+    (path,) = folder.glob("glid_nb_program_*")
     path.write_bytes(path.read_bytes()[:-1])
     assert stages(made(), TWOS, ONES) == ["trace", "lower", "compile"]
     assert stages(made(), TWOS, ONES) == ["load"]
@@ -77,7 +83,7 @@ def test_a_damaged_file_is_compiled_again(folder: Path) -> None:
 def test_what_must_not_be_kept_is_not(folder: Path) -> None:
     program = Program(double, donated=1, may_keep=lambda *_: False)
     assert stages(program, ONES, ONES) == ["trace", "lower", "compile"]
-    assert not list(folder.glob("glid_nb-*"))
+    assert not list(folder.glob("glid_nb_*"))
 
 
 def test_a_second_thread_waits_for_what_the_first_compiles() -> None:
@@ -133,3 +139,117 @@ def test_of_those_in_files_the_few_used_last_stay_in_memory(
     assert stages(program, *ones) == ["load"]
     assert stages(program, *twos) == ["load"]
     assert stages(program, *ones) == stages(program, *threes) == []
+
+
+@pytest.fixture
+def warned(monkeypatch: pytest.MonkeyPatch) -> list[str]:
+    """The warnings of a process that has given up no folder yet."""
+    told: list[str] = []
+    monkeypatch.setattr(_cache_folder, "_refused", set())
+    monkeypatch.setattr(_cache_folder.warnings, "warn", lambda text, *_, **__: told.append(text))
+    return told
+
+
+COMPILED = ["trace", "lower", "compile"]
+
+
+def test_a_folder_that_cannot_be_made_is_told_once_and_the_work_goes_on(
+    folder: Path, warned: list[str]
+) -> None:
+    (folder / "file").write_text("not a folder", encoding="utf-8")
+    jax.config.update("jax_compilation_cache_dir", str(folder / "file" / "below"))
+    for _ in range(2):
+        assert stages(made(), ONES, ONES) == COMPILED
+    assert len(warned) == 1
+    assert str(folder / "file" / "below") in warned[0]
+    assert "GLID_NB_CACHE" in warned[0]
+
+
+@pytest.mark.parametrize(
+    ("fault", "reason"),
+    [
+        (OSError(errno.ENOSPC, os.strerror(errno.ENOSPC)), "No space left"),
+        (PermissionError(errno.EACCES, os.strerror(errno.EACCES)), "Permission denied"),
+        (OSError(errno.EROFS, os.strerror(errno.EROFS)), "Read-only file system"),
+    ],
+)
+def test_a_write_that_fails_is_told_once_and_the_work_goes_on(
+    fault: OSError, reason: str, warned: list[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def fail(*_: Any) -> None:
+        raise fault
+
+    monkeypatch.setattr(_kept_programs, "write_atomically", fail)
+    assert stages(made(), ONES, ONES) == COMPILED
+    assert stages(made(), TWOS, ONES) == COMPILED
+    assert len(warned) == 1
+    assert reason in warned[0]
+
+
+def test_a_folder_that_vanishes_is_made_again(folder: Path, warned: list[str]) -> None:
+    assert stages(made(), ONES, ONES) == COMPILED
+    shutil.rmtree(folder)
+    assert stages(made(), ONES, ONES) == COMPILED
+    assert stages(made(), TWOS, ONES) == ["load"]
+    assert warned == []
+
+
+@pytest.mark.parametrize(
+    "content", [b"", b"\0", b"\xff\xfe", b"glid_nb_program_of_nobody", b"../x"]
+)
+def test_a_damaged_alias_is_written_again(content: bytes, folder: Path, warned: list[str]) -> None:
+    made()(ONES, ONES)
+    (alias,) = folder.glob("glid_nb_arguments_*")
+    alias.write_bytes(content)
+    assert stages(made(), TWOS, ONES) == ["trace", "lower", "load"]
+    assert stages(made(), TWOS, ONES) == ["load"]
+    assert warned == []
+
+
+def test_a_program_that_another_version_has_written_is_compiled_again(
+    folder: Path, warned: list[str]
+) -> None:
+    made()(ONES, ONES)
+    (path,) = folder.glob("glid_nb_program_*")
+    for value in (("other", "parts"), 1, {}):
+        content = zlib.compress(pickle.dumps(value))
+        path.write_bytes(hashlib.sha256(content).digest() + content)
+        assert stages(made(), TWOS, ONES) == ["load", "trace", "lower", "load", "compile"]
+    assert stages(made(), TWOS, ONES) == ["load"]
+    assert warned == []
+
+
+@pytest.mark.skipif(not hasattr(os, "geteuid"), reason="files have no owners here")
+def test_a_program_of_another_user_is_not_run(
+    warned: list[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    made()(ONES, ONES)
+    mine = os.geteuid()
+    monkeypatch.setattr(_kept_programs, "_trusted_owners", lambda: {mine + 1})
+    assert stages(made(), TWOS, ONES) == COMPILED
+    assert len(warned) == 1
+    assert "another user" in warned[0]
+
+
+def test_without_a_way_to_write_executables_nothing_is_kept(
+    folder: Path, warned: list[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(_kept_programs, "executables", lambda: None)
+    assert stages(made(), ONES, ONES) == COMPILED
+    assert not list(folder.glob("glid_nb_*"))
+    assert warned == []
+
+
+def test_a_library_that_refuses_to_write_executables_is_told_once(
+    warned: list[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    class Library:
+        @staticmethod
+        def serialize(_: Any) -> Any:
+            raise ValueError("compilation does not support serialization")
+
+    monkeypatch.setattr(_kept_programs, "executables", lambda: Library)
+    for _ in range(2):
+        assert stages(made(), ONES, ONES) == COMPILED
+    assert len(warned) == 1
+    assert "does not support serialization" in warned[0]

@@ -13,6 +13,8 @@ import numpy as np
 import pytest
 
 from glid_nb import _runtime
+from glid_nb._cache_folder import CacheWarning
+from glid_nb._features import enable_x64
 from glid_nb.certificate import certify
 from glid_nb.harmonic import HarmonicMap
 
@@ -59,7 +61,7 @@ assert float32_program() == first
 
 seen, errors, stop, begun = [], [], threading.Event(), threading.Event()
 def watch():
-    while not stop.is_set():
+    while not stop.wait(0.001):  # a pause, for the solver to get on
         try:
             seen.append(float32_program())
         except BaseException as error:
@@ -115,7 +117,7 @@ def test_double_precision_is_a_scope() -> None:
 def test_results_are_double_inside_a_users_own_settings() -> None:
     map = HarmonicMap.identity(domain("ring"))
     points = domain("ring").cage.exterior
-    with jax.enable_x64(True):
+    with enable_x64():
         inside = map(points)
         assert jnp.asarray(1.0).dtype == jnp.float64
     assert inside.dtype == np.float64
@@ -220,6 +222,37 @@ def test_cache_directory(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Non
     assert _runtime.cache_directory() == tmp_path / ".cache" / "glid_nb"
 
 
+def test_a_user_without_a_home_has_folders_among_the_temporary_files(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    def fail() -> Path:
+        raise RuntimeError("Could not determine home directory.")
+
+    for name in ("GLID_NB_CACHE", "XDG_CACHE_HOME", "GLID_NB_DATA", "XDG_DATA_HOME"):
+        monkeypatch.delenv(name, raising=False)
+    monkeypatch.setattr(Path, "home", fail)
+    monkeypatch.setattr(_runtime.tempfile, "gettempdir", lambda: str(tmp_path))
+    assert _runtime.cache_directory().parent == tmp_path
+    assert _runtime.data_directory().parent == tmp_path
+
+
+def test_where_nothing_can_be_written_the_cache_is_off_after_one_warning(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    (tmp_path / "file").write_text("not a folder", encoding="utf-8")
+    monkeypatch.setenv("GLID_NB_CACHE", str(tmp_path / "file" / "below"))
+    before = jax.config.jax_compilation_cache_dir
+    jax.config.update("jax_compilation_cache_dir", None)
+    try:
+        with pytest.warns(CacheWarning, match="name a folder of your own .* GLID_NB_CACHE") as told:
+            folders = [_runtime.enable_compilation_cache() for _ in range(2)]
+        assert folders == [None, None]
+        assert len(told) == 1
+        assert jax.config.jax_compilation_cache_dir is None
+    finally:
+        jax.config.update("jax_compilation_cache_dir", before)
+
+
 @pytest.mark.slow
 def test_the_compilation_cache_is_used_when_it_is_asked_for(
     monkeypatch: pytest.MonkeyPatch, tmp_path: Path
@@ -229,6 +262,8 @@ def test_the_compilation_cache_is_used_when_it_is_asked_for(
 import os
 os.environ["GLID_NB_CACHE"] = {str(tmp_path)!r}
 from glid_nb import _runtime
+from glid_nb._cache_folder import CacheWarning
+from glid_nb._features import enable_x64
 from glid_nb._jax import jit, jnp
 print(_runtime.enable_compilation_cache())
 clock = _runtime.compilation_clock()
@@ -252,6 +287,8 @@ import jax
 jax.config.update("jax_compilation_cache_dir", {str(tmp_path)!r})
 before = dict(jax.config.values)
 from glid_nb import _runtime
+from glid_nb._cache_folder import CacheWarning
+from glid_nb._features import enable_x64
 print(_runtime.enable_compilation_cache())
 print(dict(jax.config.values) == before)
 """)

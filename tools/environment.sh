@@ -1,11 +1,13 @@
 #!/bin/sh
-# Makes or updates the virtual environment .venv with this package in it.
+# Makes or updates a virtual environment with this package in it.
 #   tools/environment.sh [EXTRA]      EXTRA: an extra of pyproject.toml, such as test or dev
-# $PYTHON names the interpreter to use; otherwise the first Python >= 3.11 found is taken.
+# $VENV names the environment, .venv without it; $PYTHON the interpreter, else the newest one that
+# tools/pythons.sh finds. $RESOLUTION=lowest-direct installs the oldest libraries that
+# pyproject.toml allows, by uv.
 set -eu
 cd "$(dirname "$0")/.."
 extra=${1:-}
-venv=.venv
+venv=${VENV:-.venv}
 
 say() { echo "glid-nb: $*" >&2; }
 recent() { "$1" -c 'import sys; sys.exit(sys.version_info < (3, 11))' >/dev/null 2>&1; }
@@ -13,8 +15,7 @@ has_venv() { "$1" -c 'import ensurepip, venv' >/dev/null 2>&1; }
 
 if ! [ -x "$venv/bin/python" ] || ! recent "$venv/bin/python"; then
     python='' without_venv=''
-    for candidate in ${PYTHON:-} python3 python3.14 python3.13 python3.12 python3.11 python; do
-        recent "$candidate" || continue
+    for candidate in $(tools/pythons.sh); do
         if has_venv "$candidate"; then python=$candidate; break; fi
         without_venv=${without_venv:-$candidate}
     done
@@ -25,9 +26,14 @@ if ! [ -x "$venv/bin/python" ] || ! recent "$venv/bin/python"; then
         say "no Python 3.11 or newer was found; on Debian or Ubuntu run: sudo apt-get install python3 python3-venv"
         exit 1
     fi
-    say "making the environment $venv with $("$python" --version)"
+    say "making the environment $venv with $("$python" --version), $python"
     "$python" -m venv --clear "$venv"
 fi
 
 say "installing glid-nb${extra:+[$extra]} and what it needs into $venv (about a minute the first time)"
-"$venv/bin/python" -m pip install --quiet --disable-pip-version-check --editable ".${extra:+[$extra]}"
+pip="$venv/bin/python -m pip install --quiet --disable-pip-version-check"
+if [ -n "${RESOLUTION:-}" ]; then
+    $pip uv
+    pip="$venv/bin/python -m uv pip install --quiet --python $venv/bin/python --resolution $RESOLUTION"
+fi
+$pip --editable ".${extra:+[$extra]}"

@@ -2,14 +2,15 @@
 
 import argparse
 import sys
+import warnings
 from collections.abc import Sequence
-from typing import NoReturn
+from typing import Any, NoReturn
 
 import glid_nb
 from glid_nb._errors import InputError
-from glid_nb.cli import animate, demo, lab, render, samples, solve, trace
+from glid_nb.cli import animate, demo, doctor, lab, render, samples, solve, trace
 
-COMMANDS = (demo, trace, solve, render, animate, samples, lab)
+COMMANDS = (demo, trace, solve, render, animate, samples, lab, doctor)
 
 BAD_INPUT = (OSError, InputError)
 """Errors told in one line. Any other, a plain ValueError too, is a bug and keeps its traceback."""
@@ -25,6 +26,10 @@ def one_line(error: BaseException) -> str:
 class OneLineParser(argparse.ArgumentParser):
     def error(self, message: str) -> NoReturn:
         self.exit(2, f"glid-nb: error: {message} (see {self.prog} --help)\n")
+
+
+def _tell(message: Warning | str, *_: Any) -> None:
+    print(f"glid-nb: warning: {' '.join(str(message).split())}", file=sys.stderr)
 
 
 def build_parser() -> argparse.ArgumentParser:
@@ -54,7 +59,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """
     chosen = build_parser().parse_args(arguments)
     try:
-        chosen.run(chosen)
+        with warnings.catch_warnings():
+            warnings.showwarning = _tell
+            chosen.run(chosen)
     except KeyboardInterrupt:
         print("glid-nb: interrupted", file=sys.stderr)
         return 130

@@ -9,6 +9,7 @@ from numbers import Real
 from typing import Any, ClassVar, NamedTuple, Self, TypeVar
 
 from glid_nb._errors import InputError
+from glid_nb._features import enable_x64
 from glid_nb._jax import Array, Float, jax, jnp, once_loaded, settle
 
 Scalars = Float[Array, " *samples"]
@@ -161,7 +162,7 @@ class CustomEnergy(Energy):
         if self.function in _checked:
             return
         try:
-            with jax.ensure_compile_time_eval(), jax.enable_x64(True):
+            with jax.ensure_compile_time_eval(), enable_x64():
                 start = jnp.ones(1), jnp.zeros(1)
                 values = {"value": self.density(*start), **self.differentials(*start)._asdict()}
         except TypeError as error:

@@ -11,13 +11,12 @@ from collections.abc import Callable
 from typing import Any
 
 import flint
-import jax
 import jax.numpy as jnp
 import numpy as np
 import pytest
 from flint import acb, arb
 
-from glid_nb._features import solver_jit
+from glid_nb._features import enable_x64, solver_jit
 from glid_nb.certificate import rounding
 from glid_nb.harmonic import cauchy
 from glid_nb.harmonic.cauchy import Singularities
@@ -58,7 +57,7 @@ def exact_ratio(a: complex, b: complex) -> acb:
 
 
 def compiled(function: Callable[..., Any], *args: Array) -> Array:
-    with jax.enable_x64(True):
+    with enable_x64():
         return np.asarray(solver_jit(function)(*args))
 
 

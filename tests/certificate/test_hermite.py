@@ -11,6 +11,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from glid_nb._features import enable_x64
 from glid_nb.certificate import Hermite, PanelBounds, hermite
 from glid_nb.certificate.paper import derivative_bound_weights, distances
 from glid_nb.geometry import graded_panels
@@ -25,7 +26,7 @@ bounds_of = jax.jit(Hermite.bounds)
 
 
 def bounds(f: np.ndarray, g: np.ndarray, e_f: Any, e_g: Any) -> PanelBounds:
-    with jax.enable_x64(True):
+    with enable_x64():
         remainder = np.stack([np.full(PANELS, e_f), np.full(PANELS, e_g)])
         got = bounds_of(end_values(f), end_values(g), remainder)
         return PanelBounds(*map(np.asarray, got))
@@ -120,7 +121,7 @@ def test_bernstein_coefficients_are_those_of_the_squared_modulus() -> None:
             for i, b in enumerate(points)
         )
 
-    with jax.enable_x64(True):
+    with enable_x64():
         square = hermite._squared_modulus(control)
         halves = hermite._halves(control)
     np.testing.assert_allclose(bernstein(square), np.abs(bernstein(control)) ** 2, rtol=1e-12)
@@ -142,7 +143,7 @@ def panel_remainders(name: str, size: float, seed: int) -> tuple[np.ndarray, ...
         proof = Hermite.on(start, end, basis.singularities)
         return proof.remainder(coefficients, basis.singularities).T
 
-    with jax.enable_x64(True):
+    with enable_x64():
         remainder = np.asarray(allowed(panels.start, panels.end))
     yardstick = reference(map)
     loops, rho = yardstick.loops, yardstick.rho
@@ -207,7 +208,7 @@ def test_the_bound_on_derivatives_is_attained(
     near = -gap if rho == [] else gap
     start, end = np.full(4, near + 0j), np.full(4, near * 1.5 + 0j)
     phi = np.array(coefficients, dtype=complex)
-    with jax.enable_x64(True):
+    with enable_x64():
         jumps = abs(np.asarray(cauchy.slope_jumps(phi, s)))
         bound = np.asarray(jax.jit(derivative_bound_weights, static_argnums=3)(
             start, end, s, order)) @ jumps  # fmt: skip
@@ -226,7 +227,7 @@ def test_the_bound_on_derivatives_holds_along_whole_panels(order: int) -> None:
     map = random_map("twin", 0.3, 2)
     panels = graded_panels(map.domain)
     basis = basis_of(map.domain)
-    with jax.enable_x64(True):
+    with enable_x64():
         weights = jax.jit(derivative_bound_weights, static_argnums=3)(
             panels.start, panels.end, basis.singularities, order
         )
@@ -245,7 +246,7 @@ def test_distances_are_those_to_the_segment() -> None:
     start, end = (rng.normal(size=6) + 1j * rng.normal(size=6) for _ in range(2))
     end[0] = start[0]
     s = singularities(rng.normal(size=4) + 1j * rng.normal(size=4), [0.3])
-    with jax.enable_x64(True):
+    with enable_x64():
         got = np.asarray(jax.jit(distances)(start, end, s))
     t = np.linspace(0, 1, 20001)
     on = start[:, None] + (end - start)[:, None] * t

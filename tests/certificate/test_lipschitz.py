@@ -6,6 +6,7 @@ import jax
 import numpy as np
 from hypothesis import given, settings
 
+from glid_nb._features import enable_x64
 from glid_nb.certificate import Lipschitz, PanelBounds
 from glid_nb.harmonic.cauchy import Singularities
 
@@ -29,7 +30,7 @@ def curvature(coefficients: np.ndarray) -> np.ndarray:
 
 def bounds(f: np.ndarray, g: np.ndarray, share: float = 1.0) -> PanelBounds:
     """Bounds with l^2 / 2 times the exact bound on the second derivative, l = 1."""
-    with jax.enable_x64(True):
+    with enable_x64():
         remainder = np.stack([share * curvature(c) / 2 for c in (f, g)])
         return PanelBounds(*map(np.asarray, bounds_of(end_values(f), end_values(g), remainder)))
 
@@ -96,7 +97,7 @@ def test_the_remainder_grows_with_the_square_of_the_length() -> None:
     triangle, cycle = np.array([1e3j, 2e3j, 1e3 + 1e3j]), np.array([1, 2, 0])
     far = Singularities(triangle, cycle, np.argsort(cycle), np.array([]))
     lengths = np.array([0.1, 1, 3])
-    with jax.enable_x64(True):
+    with enable_x64():
         proof = jax.jit(Lipschitz.on)(np.zeros(3), lengths + 0j, far)
         remainder = np.asarray(proof.remainder(np.array([[1.0, 0, 0]]), far))[0]
     np.testing.assert_allclose(remainder / lengths**2, remainder[1], rtol=0.02)

@@ -8,6 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from glid_nb._features import enable_x64
 from glid_nb.certificate import certify, rounding
 from glid_nb.energies import as_energy
 from glid_nb.geometry import graded_panels, uniform_panels
@@ -57,7 +58,7 @@ def extended(name: str) -> tuple[list[np.ndarray], np.ndarray]:
 def test_the_scale_bounds_the_sum_of_all_terms(name: str) -> None:
     d = domain(name)
     z = graded_panels(d).start
-    with jax.enable_x64(True):
+    with enable_x64():
         first, second = map(np.asarray, scale_of(z, basis_of(d).singularities))
     rho = d.hole_points @ np.array([1, 1j])
     for scale, matrix in ((first, cauchy_first), (second, cauchy_second)):
@@ -87,7 +88,7 @@ def test_the_slack_bounds_the_actual_rounding(
     padded = np.stack([basis.pad(map.phi), basis.pad(map.psi)])
     first = len(map.domain.offset_cage.loops_complex[0])
     local = map.phi - np.where(np.arange(len(map.phi)) < first, map.phi[:first].mean(), 0)
-    with jax.enable_x64(True):
+    with enable_x64():
         singular = basis.singularities
         by_edges = [np.asarray(a)[0] for a in derivatives(panels.start, padded, singular)]
         scale = np.asarray(panel_scale(panels.start, panels.end, singular))
@@ -132,7 +133,7 @@ def test_the_loop_counts_differences_too(shift: float) -> None:
         positional_energy(map, pose, 1.0),
         as_energy(None),
     )
-    with jax.enable_x64(True):
+    with enable_x64():
         y = real_coefficients(map)
         problem = problem._replace(anchor=anchor_of(disc.basis, y))
         reach = float(evaluation.reach(problem, y))
@@ -188,7 +189,7 @@ def test_fast_math_proves_nothing() -> None:
     exact = jax.jit(rounding.allowance)
     options = {"xla_cpu_enable_fast_math": True}
     fast = jax.jit(rounding.allowance, compiler_options=options)
-    with jax.enable_x64(True):
+    with enable_x64():
         for probe in (1.0, 1.7, 3e-200, 5e200):
             assert np.isfinite(exact(np.ones(4), np.float64(probe))).all()
             assert np.isinf(fast(np.ones(4), np.float64(probe))).all()

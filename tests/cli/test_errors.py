@@ -2,6 +2,13 @@
 
 from __future__ import annotations
 
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
 import pytest
 
 from glid_nb.cli import samples
@@ -68,3 +75,27 @@ def test_an_interrupt_is_said_quietly(
     monkeypatch.setattr(samples, "run", interrupted)
     assert main(["samples"]) == 130
     assert "interrupted" in capsys.readouterr().err
+
+
+@pytest.mark.slow
+def test_a_home_that_cannot_be_written_costs_one_warning_and_not_the_map(
+    tmp_path: Path, problem_data: dict[str, Any]
+) -> None:
+    problem, home = tmp_path / "problem.json", tmp_path / "home"
+    problem.write_text(json.dumps(problem_data), encoding="utf-8")
+    home.write_text("not a folder", encoding="utf-8")  # root could write into any folder
+    unset = ("GLID_NB_CACHE", "XDG_CACHE_HOME", "JAX_COMPILATION_CACHE_DIR")
+    environment = {k: v for k, v in os.environ.items() if k not in unset} | {"HOME": str(home)}
+    words = ("solve", str(problem), "--out", str(tmp_path / "map.json"))
+    done = subprocess.run(
+        [sys.executable, "-m", "glid_nb", *words],
+        env=environment,
+        capture_output=True,
+        text=True,
+        timeout=200,
+    )
+    assert done.returncode == 0, done.stderr
+    assert (tmp_path / "map.json").is_file()
+    (told,) = [line for line in done.stderr.splitlines() if "warning" in line.lower()]
+    assert told.startswith("glid-nb: warning: compiled programs are not kept")
+    assert "GLID_NB_CACHE" in told

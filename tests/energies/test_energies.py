@@ -14,6 +14,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from glid_nb._features import enable_x64
 from glid_nb.energies import (
     AMIPS,
     ARAP,
@@ -98,7 +99,7 @@ def test_densities_are_those_of_the_singular_values(
     sigma1, sigma2 = singular_values(drawn)
     x, y = squares(sigma1, sigma2)
     expected = formula(sigma1, sigma2)
-    with jax.enable_x64(True):
+    with enable_x64():
         got = np.asarray(compiled("density")(energy, x, y))
     # Exponentials magnify the rounding of their arguments.
     tolerance = 1e-11 * np.maximum(1, np.log(np.maximum(expected, 1)))
@@ -124,7 +125,7 @@ def test_alphas_and_betas_are_the_derivatives(
     energy: Energy, drawn: list[tuple[float, float]]
 ) -> None:
     x, y = squares(*singular_values(drawn))
-    with jax.enable_x64(True):
+    with enable_x64():
         got = compiled("differentials")(energy, x, y)
         (dx, dy), ((dxx, dxy), (dyx, dyy)) = automatic(density_of(energy))(x, y)
     for value, expected, scale in (
@@ -146,7 +147,7 @@ def test_near_degenerate_samples(energy: Energy, gap: float) -> None:
     x = np.full(COUNT, 1.0) + np.arange(COUNT) / 8
     gap = 2.0 ** np.round(np.log2(gap))
     y = x - gap
-    with jax.enable_x64(True):
+    with enable_x64():
         density = np.asarray(compiled("density")(energy, x, y))
         got = compiled("differentials")(energy, x, y)
         (dx, dy), ((dxx, dxy), (_, dyy)) = automatic(density_of(energy))(x, y)
@@ -177,7 +178,7 @@ def test_a_custom_energy_of_the_same_formula_is_the_same(
     custom = CustomEnergy(formula)
     assert custom.name == "custom"
     x, y = squares(np.linspace(0.8, 2.2, COUNT), np.linspace(0.8, 0.6, COUNT))
-    with jax.enable_x64(True):
+    with enable_x64():
         np.testing.assert_allclose(
             compiled("density")(custom, x, y), compiled("density")(energy, x, y), rtol=1e-12
         )
@@ -189,7 +190,7 @@ def test_a_custom_energy_of_the_same_formula_is_the_same(
 def test_a_custom_energy_may_be_unsymmetric_and_of_any_sign() -> None:
     custom = CustomEnergy(lambda x, y: jnp.sin(x) * y - x * y**3)
     x, y = np.linspace(0.5, 2, COUNT), np.linspace(0, 0.4, COUNT)
-    with jax.enable_x64(True):
+    with enable_x64():
         d = compiled("differentials")(custom, x, y)
     expected = (
         np.cos(x) * y - y**3,
@@ -208,7 +209,7 @@ def test_the_isometry_is_a_minimum(energy: Energy) -> None:
     """In the singular values: stationary at (1, 1), and no neighbour is better."""
     sigma1, sigma2 = (a.ravel() for a in np.meshgrid([0.9, 1, 1.1, 1.3], [0.7, 0.8, 0.9, 1]))
     x, y = squares(sigma1, sigma2)
-    with jax.enable_x64(True):
+    with enable_x64():
         at_isometry = float(energy.density(np.ones(1), np.zeros(1))[0])
         around = np.asarray(compiled("density")(energy, x, y))
     assert (around[(sigma1 != 1) | (sigma2 != 1)] > at_isometry).all()
@@ -226,7 +227,7 @@ def test_the_isometry_is_a_minimum(energy: Energy) -> None:
     ids=list(ENERGIES),
 )
 def test_values_at_the_isometry(energy: Energy, value: float) -> None:
-    with jax.enable_x64(True):
+    with enable_x64():
         assert float(energy.density(np.ones(1), np.zeros(1))[0]) == pytest.approx(value, rel=1e-14)
 
 
@@ -238,7 +239,7 @@ def test_a_sharper_energy_runs_the_same_program() -> None:
         traced.append(energy)
         return energy.density(x, y)
 
-    with jax.enable_x64(True):
+    with enable_x64():
         for s in (0.5, 1.0, 2.0):
             value = density(AMIPS(s), np.array([1.5]), np.array([0.2]))
             assert float(value[0]) == pytest.approx(math.exp((2 * s * 1.7 + 1) / 1.3 + 1.3))

@@ -8,6 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from glid_nb._features import enable_x64
 from glid_nb.geometry import Cage, Domain
 from glid_nb.harmonic import basis_of, cauchy
 
@@ -94,7 +95,7 @@ def test_padding_columns_are_finite_everywhere_in_the_domain() -> None:
     d = domain("triple")
     basis = basis_of(d)
     z = np.concatenate([*d.cage.loops_complex, [1e-3j]])
-    with jax.enable_x64(True):
+    with enable_x64():
         for kernel in (
             cauchy.cauchy_coordinates,
             cauchy.first_derivatives,

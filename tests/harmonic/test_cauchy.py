@@ -11,6 +11,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from glid_nb._features import enable_x64
 from glid_nb.harmonic import basis_of, cauchy
 
 from ..domains import NAMES, domain
@@ -42,7 +43,7 @@ def parts(name: str) -> tuple[Any, Any, Array]:
 def own_columns(kernel: Any, name: str, z: Array) -> Array:
     """A basis matrix of the package, its padding columns left out."""
     basis = basis_of(domain(name))
-    with jax.enable_x64(True):
+    with enable_x64():
         return np.asarray(jax.jit(kernel)(z, basis.singularities))[:, basis.columns]
 
 
@@ -144,7 +145,7 @@ def test_first_derivatives_are_the_jacobian_of_the_coordinates() -> None:
         c = cauchy.cauchy_coordinates(jax.lax.complex(pair[:1], pair[1:]), basis.singularities)
         return jnp.real(c)[0], jnp.imag(c)[0]
 
-    with jax.enable_x64(True):
+    with enable_x64():
         jacobian = jax.jit(jax.vmap(jax.jacfwd(value)))(np.stack([z.real, z.imag], axis=-1))
         d = jax.jit(cauchy.first_derivatives)(z, basis.singularities)
     u, v = (np.asarray(a) for a in jacobian)
@@ -162,7 +163,7 @@ def test_higher_derivatives(name: str, order: int) -> None:
     basis = basis_of(domain(name))
     rng = np.random.default_rng(order)
     phi = rng.normal(size=len(basis.columns)) + 1j * rng.normal(size=len(basis.columns))
-    with jax.enable_x64(True):
+    with enable_x64():
         got = jax.jit(cauchy.higher_derivative, static_argnums=3)(
             z, basis.pad(phi), basis.singularities, order
         )
@@ -185,7 +186,7 @@ def test_coordinates_move_with_the_plane(scale: float, turn: float, shift: compl
     a = scale * np.exp(1j * turn)
     moved = basis.singularities._replace(vertices=a * basis.singularities.vertices + shift)
     first = len(loops[0])
-    with jax.enable_x64(True):
+    with enable_x64():
         c = jax.jit(cauchy.cauchy_coordinates)(a * z + shift, moved)
         d = jax.jit(cauchy.first_derivatives)(a * z + shift, moved)
     c_expected = c_reference(z, loops, np.empty(0))
@@ -202,7 +203,7 @@ def test_slope_jumps_run_around_each_loop() -> None:
     rng = np.random.default_rng(3)
     n = len(basis.columns)
     phi = rng.normal(size=(2, n)) + 1j * rng.normal(size=(2, n))
-    with jax.enable_x64(True):
+    with enable_x64():
         padded = np.stack([basis.pad(row) for row in phi])
         got = np.asarray(cauchy.slope_jumps(padded, basis.singularities))[:, basis.columns]
     for row, jumps in zip(phi, got, strict=True):

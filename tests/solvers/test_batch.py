@@ -13,6 +13,7 @@ import jax
 import numpy as np
 import pytest
 
+from glid_nb._features import enable_x64
 from glid_nb.energies import as_energy
 from glid_nb.geometry import Domain
 from glid_nb.solvers import Options, Pose, PoseError, Status, batch, solve, solve_batch
@@ -55,7 +56,7 @@ def test_poses_in_lockstep_are_the_poses_one_by_one() -> None:
         Inputs(domain=ell, pose=Pose(HANDLES, goal), energy=as_energy(None), options=Options())
         for goal in goals
     ]
-    with jax.enable_x64(True):
+    with enable_x64():
         results = batch._in_lockstep(given)
     alone = [solve(ell, Pose(HANDLES, goal)) for goal in goals]
     np.testing.assert_allclose([r.energy for r in results], [r.energy for r in alone], rtol=1e-6)

@@ -13,6 +13,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
+from glid_nb._features import enable_x64
 from glid_nb.energies import (
     AMIPS,
     ARAP,
@@ -112,7 +113,7 @@ def compiled_local() -> Any:
 
 
 def check_projection(d: Differentials, fz: Array, fzb_conj: Array) -> None:
-    with jax.enable_x64(True):
+    with enable_x64():
         local, positive = compiled_local()(d, fz, fzb_conj)
     k = dense_k(d, fz, fzb_conj)
     size = np.abs(k).max(axis=(1, 2), keepdims=True) + 1e-290
@@ -162,7 +163,7 @@ def test_the_projection_is_that_of_the_eigenvalues(
         fz = fz / np.abs(fz) * np.clip(np.abs(fz), 0.2, 3)
         fzb_conj = fzb_conj * np.minimum(1, 0.7 * np.abs(fz) / (np.abs(fzb_conj) + 1e-300))
     x, y = np.abs(fz) ** 2, np.abs(fzb_conj) ** 2
-    with jax.enable_x64(True):
+    with enable_x64():
         d = compiled_differentials()(energy, x, y)
     check_projection(Differentials(*map(np.asarray, d)), fz, fzb_conj)
 
@@ -198,7 +199,7 @@ def test_the_projection_does_not_overflow(size: float) -> None:
     """exp(s E) reaches such values where a certified map is merely thin."""
     block = np.array([[3.0, -2.5], [-2.5, 1.0]])
     k = LocalHessian(*(np.full(COUNT, v * size) for v in (-1.0, 2.0, 3.0, 1.0, -2.5)))
-    with jax.enable_x64(True):
+    with enable_x64():
         positive = jax.jit(positive_part)(k)
     values, vectors = np.linalg.eigh(block)
     expected = (vectors * np.maximum(values, 0)) @ vectors.T
@@ -222,7 +223,7 @@ def test_eigenvalues_of_the_symmetric_dirichlet_energy(
     fz = np.full(COUNT, (sigma1 + sigma2) / 2 * np.exp(1j * turns[0]))
     fzb_conj = np.full(COUNT, (sigma1 - sigma2) / 2 * np.exp(1j * turns[1]))
     x, y = np.abs(fz) ** 2, np.abs(fzb_conj) ** 2
-    with jax.enable_x64(True):
+    with enable_x64():
         d = compiled_differentials()(SymmetricDirichlet(), x, y)
         k, positive = compiled_local()(d, fz, fzb_conj)
     expected = [
@@ -252,7 +253,7 @@ def test_assemble_is_the_sum_over_the_samples() -> None:
     k = LocalHessian(*rng.normal(size=(5, h)))
     weights = rng.uniform(size=h)
     f, g = ((z.real / np.abs(z), z.imag / np.abs(z)) for z in (fz, fzb_conj))
-    with jax.enable_x64(True):
+    with enable_x64():
         nodes = np.concatenate([d.real, -d.imag], axis=1).T
         got = np.asarray(jax.jit(assemble)(nodes, weights, f, g, k))
         only_across_f = LocalHessian(k.across_f, *np.zeros((4, h)))
@@ -311,7 +312,7 @@ def automatic(kind: str) -> Any:
 def test_a_large_basis_is_assembled_in_pieces(monkeypatch: pytest.MonkeyPatch) -> None:
     matrices = discretise(domain("ring")).matrices
     y = np.random.default_rng(5).normal(size=2 * len(matrices.nodes))
-    with jax.enable_x64(True):
+    with enable_x64():
         samples = evaluation.products(matrices, y)
         x, yy = evaluation.squares(samples.values)
         k = local_hessian(SymmetricDirichlet().differentials(x, yy), x, yy)
@@ -351,7 +352,7 @@ def test_gradient_and_hessian_are_those_of_the_discretised_energy(energy: Energy
         hessian = assemble(matrices.nodes, matrices.weights, f, g, k)
         return restrict_gradient(gradient, unknowns), restrict_hessian(hessian, unknowns)
 
-    with jax.enable_x64(True):
+    with enable_x64():
         gradient, hessian = map(np.asarray, of_the_package(energy, padded))
         expected_gradient = automatic("gradient")(energy, dense, weights[rows], y)
         expected_hessian = automatic("hessian")(energy, dense, weights[rows], y)
@@ -409,7 +410,7 @@ def test_the_cheap_projection_is_the_whole_one(energy: Energy, seed: int) -> Non
     # Not so near folding that the exponential energy overflows.
     x = rng.uniform(0.3, 4, COUNT)
     y = x * rng.uniform(0, 0.7, COUNT)
-    with jax.enable_x64(True):
+    with enable_x64():
         k = local_hessian(energy.differentials(jnp.asarray(x), jnp.asarray(y)), x, y)
         projected = positive_part(k)
     scale = max(float(np.abs(v).max()) for v in k)

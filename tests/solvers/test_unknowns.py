@@ -8,6 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from glid_nb._features import enable_x64
 from glid_nb.harmonic import HarmonicMap, basis_of
 from glid_nb.solvers.discretisation import discretise
 from glid_nb.solvers.problem import (
@@ -51,7 +52,7 @@ def test_restriction_and_expansion_are_those_of_the_dense_matrix(
     hessian = rng.normal(size=(size, size))
     hessian += hessian.T
 
-    with jax.enable_x64(True):
+    with enable_x64():
         expanded = np.asarray(expand(jax.numpy.asarray(step), unknowns))
         g = np.asarray(restrict_gradient(jax.numpy.asarray(gradient), unknowns))
         h = np.asarray(restrict_hessian(jax.numpy.asarray(hessian), unknowns))

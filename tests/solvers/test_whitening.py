@@ -8,6 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from glid_nb._features import enable_x64
 from glid_nb.geometry import Cage, Domain
 from glid_nb.harmonic import basis_of
 from glid_nb.harmonic.cauchy import cauchy_coordinates
@@ -59,13 +60,13 @@ def test_derivatives_of_the_new_basis_are_orthonormal(name: str, sampling: str) 
 def test_the_stored_basis_is_the_whitened_one_to_its_precision(name: str, sampling: str) -> None:
     disc = discretise(domain(name), sampling)  # type: ignore[arg-type]
     m = disc.matrices
-    with jax.enable_x64(True):
+    with enable_x64():
         exact = np.asarray(whitened(m.nodes, m.hessian_index, m.whitening, np.float64))
     assert m.whitened.dtype == np.float32
     np.testing.assert_allclose(np.asarray(m.whitened), exact, atol=1e-6 * np.abs(exact).max())
     full = disc.full(disc.matrices)
     assert full.whitened.dtype == np.float64
-    with jax.enable_x64(True):
+    with enable_x64():
         exact = np.asarray(whitened(full.nodes, full.hessian_index, full.whitening, np.float64))
     np.testing.assert_array_equal(np.asarray(full.whitened), exact)
     if sampling == "uniform":
@@ -78,7 +79,7 @@ def test_a_gradient_pulls_back_as_coefficients_push_forward(name: str, seed: int
     t = discretise(domain(name)).matrices.whitening
     rng = np.random.default_rng(seed)
     x, gradient = rng.normal(size=4 * t.shape[2]), rng.normal(size=4 * t.shape[1])
-    with jax.enable_x64(True):
+    with enable_x64():
         pushed, pulled = np.asarray(coefficients(x, t)), np.asarray(pulled_back(gradient, t))
     scale = np.abs(gradient) @ np.abs(pushed)
     assert gradient @ pushed == pytest.approx(pulled @ x, abs=1e-12 * scale)
@@ -91,7 +92,7 @@ def test_unknowns_stay_where_they_are(name: str) -> None:
     t = discretise(domain(name)).matrices.whitening
     unknowns = unknowns_of(basis, False, t)
     rng = np.random.default_rng(1)
-    with jax.enable_x64(True):
+    with enable_x64():
         x = expand(jax.numpy.asarray(rng.normal(size=len(unknowns.free))), unknowns)
         y = np.asarray(coefficients(x, t)).reshape(4, -1)
     phi, psi = y[0] + 1j * y[1], y[2] + 1j * y[3]
@@ -102,7 +103,7 @@ def test_unknowns_stay_where_they_are(name: str) -> None:
     others[0] = False  # a translation, which phi has as well
     np.testing.assert_array_equal(psi[others], 0)
     np.testing.assert_allclose(psi[logarithms], phi[logarithms].conj(), rtol=1e-13)
-    with jax.enable_x64(True):
+    with enable_x64():
         moved = np.asarray(products(discretise(domain(name)).matrices, y.ravel()).values)
     assert np.abs(moved).max() > 0
 
@@ -114,7 +115,7 @@ def test_only_the_translation_moves_the_anchor(name: str, sampling: str) -> None
     disc = discretise(domain(name), sampling)  # type: ignore[arg-type]
     t = np.asarray(disc.matrices.whitening)
     points = np.array([disc.panels.start[0], *disc.panels.middle[::7]])
-    with jax.enable_x64(True):
+    with enable_x64():
         rows = np.asarray(complex_basis(cauchy_coordinates, points, disc.basis))
     values = rows @ (t[0] + 1j * t[1])
     np.testing.assert_allclose(values[:, 0], 1, atol=1e-9)

@@ -1,0 +1,102 @@
+"""A folder of compiled programs, kept between processes. It saves time and nothing depends on it.
+
+A program that cannot be read is compiled again. A folder that cannot be written to is told in one
+warning, and the process goes on without it.
+"""
+
+import hashlib
+import os
+import pickle
+import zlib
+from collections.abc import Iterable
+from pathlib import Path
+from typing import Any
+
+from glid_nb._cache_folder import is_refused, refuse
+from glid_nb._features import executables
+from glid_nb._files import write_atomically
+from glid_nb._runtime import stage
+
+_CHECKSUM = hashlib.sha256().digest_size
+
+
+class KeptPrograms:
+    """The programs in a folder. Each has a name, and aliases by which it is found too."""
+
+    def __init__(self, folder: Path) -> None:
+        self._folder = folder
+
+    def by_alias(self, alias: str) -> Any | None:
+        """The program that was last kept under ``alias``; None if there is none."""
+        try:
+            name = self._read(alias).decode("ascii")
+        except UnicodeDecodeError:
+            return None
+        return self.by_name(name) if name.isidentifier() else None
+
+    def by_name(self, name: str) -> Any | None:
+        """The program, ready to be called; None if there is none or it cannot be used."""
+        data = self._read(name)
+        checksum, content = data[:_CHECKSUM], data[_CHECKSUM:]
+        if hashlib.sha256(content).digest() != checksum or (library := executables()) is None:
+            return None
+        stage("load")
+        try:
+            return library.deserialize_and_load(*pickle.loads(zlib.decompress(content)))
+        except Exception:  # another version wrote it: whatever its classes and JAX raise
+            return None
+
+    def keep(self, program: Any, name: str, aliases: Iterable[str]) -> None:
+        """Write a compiled program and its aliases, or warn once that this is not possible."""
+        if is_refused(self._folder) or (library := executables()) is None:
+            return
+        try:
+            content = zlib.compress(pickle.dumps(library.serialize(program)), 1)
+        except Exception as error:  # JAX's own, of many kinds
+            refuse(self._folder, f"this JAX cannot write them: {error}")
+            return
+        self._write(name, hashlib.sha256(content).digest() + content)
+        for alias in aliases:
+            self.name_again(name, alias)
+
+    def name_again(self, name: str, alias: str) -> None:
+        """Make the program ``name`` known as ``alias``, too."""
+        self._write(alias, name.encode("ascii"))
+
+    def _read(self, name: str) -> bytes:
+        """The bytes of a file; none if it is not there, cannot be read, or is somebody else's."""
+        path = self._folder / name
+        try:
+            if not path.is_file():
+                return b""
+            if not _is_trusted(path):
+                refuse(self._folder, "they belong to another user")
+                return b""
+            return path.read_bytes()
+        except OSError as error:
+            refuse(self._folder, str(error))
+            return b""
+
+    def _write(self, name: str, data: bytes) -> None:
+        if is_refused(self._folder):
+            return
+        try:
+            self._folder.mkdir(parents=True, exist_ok=True)
+            write_atomically(self._folder / name, data)
+        except OSError as error:
+            refuse(self._folder, error.strerror or str(error))
+
+
+def _is_trusted(path: Path) -> bool:
+    """Whether nobody but this user and the administrator may have written a program.
+
+    To load one is to run it.
+    """
+    owners = _trusted_owners()
+    return owners is None or path.stat().st_uid in owners
+
+
+def _trusted_owners() -> set[int] | None:
+    if not hasattr(os, "geteuid"):  # Windows keeps a user's folders from other users
+        return None
+    return {0, os.geteuid()}
