@@ -7,11 +7,13 @@ the versions that refuse it. The package then works without that feature, only s
 import functools
 import importlib
 import platform
+import re
 from collections.abc import Callable
 from contextlib import AbstractContextManager
 from typing import Any
 
 import numpy as np
+from threadpoolctl import OpenBLASController
 
 from glid_nb._jax import Array, CompiledOnUse, import_jax, incompatible, jax, lax
 
@@ -23,12 +25,12 @@ _WANTED_OPTIONS: dict[str, Any] = {
 
 FACTORISE, SOLVE = "lapack_dpotrf_ffi", "lapack_dtrsm_ffi"
 """The names under which JAX on a CPU knows LAPACK's Cholesky factorisation and triangular solve."""
-# What JAX's own calls look like in the versions whose way of calling LAPACK we know.
+# Patterns of JAX's own calls in the versions whose way of calling LAPACK we know: one matrix is
+# factorised; a factor and right-hand sides are solved (older versions give a third argument).
 _KNOWN_CALLS = (
-    f"@{FACTORISE}(",
-    "{uplo = 76 : ui8}",
-    f"@{SOLVE}(",
-    "{diag = 78 : ui8, side = 76 : ui8, trans_x = 84 : ui8, uplo = 76 : ui8}",
+    rf"@{FACTORISE}\(%\w+\) .*\{{uplo = 76 : ui8\}}",
+    rf"@{SOLVE}\(%\w+, %\w+\) .*"
+    r"\{diag = 78 : ui8, side = 76 : ui8, trans_x = 84 : ui8, uplo = 76 : ui8\}",
 )
 
 
@@ -106,7 +108,17 @@ def lapack_in_place() -> bool:
     with enable_x64():
         shapes = jax.ShapeDtypeStruct((2, 2), np.float64), jax.ShapeDtypeStruct((2, 1), np.float64)
         text = jax.jit(both).trace(*shapes).lower(lowering_platforms=("cpu",)).as_text()
-    return all(part in text for part in _KNOWN_CALLS)
+    return all(re.search(call, text) for call in _KNOWN_CALLS)
+
+
+def release_blas() -> None:
+    """Let any thread set the number of BLAS threads next.
+
+    threadpoolctl from 3.8 on binds control of OpenBLAS to one Python thread; before, none is bound.
+    """
+    release = getattr(OpenBLASController, "clear_controlling_thread", None)
+    if release is not None:
+        release(force=True)
 
 
 @functools.cache

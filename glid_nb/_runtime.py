@@ -18,10 +18,10 @@ from typing import Any, ParamSpec, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
-from threadpoolctl import OpenBLASController, ThreadpoolController
+from threadpoolctl import ThreadpoolController
 
 from glid_nb._cache_folder import can_write
-from glid_nb._features import enable_x64
+from glid_nb._features import enable_x64, release_blas
 from glid_nb._jax import jax
 
 P = ParamSpec("P")
@@ -62,11 +62,10 @@ def single_blas_thread() -> Iterator[None]:
     global _depth, _limiter
     with _lock:
         if _depth == 0:
-            # threadpoolctl binds control of OpenBLAS to one Python thread. The limit may be lifted
-            # from another thread, so control is released after each change.
-            OpenBLASController.clear_controlling_thread(force=True)
+            # The limit may be lifted from another thread, so control is released after each change.
+            release_blas()
             _limiter = _controller().limit(limits=1, user_api="blas")
-            OpenBLASController.clear_controlling_thread(force=True)
+            release_blas()
         _depth += 1
     try:
         yield
@@ -75,7 +74,7 @@ def single_blas_thread() -> Iterator[None]:
             _depth -= 1
             if _depth == 0:
                 _limiter.restore_original_limits()
-                OpenBLASController.clear_controlling_thread(force=True)
+                release_blas()
 
 
 @functools.cache

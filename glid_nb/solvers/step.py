@@ -4,6 +4,7 @@ import functools
 from collections import namedtuple
 from typing import Any, NamedTuple
 
+from glid_nb._features import lapack_in_place
 from glid_nb._jax import AnyArray, Array, Bool, Float, Int, jax, jnp, lax
 from glid_nb._programs import Program
 from glid_nb.energies import table1
@@ -209,7 +210,7 @@ def _newton_line(problem: SubspaceProblem, point: Point, factor: Factor) -> Line
 
 def _is_ours(problem: SubspaceProblem, *_: Any) -> bool:
     """Whether the energy is one of Table 1; a kept program also needs LAPACK ready."""
-    return cholesky.understood() and type(problem.energy).__module__ == table1.__name__
+    return lapack_in_place() and type(problem.energy).__module__ == table1.__name__
 
 
 run = Program(iterations, donated=2, may_keep=_is_ours)
