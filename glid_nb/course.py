@@ -1,5 +1,6 @@
 """Checks of the course's exercises, ``with check("exercise 1"): assert ...``; what it shows."""
 
+import importlib.util
 import re
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -8,8 +9,32 @@ from typing import Any
 import ipywidgets
 import numpy as np
 
+from glid_nb._errors import InputError
 from glid_nb.geometry import Cage, Domain, as_points
 from glid_nb.geometry._loops import subdivided
+
+_DISTRIBUTIONS = {"igl": "libigl", "glid_check": "glid-check"}  # where they differ from the import
+
+
+class MissingPackageError(InputError):
+    """A chapter cannot run without a package that is not installed."""
+
+
+def needs(*packages: str, without: str | None = None) -> None:
+    """Say in a sentence which of these packages, named as imported, are not installed.
+
+    ``without`` names what the chapter then leaves out. A chapter that cannot run without them gives
+    none, and a :class:`MissingPackageError` is raised.
+    """
+    missing = [name for name in packages if importlib.util.find_spec(name) is None]
+    if not missing:
+        return
+    names = " and ".join(_DISTRIBUTIONS.get(name, name) for name in missing)
+    which = f"{names}, which {'is' if len(missing) == 1 else 'are'} not installed"
+    remedy = "pip install 'glid-nb[course]', and restart the kernel"
+    if without is None:
+        raise MissingPackageError(f"this chapter needs {which}; run: {remedy}")
+    print(f"Without {which}, this chapter leaves out {without}. To see it, run: {remedy}.")
 
 
 @contextmanager

@@ -36,6 +36,11 @@ def pytest_addoption(parser: pytest.Parser) -> None:
         help="length of the tests marked `long`, which are left out without it",
     )
     parser.addoption(
+        "--install",
+        action="store_true",
+        help="run the tests marked `install` too, which need the package index",
+    )
+    parser.addoption(
         "--reference",
         metavar="DIR",
         default=os.environ.get("GLID_NB_REFERENCE"),
@@ -69,7 +74,8 @@ def _compilation_cache() -> None:
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
     # First, so that one process takes all that wait for a browser, and the others work meanwhile.
     items.sort(key=lambda item: item.get_closest_marker("browser") is None)
-    wanted = {"reference": config.getoption("--reference"), "long": config.getoption("--minutes")}
+    options = {"reference": "--reference", "long": "--minutes", "install": "--install"}
+    wanted = {name: config.getoption(option) for name, option in options.items()}
     unwanted = [name for name, value in wanted.items() if not value]
     left_out = [item for item in items if any(map(item.get_closest_marker, unwanted))]
     if left_out:

@@ -18,12 +18,13 @@ FOLDER = Path(__file__).resolve().parent.parent / "notebooks"
 
 COLAB = """\
 # Google Colab (untested there): install the package, allow its widgets. Elsewhere: nothing.
+# This is the extra `course` without JupyterLab, for Colab has a server of its own.
 import sys
 
 if "google.colab" in sys.modules:
     from google.colab import output
 
-    get_ipython().run_line_magic("pip", "install -q glid-nb")
+    get_ipython().run_line_magic("pip", "install -q 'glid-nb[compare,check]'")
     output.enable_custom_widget_manager()"""
 
 

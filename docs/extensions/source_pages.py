@@ -30,7 +30,7 @@ import glid_nb
 logger = logging.getLogger(__name__)
 
 FOLDER = "files"
-_PATH = re.compile(r"((?:glid_nb|studies|tests|tools)/[\w/.]+\.py|glid_check\.py)(?:::(\w+).*)?")
+_PATH = re.compile(r"((?:glid_nb|checker|studies|tests|tools)/[\w/.]+\.py)(?:::(\w+).*)?")
 _CLASSES = "|".join(name for name in dir(glid_nb) if name[0].isupper())
 _NAME = re.compile(
     rf"(?:(?:glid|glid_nb)\.(?=\w)|(?=(?:{_CLASSES})\b))([\w.]+)(?:\(.*\))?", re.DOTALL

@@ -1,6 +1,6 @@
 """The proof file: what a certificate claims, exactly, for a checker that shares no code with us.
 
-``docs/checking.md`` documents the format, ``glid_check.py`` reads it.
+``docs/checking.md`` documents the format, ``checker/glid_check.py`` reads it.
 """
 
 import json

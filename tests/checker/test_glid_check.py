@@ -34,8 +34,8 @@ from glid_nb.geometry import Cage, Domain, Panels, graded_panels, uniform_panels
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.solvers import Options, Pose, solve
 
-from .domains import circle, dense_check, domain, random_map
-from .reference_map import DenseCheck, Measured
+from ..domains import circle, dense_check, domain, random_map
+from ..reference_map import DenseCheck, Measured
 
 pytestmark = pytest.mark.slow
 
