@@ -4,7 +4,8 @@
 # make pythons  the fast tests, the demo and a chapter on every other Python of this machine, and on
 #               the oldest one with the oldest libraries that pyproject.toml allows
 # make leaks  half an hour in a browser: memory in long sessions, cells that run again, a new user's walk
-# make lint   ruff and pyright
+# make lint   ruff, pyright, and the linters of the workflows
+# make install-tests  builds the distributions, installs them and the course, and runs them; needs the package index
 # make dev    the development environment with everything
 # make compare  the paper's comparisons measured anew (half an hour); ARGUMENTS=--help tells more
 # make bench  the solver's speed on this machine (a quarter of an hour); ARGUMENTS=--help likewise
@@ -22,7 +23,7 @@ WORKERS = $(shell expr $$(nproc) + 1)
 # Without bytecode every process of the tests compiles the package and the test files anew.
 unexport PYTHONDONTWRITEBYTECODE
 
-.PHONY: demo test unit pythons chapter leaks lint format dev compare bench docs notebooks browser clean
+.PHONY: demo test unit install-tests pythons chapter leaks lint format dev compare bench docs notebooks browser clean
 .DEFAULT_GOAL := demo
 
 demo: $(VENV)/.demo
@@ -42,6 +43,9 @@ pythons:
 chapter: $(VENV)/.test
 	$(PYTEST) --nbval --nbval-current-env --no-skip notebooks/01_quickstart.ipynb
 
+install-tests: $(VENV)/.test
+	$(PYTEST) -p no:nbval --no-skip --install -m install tests/packaging
+
 leaks: $(VENV)/.test browser
 	$(PYTEST) -p no:nbval --no-skip -s --minutes 10 -m long tests/widgets
 
@@ -49,6 +53,9 @@ lint: $(VENV)/.dev
 	$(VENV)/bin/ruff check .
 	$(VENV)/bin/ruff format --check .
 	$(VENV)/bin/pyright --pythonpath $(VENV)/bin/python
+	$(VENV)/bin/check-jsonschema --builtin-schema vendor.github-workflows .github/workflows/*.yml
+	$(VENV)/bin/check-jsonschema --builtin-schema vendor.dependabot .github/dependabot.yml
+	$(VENV)/bin/zizmor --offline --quiet .github
 
 format: $(VENV)/.dev
 	$(VENV)/bin/ruff check --fix .

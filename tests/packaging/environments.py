@@ -1,0 +1,78 @@
+"""What the tests marked `install` share: building distributions, and environments of their own."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+import sys
+import sysconfig
+from pathlib import Path
+from typing import NamedTuple
+
+CHECKOUT = Path(__file__).resolve().parents[2]
+_SOURCES = ("checker", "glid_nb", "notebooks", "docs", "tests", "studies")
+_FILES = ("pyproject.toml", "README.md", "LICENSE", "CHANGELOG.md", "CITATION.cff")
+
+
+class Built(NamedTuple):
+    """The files of one distribution."""
+
+    wheel: Path
+    sdist: Path
+
+
+def run(*command: object, folder: Path, **variables: str) -> str:
+    """What a program prints, in a folder, without variables that lead Python to this checkout."""
+    hidden = {"PYTHONPATH", "PYTHONHOME", "VIRTUAL_ENV", "PYTEST_ADDOPTS"}
+    kept = {name: value for name, value in os.environ.items() if name not in hidden}
+    done = subprocess.run(
+        [str(word) for word in command],
+        cwd=folder,
+        env={**kept, "PYTHONUTF8": "1", **variables},
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        encoding="utf-8",
+        check=False,
+    )
+    assert done.returncode == 0, f"{command} ends with {done.returncode}:\n{done.stdout}"
+    return done.stdout
+
+
+def copy_of_the_checkout(to: Path) -> Path:
+    """The files that a clone has and an installation reads, without anything that was built."""
+    for name in _SOURCES:
+        shutil.copytree(CHECKOUT / name, to / name, ignore=shutil.ignore_patterns("__pycache__"))
+    for name in _FILES:
+        shutil.copy(CHECKOUT / name, to)
+    return to
+
+
+def build(source: Path, into: Path) -> Built:
+    """The sdist of a source folder, and the wheel that is built from this sdist."""
+    run(sys.executable, "-m", "build", "--outdir", into, source, folder=into)
+    (wheel,), (sdist,) = into.glob("*.whl"), into.glob("*.tar.gz")
+    return Built(wheel, sdist)
+
+
+class Environment:
+    """A virtual environment with nothing in it but what is installed."""
+
+    def __init__(self, folder: Path) -> None:
+        run(sys.executable, "-m", "venv", folder, folder=folder.parent)
+        self.folder = folder
+
+    def program(self, name: str) -> Path:
+        """Where a program of the environment is."""
+        scripts = Path(sysconfig.get_path("scripts", "venv", {"base": str(self.folder)}))
+        return scripts / (f"{name}.exe" if os.name == "nt" else name)
+
+    def install(self, *requirements: object) -> None:
+        pip = (self.program("python"), "-m", "pip", "--disable-pip-version-check")
+        run(*pip, "install", "--quiet", *requirements, folder=self.folder)
+
+    def packages(self) -> set[str]:
+        """The names of what is installed, besides pip and what venv itself brings."""
+        command = "import importlib.metadata as m; print(*(d.name for d in m.distributions()))"
+        names = run(self.program("python"), "-c", command, folder=self.folder).split()
+        return {name.lower() for name in names} - {"pip", "setuptools"}

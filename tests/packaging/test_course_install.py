@@ -1,0 +1,86 @@
+"""The chapters, in an environment made by exactly the line that the course's page prints."""
+
+from __future__ import annotations
+
+import os
+import re
+import sys
+import tomllib
+from pathlib import Path
+
+import pytest
+
+from tools import badges
+
+from .environments import CHECKOUT, copy_of_the_checkout, run
+
+PAGE = CHECKOUT / "docs" / "course.md"
+LECTURERS = CHECKOUT / "docs" / "lecturers.md"
+CHAPTERS = sorted((CHECKOUT / "notebooks").glob("[0-9][0-9]_*.ipynb"))
+
+
+def commands() -> list[str]:
+    """The lines of the page's first block for a shell."""
+    block = re.search(r"```sh\n(.*?)```", PAGE.read_text(encoding="utf-8"), re.DOTALL)
+    assert block is not None
+    return block[1].splitlines()
+
+
+def extras() -> dict[str, list[str]]:
+    settings = tomllib.loads((CHECKOUT / "pyproject.toml").read_text(encoding="utf-8"))
+    return settings["project"]["optional-dependencies"]
+
+
+def parts_of_course() -> set[str]:
+    """The extras that the extra `course` is made of."""
+    names = re.search(r"glid-nb\[(.*?)\]", " ".join(extras()["course"]))
+    assert names is not None
+    return set(names[1].split(","))
+
+
+def test_every_page_names_the_same_extra() -> None:
+    assert sum("-e ./checker -e '.[course]'" in line for line in commands()) == 1
+    assert "pip install 'glid-nb[course]'" in LECTURERS.read_text(encoding="utf-8")
+    binder = (CHECKOUT / "binder" / "requirements.txt").read_text(encoding="utf-8")
+    assert "--extra course" in binder
+    # The pins that the parts of the extra bring.
+    for name in ("jupyterlab", "libigl", "clarabel", "python-flint", "nbval"):
+        assert re.search(rf"^{name}==", binder, re.MULTILINE)
+
+
+def test_colab_gets_all_of_the_extra_but_the_server_that_it_has() -> None:
+    named = re.search(r"glid-nb\[(.*?)\]", badges.COLAB)
+    assert named is not None
+    assert set(named[1].split(",")) == parts_of_course() - {"lab"}
+
+
+@pytest.fixture(scope="module")
+def installed(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A copy of the checkout in which the page's lines were run, but for the last: it opens Lab."""
+    copy = copy_of_the_checkout(tmp_path_factory.mktemp("course") / "checkout")
+    *install, last = commands()
+    assert last == ".venv/bin/jupyter lab notebooks"
+    # `python3` is the Python that runs the tests.
+    path = os.pathsep.join([str(Path(sys.executable).parent), os.environ["PATH"]])
+    for line in install:
+        run("sh", "-c", line, folder=copy, PATH=path)
+    return copy
+
+
+@pytest.mark.install
+@pytest.mark.timeout(900)
+def test_the_line_of_the_page_brings_jupyterlab(installed: Path) -> None:
+    assert run(installed / ".venv/bin/jupyter", "lab", "--version", folder=installed)
+
+
+@pytest.mark.install
+@pytest.mark.timeout(900)
+@pytest.mark.parametrize("path", CHAPTERS, ids=lambda path: path.stem)
+def test_a_chapter_runs_and_prints_what_it_printed_when_it_was_saved(
+    installed: Path, path: Path
+) -> None:
+    """By nbval, as the lecturers' page does; without the settings of our own tests."""
+    (installed / "empty.ini").write_text("[pytest]\n", encoding="utf-8")
+    python, notebook = installed / ".venv/bin/python", Path("notebooks") / path.name
+    nbval = ("-m", "pytest", "-c", "empty.ini", "-p", "no:cacheprovider", "--nbval", notebook)
+    run(python, *nbval, folder=installed)
