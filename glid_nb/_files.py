@@ -1,8 +1,10 @@
 """Writing files atomically, with errors that name the file."""
 
+import contextlib
 import errno
 import io
 import os
+import re
 import secrets
 import stat
 import zipfile
@@ -16,8 +18,9 @@ from glid_nb._errors import InputFileError
 def write_atomically(path: str | Path, data: bytes | str) -> None:
     """Write ``data``, text as UTF-8, to a file beside ``path`` that is then renamed over it.
 
-    Links and permissions stay. A file that has other hard links or another owner is overwritten in
-    place; if that fails its old content is put back. An OSError names ``path`` or its folder.
+    Links and permissions stay. A file that has other hard links or another owner, or that Windows
+    does not replace because another program has it open, is overwritten in place; if that fails its
+    old content is put back. An OSError names ``path`` or its folder.
     """
     path = path_of(path)
     target = Path(os.path.realpath(path))
@@ -52,7 +55,12 @@ def _replace(target: Path, data: bytes) -> None:
         else:
             if old:
                 temporary.chmod(mode)
-            temporary.replace(target)
+            try:
+                temporary.replace(target)
+            except PermissionError:  # of Windows, while another program has the file open
+                if old is None:
+                    raise
+                _overwrite(target, data)
     finally:
         temporary.unlink(missing_ok=True)
 
@@ -81,20 +89,40 @@ def zipped(files: Mapping[str, bytes], stored: Collection[str] = ()) -> bytes:
     with zipfile.ZipFile(buffer, "w") as archive:
         for name, data in files.items():
             method = zipfile.ZIP_STORED if name in stored else zipfile.ZIP_DEFLATED
-            archive.writestr(zipfile.ZipInfo(name), data, method)  # dated 1980
+            entry = zipfile.ZipInfo(name)  # dated 1980
+            entry.create_system = 3  # Unix, whatever system this is
+            archive.writestr(entry, data, method)
     return buffer.getvalue()
 
 
 def same_file(path: Path, other: Path) -> bool:
     """Whether two paths name one file, by whatever link, or will once it is made."""
     linked = path.is_file() and other.exists() and path.samefile(other)
-    return linked or os.path.realpath(path) == os.path.realpath(other)
+    first, second = (os.path.normcase(os.path.realpath(name)) for name in (path, other))
+    return linked or first == second
+
+
+def discard(path: Path) -> None:
+    """Delete a file, unless it is gone, or another program has it open and Windows refuses."""
+    with contextlib.suppress(FileNotFoundError, PermissionError):
+        path.unlink()
+
+
+_RESERVED = re.compile(r"(con|prn|aux|nul|com\d|lpt\d)(\..*)?", re.IGNORECASE)
+
+
+def portable_name(text: str) -> str:
+    """A file's name made of a text, possible on every system; "" if nothing of it can stay."""
+    name = re.sub(r'[<>:"/\\|?*\x00-\x1f]+', "_", text).strip(" .")
+    return f"_{name}" if _RESERVED.fullmatch(name) else name
 
 
 def read_file(path: str | os.PathLike[str], most: int | None = None) -> bytes:
     """The bytes of a file; an InputFileError over ``most``, an OSError that names the file."""
     path = path_of(path)
     try:
+        if path.is_dir():  # Windows would call it a file without permission
+            raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR))
         if most is not None and (size := path.stat().st_size) > most:
             raise InputFileError(f"the file has {size:,} bytes; {most:,} are allowed")
         return path.read_bytes()

@@ -26,7 +26,7 @@ def in_new_process(how: Literal["-m", "-c"], program: str, given: Any, **environ
         # A GPU's memory is shared with the process that waits.
         env={"XLA_PYTHON_CLIENT_PREALLOCATE": "false", **os.environ, **environment},
         capture_output=True,
-        text=True,
+        encoding="utf-8",
         check=False,
     )
     if run.returncode:

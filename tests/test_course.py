@@ -68,3 +68,9 @@ def test_sliders_draw_a_figure_anew_without_an_output_widget() -> None:
     assert drawn == [1, 3]
     assert bytes(picture.value) != before
     assert not any(isinstance(part, ipywidgets.Output) for part in box.children)
+
+
+def test_nothing_is_said_of_packages_that_are_there(capsys: pytest.CaptureFixture[str]) -> None:
+    course.needs("numpy", "jax", without="everything")
+    course.needs("numpy")
+    assert capsys.readouterr().out == ""

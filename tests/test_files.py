@@ -21,6 +21,10 @@ def test_text_is_utf8_and_bytes_are_bytes(tmp_path: Path) -> None:
     assert [p.name for p in tmp_path.iterdir()] == ["a.txt"]
 
 
+UNIX = pytest.mark.skipif(os.name == "nt", reason="Windows has no such permissions, nor FIFOs")
+
+
+@UNIX
 @pytest.mark.parametrize("mask", [0o022, 0o077])
 def test_permissions_are_those_of_a_plain_open(tmp_path: Path, mask: int) -> None:
     before = os.umask(mask)
@@ -32,6 +36,7 @@ def test_permissions_are_those_of_a_plain_open(tmp_path: Path, mask: int) -> Non
     assert stat.S_IMODE((tmp_path / "a.txt").stat().st_mode) == 0o666 & ~mask
 
 
+@UNIX
 def test_an_existing_file_keeps_its_permissions(tmp_path: Path) -> None:
     path = tmp_path / "a.txt"
     path.write_text("old")
@@ -66,6 +71,7 @@ def test_a_link_that_leads_nowhere_is_an_os_error(tmp_path: Path) -> None:
     assert loop.is_symlink()
 
 
+@UNIX
 def test_hard_links_stay_one_file(tmp_path: Path) -> None:
     first, second = tmp_path / "a.txt", tmp_path / "b.txt"
     first.write_text("a long old text")
@@ -98,6 +104,7 @@ def test_a_hard_link_that_cannot_be_overwritten_keeps_what_was_there(
     assert len(list(tmp_path.iterdir())) == 2
 
 
+@UNIX
 def test_a_device_stays_one(tmp_path: Path) -> None:
     pipe = tmp_path / "pipe"
     os.mkfifo(pipe)
@@ -110,6 +117,7 @@ def test_a_device_stays_one(tmp_path: Path) -> None:
     assert stat.S_ISFIFO(pipe.stat().st_mode)
 
 
+@UNIX
 def test_the_umask_of_the_process_is_left_alone(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

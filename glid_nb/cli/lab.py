@@ -6,6 +6,8 @@ after `--` are passed to JupyterLab.
 
 import argparse
 import importlib.util
+import os
+import shlex
 import shutil
 import subprocess
 import sys
@@ -31,7 +33,7 @@ def run(chosen: argparse.Namespace) -> None:
     notebook = chosen.folder / NOTEBOOK
     command = [sys.executable, "-m", "jupyterlab", str(notebook), *chosen.jupyter]
     if chosen.print:
-        print(" ".join(command))
+        print(shlex.join(command) if os.name == "posix" else subprocess.list2cmdline(command))
         return
     chosen.folder.mkdir(parents=True, exist_ok=True)
     if not notebook.exists():

@@ -1,6 +1,7 @@
 """The parser of all commands, and the handling of errors."""
 
 import argparse
+import io
 import sys
 import warnings
 from collections.abc import Sequence
@@ -52,11 +53,20 @@ def build_parser() -> argparse.ArgumentParser:
     return parser
 
 
+def _escape_what_cannot_be_printed() -> None:
+    """Print a sign that the console lacks as an escape, such as \\u03c3: it must end no command."""
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper):
+            stream.reconfigure(errors="backslashreplace")
+
+
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run one command; the exit code is 0, 1 for bad input, 2 for wrong usage, 130 after Ctrl-C.
 
     ``arguments`` are the words after ``glid-nb``, by default those of the process.
     """
+    if arguments is None:
+        _escape_what_cannot_be_printed()
     chosen = build_parser().parse_args(arguments)
     try:
         with warnings.catch_warnings():

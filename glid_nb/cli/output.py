@@ -20,7 +20,6 @@ from glid_nb.certificate.rounding import rounded_down, rounded_up
 PATIENCE = 1.0  # seconds before a step is announced
 _REFRESH = 0.2
 _REPEAT = 15.0  # seconds between lines where they are kept, as in a log file
-_ERASE_LINE = "\r\x1b[K"
 _TIMES = {"compile": 2, "solve": 3, "certify": 3}
 _LONG = ("history", "attempts", "refinements", "options", "versions", "machine")
 _BASIS = "{unknowns} unknowns: {energy:.6g}, {solve_time:.3f} s"
@@ -56,10 +55,14 @@ def step(doing: str) -> Iterator[Callable[[str], None]]:
     """Run a step, told on stderr when it takes long; yields what sets the detail to be told."""
     out, details = sys.stderr, list[str]()
     done, start, live = threading.Event(), time.perf_counter(), out.isatty()
+    width = 0  # of the line that a terminal shows
 
     def write(text: str) -> None:
-        out.write(_ERASE_LINE + text if live else f"glid-nb: {text}\n")
+        nonlocal width
+        # Spaces erase on every terminal; older consoles of Windows print escape sequences.
+        out.write(f"\r{' ' * width}\r{text}" if live else f"glid-nb: {text}\n")
         out.flush()
+        width = len(text)
 
     def line() -> str:
         return ", ".join([f"{doing}: {time.perf_counter() - start:.1f} s", *details[-1:]])

@@ -3,6 +3,7 @@
 Frames are (h, w, 4) uint8 arrays of one size with straight alpha, opaque where a format wants it.
 """
 
+import errno
 import importlib.util
 import io
 import json
@@ -120,15 +121,20 @@ def _video(frames: Frames, fps: float, suffix: str, transparent: bool) -> bytes:
             try:
                 for frame in frames.pictures:
                     ffmpeg.stdin.write(frame.tobytes())
-            except BrokenPipeError:
-                pass  # its log says why
-            except BaseException:
-                ffmpeg.kill()
-                raise
+            except BaseException as error:
+                if not _is_broken_pipe(error):  # then ffmpeg has ended, and its log says why
+                    ffmpeg.kill()
+                    raise
         if ffmpeg.returncode or not path.is_file():
-            told = f"exit code {ffmpeg.returncode}: {log.read_text()[-500:] or 'it says nothing'}"
+            said = log.read_text(encoding="utf-8", errors="replace")[-500:]
+            told = f"exit code {ffmpeg.returncode}: {said or 'it says nothing'}"
             raise OSError(f"ffmpeg ({program}) could not write the {suffix} video, {told}")
         return path.read_bytes()
+
+
+def _is_broken_pipe(error: BaseException) -> bool:
+    """Whether the program at the other end of a pipe has ended; Windows says "invalid argument"."""
+    return isinstance(error, OSError) and error.errno in (errno.EPIPE, errno.EINVAL)
 
 
 def _running(command: list[str], told: IO[bytes]) -> subprocess.Popen[bytes]:

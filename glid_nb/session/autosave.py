@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from glid_nb._files import discard
 from glid_nb._runtime import data_directory
 from glid_nb.session.document import Document
 from glid_nb.session.document_file import save_document
@@ -148,7 +149,7 @@ def new_kept_file(image: NDArray[np.uint8]) -> Path:
     path = _kept() / f"{_name_of(image)}.glid"
     path.parent.mkdir(parents=True, exist_ok=True)
     for old in kept_files()[MOST_KEPT - 1 :]:
-        old.unlink(missing_ok=True)
+        discard(old)
     return free_sibling(path) if path.exists() else path
 
 

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from glid_nb._arrays import Array
+from glid_nb._files import discard, portable_name
 from glid_nb.geometry import Domain
 from glid_nb.imaging.read import ImageSource
 from glid_nb.session import autosave
@@ -154,7 +155,7 @@ class EditorModel(Observed):
     @property
     def name(self) -> str:
         """What files are named after: the picture's file, or "session" where there is none."""
-        return (self._session and self._session.tracing.name) or "session"
+        return portable_name(self._session.tracing.name if self._session else "") or "session"
 
     def apply_tracing(self) -> str:
         """Deform what is traced now: a step for undo, or another session for another picture.
@@ -211,7 +212,7 @@ class EditorModel(Observed):
         self.own_files.note_session(path)
         with self.locked():
             if (kept := self._end_keeping()) is not None:
-                kept.unlink(missing_ok=True)  # it is in a file now
+                discard(kept)  # it is in a file now
 
     def load(self, path: str | Path) -> None:
         """Go on with the document in a file, which an autosave, if there is one, then saves to."""

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import os
+import shlex
 import subprocess
 from pathlib import Path
 from types import SimpleNamespace
@@ -45,6 +47,13 @@ def test_printing_the_command_makes_nothing(run, tmp_path: Path, started: list[l
     assert "-m jupyterlab" in outcome.out
     assert not (tmp_path / "new").exists()
     assert not started
+
+
+def test_the_printed_command_can_be_pasted_into_a_shell(run, tmp_path: Path) -> None:
+    folder = tmp_path / "my own folder"
+    words = shlex.split(run("lab", folder, "--print").out, posix=os.name == "posix")
+    assert words[1:3] == ["-m", "jupyterlab"]
+    assert words[3].strip('"') == str(folder / lab.NOTEBOOK)
 
 
 def test_without_jupyterlab_it_says_what_to_install(

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import errno
 import io
 import json
+import os
 import struct
 import subprocess
 import zipfile
 from pathlib import Path
-from typing import Any
+from typing import IO, Any
 
 import imageio_ffmpeg
 import numpy as np
@@ -290,6 +292,7 @@ def test_what_is_not_proved_throughout_is_not_exported(kind: str, tmp_path: Path
     assert not [*tmp_path.iterdir()]
 
 
+@pytest.mark.skipif(os.name == "nt", reason="programs have other names there")
 @pytest.mark.parametrize(
     ("program", "message"),
     [
@@ -303,6 +306,33 @@ def test_an_ffmpeg_that_fails_is_named(
 ) -> None:
     monkeypatch.setenv("IMAGEIO_FFMPEG_EXE", program)
     with pytest.raises((InputError, OSError), match=message):
+        motion_files("walk.mp4", picture(), motion(), **SMALL)
+
+
+@pytest.mark.parametrize("number", [errno.EPIPE, errno.EINVAL])
+def test_an_ffmpeg_that_ends_early_is_named_by_its_log(
+    number: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Windows calls the broken pipe an invalid argument; the log need not be UTF-8."""
+
+    class Ended:
+        returncode = 3
+
+        def __init__(self, _command: list[str], told: IO[bytes]) -> None:
+            told.write(b"no space on drive \xdc:")
+            told.flush()
+            self.stdin = self
+
+        def __enter__(self) -> Ended:
+            return self
+
+        def __exit__(self, *_: object) -> None: ...
+
+        def write(self, _: bytes) -> None:
+            raise OSError(number, os.strerror(number))
+
+    monkeypatch.setattr(encode, "_running", Ended)
+    with pytest.raises(OSError, match="exit code 3: no space on drive \N{REPLACEMENT CHARACTER}:"):
         motion_files("walk.mp4", picture(), motion(), **SMALL)
 
 

@@ -7,9 +7,11 @@ run on the skeleton, on the solution and on the wrong answers of `notebooks/solu
 from __future__ import annotations
 
 import contextlib
+import importlib.util
 import io
 import re
 import symtable
+import sys
 from pathlib import Path
 from typing import Any, NamedTuple
 from unittest.mock import MagicMock
@@ -17,7 +19,7 @@ from unittest.mock import MagicMock
 import nbformat
 import pytest
 
-from glid_nb import course, figures
+from glid_nb import InputError, course, figures
 
 FOLDER = Path(__file__).parents[2] / "notebooks"
 NOTEBOOKS = sorted(FOLDER.glob("[0-9][0-9]_*.ipynb"))
@@ -112,6 +114,52 @@ def test_a_check_tells_a_solution_from_a_skeleton_and_from_wrong_answers(path: P
             assert text == right
         else:
             assert text.startswith(wrong), f"exercise {exercise}, {answer}: {text}"
+
+
+@pytest.fixture
+def without_extras(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The packages of the extra `course` are not installed."""
+    hidden, find = ("igl", "clarabel", "glid_check"), importlib.util.find_spec
+
+    def found(name: str, *arguments: Any) -> Any:
+        return None if name in hidden else find(name, *arguments)
+
+    monkeypatch.setattr(importlib.util, "find_spec", found)
+    for name in hidden:
+        monkeypatch.setitem(sys.modules, name, None)
+
+
+@pytest.mark.usefixtures("without_figures", "without_extras")
+@pytest.mark.parametrize(
+    ("number", "package", "left_out"),
+    [
+        ("03", "libigl", "bounded biharmonic weights"),
+        ("09", "glid-check", "the check of a proof by another program"),
+        ("11", "libigl", "SLIM in the last experiment"),
+    ],
+)
+def test_a_chapter_says_at_its_top_what_it_leaves_out_and_runs_without_it(
+    number: str, package: str, left_out: str
+) -> None:
+    (path,) = FOLDER.glob(f"{number}_*.ipynb")
+    namespace: dict[str, Any] = {"__name__": "__main__", "display": lambda *_: None}
+    code = [cell.source for cell in cells(path) if cell.cell_type == "code"]
+    texts = [printed(source, path.name, namespace) for source in code]
+    sentence = f"Without {package}, which is not installed, this chapter leaves out {left_out}. "
+    assert texts[1].startswith(sentence)  # after the cell for Colab
+    assert "pip install 'glid-nb[course]'" in texts[1]
+
+
+@pytest.mark.usefixtures("without_extras")
+def test_a_chapter_that_cannot_run_without_a_package_says_so_at_its_top() -> None:
+    (path,) = FOLDER.glob("10_*.ipynb")
+    _, first, *_ = (cell.source for cell in cells(path) if cell.cell_type == "code")
+    with pytest.raises(InputError) as refusal:
+        printed(first, path.name, {"__name__": "__main__"})
+    assert str(refusal.value) == (
+        "this chapter needs libigl and clarabel, which are not installed; "
+        "run: pip install 'glid-nb[course]', and restart the kernel"
+    )
 
 
 @pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda p: p.stem)
