@@ -36,4 +36,4 @@ if [ -n "${RESOLUTION:-}" ]; then
     $pip uv
     pip="$venv/bin/python -m uv pip install --quiet --python $venv/bin/python --resolution $RESOLUTION"
 fi
-$pip --editable ".${extra:+[$extra]}"
+$pip ${extra:+--editable ./checker} --editable ".${extra:+[$extra]}"
