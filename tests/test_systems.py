@@ -110,10 +110,10 @@ def test_a_folder_is_no_file_on_any_system(
     read, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def denied(self: Path) -> bytes:
-        raise PermissionError(errno.EACCES, "Permission denied")
+        raise PermissionError(errno.EACCES, "Permission denied", str(self))
 
     monkeypatch.setattr(Path, "read_bytes", denied)  # what Windows says of a folder
-    with pytest.raises((InputError, OSError), match="(?i)folder|directory"):
+    with pytest.raises((InputError, OSError), match=r"(?i)folder|directory"):
         read(tmp_path)
 
 

@@ -1,7 +1,7 @@
 """Check that a tag may be released: ``python tools/check_release.py v1.2.3 DISTRIBUTION ...``.
 
-The wheels and sdists of both distributions must be there, all of the tag's version, and the changelog
-must have a section for it.
+The wheels and sdists of both distributions must be there, all of the tag's version, and the
+changelog must have a section for it.
 """
 
 from __future__ import annotations

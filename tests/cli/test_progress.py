@@ -84,5 +84,5 @@ def test_a_terminal_line_is_rewritten_and_erased() -> None:
     assert "\n" not in text
     *_, shown, spaces, after = text.split("\r")
     assert spaces == " " * len(shown) != ""
-    assert after == ''
+    assert after == ""
     assert "\x1b" not in text  # which older consoles of Windows print

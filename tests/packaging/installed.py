@@ -29,7 +29,7 @@ def forbid_files_below(checkout: Path) -> None:
 
 def make_warnings_errors() -> None:
     warnings.simplefilter("error")
-    # pythreejs 2.4 and its ipydatawidgets set trait metadata by keyword, which traitlets 5 deprecates.
+    # pythreejs and its ipydatawidgets set trait metadata in a way that traitlets 5 deprecates.
     for module in ("traittypes", "ipydatawidgets"):
         message = ".*metadata.*was set from the constructor.*"
         warnings.filterwarnings("ignore", message, DeprecationWarning, module)

@@ -66,7 +66,9 @@ def work(user: Environment, tmp_path_factory: pytest.TempPathFactory) -> Path:
     glid_nb("editor")
     glid_nb("motion")
     small = ("--size", 48, "--fps", 4, "--seconds", 1)
-    glid_nb("animate", "walk.motion.json", "--picture", pictures["picture"], "--out", "a.gif", *small)
+    glid_nb(
+        "animate", "walk.motion.json", "--picture", pictures["picture"], "--out", "a.gif", *small
+    )
     return folder
 
 
