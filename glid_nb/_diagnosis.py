@@ -16,7 +16,6 @@ from typing import Any
 from packaging.requirements import Requirement
 from packaging.utils import canonicalize_name
 
-import glid_nb
 from glid_nb import _features
 from glid_nb._errors import InputError
 from glid_nb._jax import jax
@@ -45,7 +44,6 @@ def diagnosis() -> dict[str, Any]:
     """Everything that `glid-nb doctor` tells, as values for JSON."""
     needed, extras = _requirements()
     return {
-        "glid-nb": glid_nb.__version__,
         "python": f"{platform.python_version()} ({sys.executable})",
         "system": f"{platform.platform()}, {os.cpu_count()} processors",
         "host": host(),

@@ -8,6 +8,7 @@ import json
 from collections.abc import Iterator
 from typing import Any
 
+import glid_nb
 from glid_nb._diagnosis import diagnosis, problems
 from glid_nb._errors import InputError
 
@@ -17,7 +18,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(chosen: argparse.Namespace) -> None:
-    found = diagnosis()
+    found = {"glid-nb": glid_nb.__version__, **diagnosis()}
     wrong = problems(found)
     if chosen.json:
         print(json.dumps({**found, "problems": wrong}))
