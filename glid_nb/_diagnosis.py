@@ -19,7 +19,14 @@ from packaging.utils import canonicalize_name
 from glid_nb import _features
 from glid_nb._errors import InputError
 from glid_nb._jax import jax
-from glid_nb._runtime import blas_libraries, cache_directory, data_directory, jax_option
+from glid_nb._programs import can_keep_for
+from glid_nb._runtime import (
+    blas_libraries,
+    cache_directory,
+    data_directory,
+    default_device,
+    jax_option,
+)
 
 GIVES = {
     "lab": "JupyterLab and Notebook, for the editor and the course",
@@ -161,12 +168,12 @@ def _jax_state() -> dict[str, Any]:
     """Devices and fast paths; or ``error``, why JAX does not work here."""
     try:
         devices = [f"{one.platform} {one.id}: {one.device_kind}" for one in jax.local_devices()]
-        one_processor = jax.default_backend() == "cpu" and jax.device_count() == 1
+        device = default_device()
         configured = jax_option("jax_compilation_cache_dir")
         return {
             "devices": devices,
-            "LAPACK in place": one_processor and _features.lapack_in_place(),
-            "programs kept": one_processor and _features.executables() is not None,
+            "LAPACK in place": device.platform == "cpu" and _features.lapack_in_place(),
+            "programs kept": can_keep_for(device) and _features.executables() is not None,
             "XLA options set": sorted(_features.compiler_options()),
             "XLA options left out": sorted(_features.unknown_options()),
             "JAX's cache": None if configured is None else str(configured),

@@ -20,7 +20,7 @@ from typing import Any
 from glid_nb._features import compiler_options, processor, typeof
 from glid_nb._jax import jax
 from glid_nb._kept_programs import KeptPrograms
-from glid_nb._runtime import jax_option, stage
+from glid_nb._runtime import default_device, jax_option, stage
 
 _MOST_LOADED = 4  # of 15 MB each; one solve uses up to four
 
@@ -42,8 +42,7 @@ class Program:
 
     def __call__(self, *arguments: Any) -> Any:
         leaves, tree = jax.tree.flatten(arguments)
-        device = jax_option("jax_default_device") or jax.local_devices()[0]
-        key = (device, tree, *map(typeof, leaves))
+        key = (default_device(), tree, *map(typeof, leaves))
         if (ready := self._ready.get(key)) is None:
             with self._locks[key]:  # a second thread waits for what the first compiles
                 if (ready := self._ready.get(key)) is None:
@@ -54,8 +53,7 @@ class Program:
 
     def _loaded_or_made(self, key: Any, arguments: Any) -> Any:
         folder = jax_option("jax_compilation_cache_dir")
-        alone = key[0].platform == "cpu" and jax.device_count() == 1  # it is kept for one device
-        if folder is None or not alone or not self._may_keep(*arguments):
+        if folder is None or not can_keep_for(key[0]) or not self._may_keep(*arguments):
             lowered = self._lowered(arguments, "")
             stage("compile")
             return lowered.compile()
@@ -94,6 +92,15 @@ class Program:
         traced = jitted.trace(*arguments)
         stage("lower")
         return traced.lower()
+
+
+def can_keep_for(device: Any) -> bool:
+    """Whether executables for a device are kept: a CPU's, as long as it is JAX's only device.
+
+    They are read for all devices of JAX's default platform, which on a machine with a GPU is that,
+    also where a caller chose the CPU.
+    """
+    return device.platform == jax.default_backend() == "cpu" and jax.device_count() == 1
 
 
 def _digest(text: str) -> str:

@@ -1,4 +1,4 @@
-"""How the package runs JAX: double precision, one BLAS thread, a persistent compilation cache.
+"""How the package runs JAX: full precision, one BLAS thread, a persistent compilation cache.
 
 Importing the package changes no JAX configuration. Entry points that compute are decorated with
 :func:`double_precision`, which leaves the user's configuration alone.
@@ -91,11 +91,17 @@ def blas_libraries() -> list[str]:
 
 
 def double_precision(function: Callable[P, R]) -> Callable[P, R]:
-    """Run ``function`` with 64-bit JAX types, leaving the caller's JAX configuration alone."""
+    """Run ``function`` with 64-bit JAX types and products in full precision, whatever the caller's
+    JAX configuration says, and leave that alone.
+
+    By default a GPU multiplies single precision matrices in TF32, which has 10 bits; and with
+    ``jax_default_matmul_precision`` a caller may have asked for less in double precision too, of
+    which the certificate knows nothing.
+    """
 
     @functools.wraps(function)
     def wrapped(*args: P.args, **kwargs: P.kwargs) -> R:
-        with enable_x64():
+        with enable_x64(), jax.default_matmul_precision("highest"):
             return function(*args, **kwargs)
 
     return wrapped
@@ -146,6 +152,14 @@ def _directory(own: str, common: str, usual: str) -> Path:
 def jax_option(name: str) -> Any:
     """The value of an option of JAX's, which are known at run time only."""
     return getattr(jax.config, name)
+
+
+def default_device() -> Any:
+    """The device on which JAX computes here; its own option may also name a platform only."""
+    chosen = jax_option("jax_default_device")
+    if chosen is None or isinstance(chosen, str):
+        return jax.local_devices(backend=chosen)[0]
+    return chosen
 
 
 def enable_compilation_cache() -> Path | None:
