@@ -9,6 +9,7 @@
 # make dev    the development environment with everything
 # make compare  the paper's comparisons measured anew (half an hour); ARGUMENTS=--help tells more
 # make bench  the solver's speed on this machine (a quarter of an hour); ARGUMENTS=--help likewise
+# make gpu    the solver on this machine's GPU (8 minutes), with the machine's own Python and JAX
 # make docs   the site in site/, checked: pages, links, and each page in Chromium
 # make notebooks  all chapters, run in place and saved; ARGUMENTS="03 07" runs these two
 # make browser  Chromium for the browser tests, by apt
@@ -23,7 +24,7 @@ WORKERS = $(shell expr $$(nproc) + 1)
 # Without bytecode every process of the tests compiles the package and the test files anew.
 unexport PYTHONDONTWRITEBYTECODE
 
-.PHONY: demo test unit install-tests pythons chapter leaks lint format dev compare bench docs notebooks browser clean
+.PHONY: demo test unit install-tests pythons chapter leaks lint format dev compare bench gpu docs notebooks browser clean
 .DEFAULT_GOAL := demo
 
 demo: $(VENV)/.demo
@@ -68,6 +69,9 @@ compare: $(VENV)/.studies
 
 bench: $(VENV)/.studies
 	$(VENV)/bin/python -m studies bench $(ARGUMENTS)
+
+gpu:
+	tools/gpu.sh $(ARGUMENTS)
 
 docs: $(VENV)/.docs
 	rm -rf site build/doctrees

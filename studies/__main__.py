@@ -1,13 +1,14 @@
-"""Measure, and write tables and figures: ``python -m studies compare``, ``bench``, ``motion``.
+"""Measure, and write tables and figures: ``python -m studies compare``, ``bench``, ``gpu``, ...
 
 ``bench`` times the solver on this machine: the paper's settings and ours, drag steps, first solves,
 growth with sizes, batches. ``compare`` measures the other methods on the same problems and makes
 the paper's figures anew; SLIM and the bounded distortion maps need the extra ``compare``.
-``motion`` measures what docs/motion.md says of motions between two poses.
+``motion`` measures what docs/motion.md says of motions between two poses. ``gpu`` measures the
+solver on a GPU and on the CPU beside it, within ``--seconds``.
 
 Tables (CSV) and figures go into the folder OUT, the raw measurements into OUT/data. The tables in
 the page OUT.md are replaced, its text is left alone. A run that was interrupted goes on where it
-stopped. On a machine with a GPU, after `pip install "jax[cuda12]"`, the same commands measure it.
+stopped.
 """
 
 import argparse
@@ -18,6 +19,7 @@ from pathlib import Path
 import glid_nb
 from glid_nb.cli.output import check_folder, step
 from studies.cases import reference_cases
+from studies.gpu.run import GpuPlan, run
 from studies.study import Plan, run_studies
 
 
@@ -29,7 +31,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     add = parser.add_argument
-    add("what", choices=("compare", "bench", "motion"))
+    add("what", choices=("compare", "bench", "motion", "gpu"))
     add("--out", type=Path, metavar="OUT", help="default: glid-nb-WHAT")
     shapes = "folder of problems with the paper's shapes (default: the bundled samples)"
     add("--reference", type=Path, metavar="DIR", help=shapes)
@@ -37,6 +39,9 @@ def main(arguments: Sequence[str] | None = None) -> None:
     add("--only", action="append", metavar="STUDY", help=one)
     add("--repeats", type=int, default=9, metavar="N", help="timings of each kind (default 9)")
     add("--quick", action="store_true", help="small sizes only, to try it out")
+    add("--seconds", type=float, default=480.0, metavar="S", help="gpu: at most (default 480)")
+    trial = "gpu: cpu tries the study out without a GPU"
+    add("--platform", choices=("gpu", "cpu"), default="gpu", help=trial)
     how = parser.add_mutually_exclusive_group()
     how.add_argument("--fresh", action="store_true", help="measure again what is there already")
     nothing = "measure nothing: tables and figures from OUT/data"
@@ -44,6 +49,9 @@ def main(arguments: Sequence[str] | None = None) -> None:
     chosen = parser.parse_args(arguments)
     out = chosen.out or Path(f"glid-nb-{chosen.what}")
     check_folder(out)
+    if chosen.what == "gpu":
+        print(_on_gpu(chosen, out))
+        return
     studies = importlib.import_module(f"studies.{chosen.what}").STUDIES
     cases = {} if chosen.reference is None else reference_cases(chosen.reference)
     glid_nb.enable_compilation_cache()
@@ -53,6 +61,19 @@ def main(arguments: Sequence[str] | None = None) -> None:
             studies, out, plan, only=chosen.only, fresh=chosen.fresh, measuring=not chosen.render
         )
     print(page)
+
+
+def _on_gpu(chosen: argparse.Namespace, out: Path) -> Path:
+    with step("measuring") as detail:
+        plan = GpuPlan(
+            platform=chosen.platform,
+            reference=chosen.reference,
+            seconds=chosen.seconds,
+            repeats=chosen.repeats,
+            quick=chosen.quick,
+            detail=detail,
+        )
+        return run(out, plan, chosen.only, fresh=chosen.fresh, measuring=not chosen.render)
 
 
 if __name__ == "__main__":

@@ -2,9 +2,14 @@
 
 import json
 import os
+import signal
 import subprocess
 import sys
-from typing import Any, Literal
+import tempfile
+import threading
+import time
+from collections.abc import Sequence
+from typing import Any, Literal, NamedTuple
 
 from glid_nb import InputError
 
@@ -23,14 +28,76 @@ def in_new_process(how: Literal["-m", "-c"], program: str, given: Any, **environ
     run = subprocess.run(
         [sys.executable, how, program],
         input=json.dumps(given),
-        # A GPU's memory is shared with the process that waits.
-        env={"XLA_PYTHON_CLIENT_PREALLOCATE": "false", **os.environ, **environment},
+        env=_variables(environment),
         capture_output=True,
         encoding="utf-8",
         check=False,
     )
     if run.returncode:
-        last = (run.stderr.strip().splitlines() or ["no message"])[-1]
         called = program if how == "-m" else "a measurement's script"
-        raise StudyError(f"{called} ended with exit code {run.returncode}: {last}")
+        raise StudyError(f"{called} {_last_words(run.returncode, run.stderr)}")
     return json.loads(run.stdout.splitlines()[-1])
+
+
+class Printed(NamedTuple):
+    """What a process has printed, line by line, when it ended or was stopped."""
+
+    lines: list[str]
+    seconds: float
+    ending: str
+    """Empty where it ended by itself and well."""
+
+
+def printed_by(arguments: Sequence[str], given: Any, limit: float, **environment: str) -> Printed:
+    """The lines that Python prints when it is called with ``arguments`` and ``given`` as JSON.
+
+    After ``limit`` seconds it is stopped. Neither that nor a failure is an error.
+    """
+    lines, began = list[str](), time.perf_counter()
+    with tempfile.TemporaryFile("w+", encoding="utf-8") as errors:
+        process = subprocess.Popen(
+            [sys.executable, *arguments],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            stderr=errors,
+            env=_variables(environment),
+            text=True,
+            start_new_session=True,
+        )
+        assert process.stdin is not None
+        assert process.stdout is not None
+        reader = threading.Thread(target=lines.extend, args=(process.stdout,))
+        reader.start()
+        with process.stdin as entrance:
+            entrance.write(json.dumps(given))
+        ending = ""
+        try:
+            process.wait(timeout=limit)
+        except subprocess.TimeoutExpired:
+            _kill(process)
+            ending = f"stopped after {limit:.0f} s"
+        reader.join()
+        process.stdout.close()
+        errors.seek(0)
+        if process.returncode and not ending:
+            ending = _last_words(process.returncode, errors.read())
+    return Printed(lines, time.perf_counter() - began, ending)
+
+
+def _kill(process: subprocess.Popen[str]) -> None:
+    """End a process that leads a session of its own, and with it those that it has started."""
+    if hasattr(os, "killpg"):
+        os.killpg(process.pid, signal.SIGKILL)
+    else:
+        process.kill()
+    process.wait()
+
+
+def _variables(more: dict[str, str]) -> dict[str, str]:
+    # A GPU's memory is shared with the process that waits.
+    return {"XLA_PYTHON_CLIENT_PREALLOCATE": "false", **os.environ, **more}
+
+
+def _last_words(code: int, errors: str) -> str:
+    last = (errors.strip().splitlines() or ["no message"])[-1]
+    return f"ended with exit code {code}: {last}"

@@ -19,14 +19,15 @@ SIZES = (1, 4, 16, 64, 256)
 OPTIONS = Options(restarts=0)
 
 _REPEATS = 3
-_SPREAD = 0.05  # standard deviation of what targets are moved by, world units
+SPREAD = 0.05
+"""Standard deviation of what targets are moved by, world units."""
 
 
 def measure(case: Case, plan: Plan) -> Measurement:
     """Poses per second, targets moved a little at random: one by one, and in batches by size."""
     domain, pose = case.problem.domain, case.problem.pose
     sizes, repeats = (SIZES[:1], 1) if plan.quick else (SIZES, _REPEATS)
-    moves = np.random.default_rng(0).normal(scale=_SPREAD, size=(max(sizes), *pose.targets.shape))
+    moves = np.random.default_rng(0).normal(scale=SPREAD, size=(max(sizes), *pose.targets.shape))
     poses = pose.targets + moves
 
     def one_by_one(count: int) -> None:

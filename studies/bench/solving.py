@@ -73,7 +73,7 @@ def measure(case: Case, plan: Plan) -> Measurement:
         }
         for mode, result in whole.items()
     }
-    return {**modes, "drag": _drag(case, whole[DEFAULT], repeats)}
+    return {**modes, "drag": drag_step(case, whole[DEFAULT], repeats)}
 
 
 def _about(case: Case, mode: str, whole: Result, count: int, repeats: int) -> dict[str, Any]:
@@ -169,7 +169,9 @@ def draw(found: list[Measurement], folder: Path) -> None:
     figures.save(figure, folder / "solves.png")
 
 
-def _drag(case: Case, before: Result, repeats: int) -> dict[str, Any]:
+def drag_step(
+    case: Case, before: Result, repeats: int, budget: float = float("inf")
+) -> dict[str, Any]:
     """One target moved by :data:`DRAG`, from the converged map, to within :data:`DRAG_GAP`."""
     domain, pose = case.problem.domain, case.problem.pose
     xmin, ymin, xmax, ymax = domain.cage.bounds
@@ -181,7 +183,7 @@ def _drag(case: Case, before: Result, repeats: int) -> dict[str, Any]:
     limited = replace(MODES[DEFAULT], max_iterations=count)
     return {
         "iterations": count,
-        "time": timed(lambda: solve(domain, moved, None, limited, before), repeats),
+        "time": timed(lambda: solve(domain, moved, None, limited, before), repeats, 1, budget),
     }
 
 

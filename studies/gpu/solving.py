@@ -1,0 +1,129 @@
+"""Energies, certificates and times of one shape after the other, on this process's device.
+
+As a script it prints one line of JSON for each shape, and begins with those that matter most.
+"""
+
+import json
+import os
+import sys
+import time
+from concurrent.futures import ThreadPoolExecutor, as_completed
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import jax
+import jax.numpy as jnp
+
+import glid_nb
+from glid_nb.certificate import Certificate
+from glid_nb.solvers import Options, Result, solve, step
+from studies.bench.solving import drag_step
+from studies.bench.stages import measure_stages
+from studies.cases import Case, reference_cases
+from studies.study import Plan
+from studies.timing import timed
+
+OPTIONS = Options(restarts=0)
+
+_BUDGET = 2.0  # seconds of one kind of timing, after which three are enough
+_MOST_THREADS = 8
+_SMALL = 8  # numbers, in the smallest program that there is
+
+
+def found(case: Case) -> dict[str, Any]:
+    """What one shape's solve comes to; ``first`` includes compiling or loading its programs."""
+    began = time.perf_counter()
+    result = _solved(case, OPTIONS)
+    first = time.perf_counter() - began
+    certificate = certificate_of(result)
+    return {
+        "found": case.name,
+        "status": result.status.value,
+        "energy": result.energy,
+        "iterations": result.iterations,
+        "certified": certificate.certified,
+        "k": certificate.k_upper,
+        "unknowns": result.n_unknowns,
+        "panels": result.n_panels,
+        "first": first,
+    }
+
+
+def times(case: Case, repeats: int) -> dict[str, Any]:
+    """Seconds of a solve, of a call that takes no iteration, and of a drag step."""
+    nothing = replace(OPTIONS, max_iterations=0)
+    result = _solved(case, OPTIONS)
+    return {
+        "timed": case.name,
+        "iterations": result.iterations,
+        "solve": timed(lambda: _solved(case, OPTIONS), repeats, 0, _BUDGET),
+        "call": timed(lambda: _solved(case, nothing), repeats, 1, _BUDGET),
+        "drag": drag_step(case, result, repeats, _BUDGET)["time"],
+    }
+
+
+def stages(case: Case, repeats: int) -> dict[str, Any]:
+    """Seconds of each stage by itself."""
+    return {"staged": case.name, "stages": measure_stages(_solved(case, OPTIONS), repeats)}
+
+
+def certificate_of(result: Result) -> Certificate:
+    """The certificate of a map in the harmonic subspace, which has one."""
+    assert result.certificate is not None
+    return result.certificate
+
+
+def _solved(case: Case, options: Options) -> Result:
+    return solve(case.problem.domain, case.problem.pose, None, options)
+
+
+def dispatch(repeats: int) -> dict[str, float]:
+    """Seconds until the smallest program has been started and its result is known."""
+    program, numbers = jax.jit(lambda x: x + 1), jnp.zeros(_SMALL)
+    return timed(lambda: program(numbers).block_until_ready(), 10 * repeats)
+
+
+def operations(case: Case) -> dict[str, Any]:
+    """Operations in the largest of a shape's programs: fusions, calls of libraries, loops, copies.
+
+    A GPU starts each of them anew in every turn of its loop.
+    """
+    step.run._ready.clear()  # of other shapes
+    _solved(case, OPTIONS)
+    kinds = (" fusion(", " custom-call(", " while(", " conditional(", " copy(", " dot(")
+    texts = [program.as_text() for program in step.run._ready.values()]
+    counts = [sum(any(k in line for k in kinds) for line in t.splitlines()) for t in texts]
+    return {"counted": case.name, "operations": max(counts)}
+
+
+def main() -> None:
+    """Measure the shapes that standard input names.
+
+    All are solved first, several at a time, for compiling takes one core each.
+    """
+    given = json.load(sys.stdin)
+    glid_nb.enable_compilation_cache()
+    reference, repeats = given["reference"], given["repeats"]
+    plan = Plan({} if reference is None else reference_cases(Path(reference)))
+    show({"dispatch": dispatch(repeats)})
+    cases = [plan.case(name) for name in given["shapes"]]
+    show(found(cases[0]))  # by itself: its first solve is timed
+    with ThreadPoolExecutor(min(os.cpu_count() or 1, _MOST_THREADS)) as pool:
+        for done in as_completed([pool.submit(found, case) for case in cases[1:]]):
+            show(done.result())
+    for case in cases:
+        show(times(case, repeats))
+    for case in cases[: given["stages"]]:
+        show(stages(case, repeats))
+    for case in cases[: given["stages"]]:
+        show(operations(case))
+
+
+def show(line: dict[str, Any]) -> None:
+    """Print one line, at once."""
+    print(json.dumps(line), flush=True)
+
+
+if __name__ == "__main__":
+    main()
