@@ -93,6 +93,11 @@ class Cage(Rebuilt):
         xmin, ymin, xmax, ymax = self.bounds
         return max(xmax - xmin, ymax - ymin)
 
+    @property
+    def unit(self) -> float:
+        """A twentieth of the longer side: about the world unit of a traced picture."""
+        return self.longer_side / 20
+
     @cached_property
     def area(self) -> float:
         """Area of the domain without its holes."""

@@ -64,7 +64,7 @@ class HarmonicMap(Rebuilt):
             object.__setattr__(self, name, values)
         holes = slice(n - domain.n_holes, n)
         gap = np.abs(self.phi[holes] - self.psi[holes].conj())
-        scale = 1 + np.abs(self.phi[holes])
+        scale = domain.cage.unit + np.abs(self.phi[holes])
         if (gap > 1e-9 * scale).any():
             worst = int(np.argmax(gap / scale))
             both = f"phi = {self.phi[holes][worst]}, psi = {self.psi[holes][worst]}"

@@ -179,13 +179,14 @@ def mean_value_coordinates(z: Array, polygon: Array) -> Array:
 
 @double_precision
 def cauchy_point_to_point(domain: Domain, pose: Pose, p2p_weight: float) -> HarmonicMap:
-    """The map with ``psi = 0`` and no logarithms, of least ``|f''|^2`` along the boundary."""
+    """The map with ``psi = 0`` and no logarithms, of least ``|f''|^2`` along the boundary, for
+    lengths in the cage's ``unit``. The weight is ``lambda`` in the cage's own units."""
     basis = basis_of(domain)
     panels = graded_panels(domain)
     columns = np.flatnonzero(basis.phi_free)[: int(basis.phi_free.sum()) - domain.n_holes]
     slopes = complex_basis(cauchy.second_derivatives, panels.middle, basis)[:, columns]
     share = panels.length / panels.length.sum()
-    normal = slopes.conj().T @ (share[:, None] * slopes)
+    normal = domain.cage.unit**2 * slopes.conj().T @ (share[:, None] * slopes)
     right = np.zeros(len(columns), dtype=complex)
     if len(pose):
         handles, targets = as_complex(pose.handles), as_complex(pose.targets)

@@ -8,6 +8,7 @@ from typing import Any, Literal
 from glid_nb._arguments import check_fields, option
 from glid_nb._errors import InputError
 from glid_nb.certificate.rounding import CARRIED_STEPS
+from glid_nb.geometry import Cage
 from glid_nb.solvers.discretisation import CertificateKind, Sampling
 
 MOST_CORRECTIONS = 3
@@ -46,8 +47,9 @@ class Options:
     """The exact Hessian where it is positive definite, else the projected one (Section 7); with
     "projected" always that, as in the paper; with "exact" never, halting where it is indefinite."""
     p2p_weight: float = option(1e5, "How strongly handles are held at targets", "Weight λ", above=0)
-    """``lambda`` of (20), positive. For certified maps, and in their energies, it is at most 1e13
-    over the square of the cage's longer side: beside more the distortion is lost in rounding."""
+    """``lambda`` of (20), positive, for lengths in twentieths of the cage's longer side. So a shape
+    deforms alike in every unit; in the cage's own units ``lambda`` is :meth:`lambda_on`. Certified
+    maps, and their energies, use at most 2.5e10: beside more the distortion is lost in rounding."""
     conformal: bool = option(False, "No shear anywhere", "Conformal maps only")
     """Restrict the maps to conformal ones, ``psi = 0`` (Section 6)."""
     align: bool = option(True, "Begin at the best rigid motion to the targets", "Align")
@@ -85,11 +87,16 @@ class Options:
     def __post_init__(self) -> None:
         check_fields(self, OptionError)
 
+    def lambda_on(self, cage: Cage) -> float:
+        """``lambda`` of (20) per square of the cage's own unit of length."""
+        return self.p2p_weight / cage.unit**2
+
     @classmethod
     def paper(cls, **changes: Any) -> Options:
         """The paper's own settings: uniform samples, Lipschitz certificate, projected Hessian.
 
-        They start at the identity itself and try no other way.
+        They start at the identity itself and try no other way. The paper gives ``lambda = 1e5`` in
+        its cages' own units. For exactly that, pass ``p2p_weight=1e5 * cage.unit**2``.
         """
         kinds = {"sampling": "uniform", "certificate": "lipschitz", "hessian": "projected"}
         settings: dict[str, Any] = {**kinds, "align": False, "restarts": 0, "corrections": 0}

@@ -23,7 +23,8 @@ from glid_nb.solvers.pose import Pose, rigid_motion
 
 _HANDLE_BUCKET = 16
 _TURN = 10.0  # weight of f_z at a handle, beside that of its image
-_MOST = 1e13  # weight, times the size squared, beside which distortion is not yet rounded off
+# Larger weights would hide the distortion in rounding errors.
+_MOST, _MOST_TURN = 2.5e10, 1e13
 _FARTHEST_TURN = 1.0  # radians between two measurements
 _SAME_DIRECTION = 1e-4  # radians
 
@@ -71,17 +72,19 @@ class Positional(NamedTuple):
 def positional_energy(
     map: HarmonicMap, pose: Pose, weight: float, damping: float = 1.0
 ) -> Positional:
-    """The positional energy of a pose, its rows padded to a bucket.
+    """The positional energy of a pose, its rows padded to a bucket; ``weight`` is the options'
+    ``p2p_weight``, so lengths are measured in the cage's ``unit``.
 
     Angles and scales are rows for ``f_z`` at their handles, along the map's own ``f_z``, turned
     towards the wanted angle by at most a radian. A scale alone asks for ``|f_z|``, whose level sets
     bend: its second derivative along them is a row too, larger by ``damping``.
     """
     domain, count, turned = map.domain, len(pose), np.flatnonzero(pose.turned)
-    firm, most = pose.weights, _MOST / domain.cage.longer_side**2
+    firm, unit = pose.weights, domain.cage.unit
     size = _HANDLE_BUCKET * max(1, -(-(count + len(turned)) // _HANDLE_BUCKET))
     aims, weights = np.zeros((2, size)), np.zeros((2, size))
-    aims[:, :count], weights[:, :count] = pose.targets.T, np.minimum(weight, most / firm) * firm
+    aims[:, :count] = pose.targets.T
+    weights[:, :count] = np.minimum(weight, _MOST / firm) * firm / unit**2
     matrix = matrix_at(domain, pose.handles.tobytes(), size)
     if len(turned):
         basis, pinned = basis_of(domain), slice(count, count + len(turned))
@@ -93,7 +96,7 @@ def positional_energy(
         bends = np.maximum(damping * strain, (1 - damping) * strain).clip(0, 1)
         aims[0, pinned] = np.nan_to_num(scales)
         held = np.stack([~np.isnan(scales), np.where(np.isnan(angles), bends, 1)])
-        weights[:, pinned] = np.minimum(_TURN * weight, _MOST / firm[turned]) * firm[turned] * held
+        weights[:, pinned] = np.minimum(_TURN * weight, _MOST_TURN / firm[turned]) * firm[turned] * held
         matrix = matrix.reshape(2, size, -1).copy()
         matrix[:, pinned, : 2 * basis.n_columns] = [
             np.hstack([np.real(d), -np.imag(d)]),

@@ -74,7 +74,7 @@ class BoundedProblem:
         # R with R^T R the energy's matrix, without squaring its condition.
         share = np.sqrt(4 * self._shares)[:, None]
         stacked = [share * part(row) for row in self.samples for part in (np.real, np.imag)]
-        ridge = np.sqrt(_RIDGE) * np.eye(rows.shape[1])
+        ridge = np.sqrt(_RIDGE) / domain.cage.unit * np.eye(rows.shape[1])
         stacked += [rows, ridge] if len(pose) < 2 else [rows]
         self._factor = np.asarray(np.linalg.qr(np.concatenate(stacked), mode="r"))
         inverse = scipy.linalg.solve_triangular(self._factor, np.eye(len(self._factor)))

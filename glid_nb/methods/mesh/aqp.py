@@ -58,7 +58,7 @@ class AQP(MeshMethod):
 
     def steps(self, problem: MeshProblem) -> Steps:
         # Hard constraints: a positional part of rounding alone would be noise times lambda.
-        problem = replace(problem, p2p_weight=1.0)
+        problem = replace(problem, p2p_weight=1.0 / problem.inputs.domain.cage.unit**2)
         theta = (1 - np.sqrt(1 / self.kappa)) / (1 + np.sqrt(1 / self.kappa))
         pinned = Pinned(problem.operators, problem.handles)
         proxy = _Proxy(problem.operators, pinned, problem.inputs.energy, theta)

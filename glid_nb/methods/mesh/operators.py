@@ -112,7 +112,7 @@ class MeshProblem:
     operators: MeshOperators
     handles: Array  # (h,) vertex indices
     targets: Array  # (h,) complex
-    p2p_weight: float
+    p2p_weight: float  # lambda of (20), in the cage's own units
     start: Array  # (v,) complex images, rigidly moved if that was asked for
 
     @classmethod
@@ -130,7 +130,7 @@ class MeshProblem:
         if inputs.options.align and len(handles):
             turn, middle, aim = rigid_motion(images[handles], targets)
             images = aim + turn * (images - middle)
-        weight = inputs.options.p2p_weight
+        weight = inputs.options.lambda_on(inputs.domain.cage)
         return cls(inputs, operators, handles, targets, weight, images)
 
     def at(self, w: Array, step: float | None = None) -> Callable[[], Reached]:

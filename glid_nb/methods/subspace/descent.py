@@ -88,6 +88,16 @@ class DirectedDescent(SubspaceDescent):
         self._evaluate()
         self.initial, self._seconds = replace(self.reached().entry, time=self._seconds), 0.0
 
+    @property
+    def unit(self) -> float:
+        """The length in which absolute constants are measured."""
+        return self.inputs.domain.cage.unit
+
+    @property
+    def size(self) -> float:
+        """Norm of the coefficients, without the map's translation."""
+        return float(np.linalg.norm(self.point.coefficients - self.problem.anchor))
+
     @functools.cached_property
     def free(self) -> Array:
         return np.asarray(self.problem.unknowns.free)
@@ -175,7 +185,7 @@ class DirectedDescent(SubspaceDescent):
         chosen = self.method.direction(self)
         if isinstance(chosen, Ending):
             return chosen
-        length = np.linalg.norm(chosen) / max(np.linalg.norm(self.point.coefficients), 1e-300)
+        length = np.linalg.norm(chosen) / max(self.size, 1e-300)
         self._chosen = chosen if length <= _LONGEST else chosen * (_LONGEST / length)
         second_order, least = self.method.window is None, self.method.tolerance * self._scale()
         minimal = second_order and self._promised() / 2 <= least

@@ -50,10 +50,11 @@ class LBFGS(SubspaceMethod):
 
     def direction(self, at: DirectedDescent) -> Array:
         if at.memory is None:
-            iso = np.diag(np.where(at.free > 0, 2 / _SAMPLES, 1.0))
+            per_area = at.unit**-2  # so that scaled shapes take scaled steps
+            iso = np.diag(np.where(at.free > 0, 2 / _SAMPLES * per_area, 1.0))
             if self.initial == "dirichlet":
                 # Handles in one place leave the Dirichlet Hessian singular.
-                iso = at.hessian("dirichlet") + 1e-9 * np.eye(len(iso))
+                iso = at.hessian("dirichlet") + 1e-9 * per_area * np.eye(len(iso))
             factor = scipy.linalg.cho_factor(at.p2p_hessian + iso, lower=True)
             at.memory = Pairs(self.memory, factor)
         pairs: Pairs = at.memory
@@ -73,8 +74,7 @@ class GradientDescent(SubspaceMethod):
     def direction(self, at: DirectedDescent) -> Array:
         # Scaled to the size of the coefficients for the line search's sake.
         slope = float(np.linalg.norm(at.gradient))
-        size = float(np.linalg.norm(at.point.coefficients))
-        return -(size / slope if slope > 0 else 1.0) * at.gradient
+        return -(at.size / slope if slope > 0 else 1.0) * at.gradient
 
 
 class Pairs:
@@ -175,7 +175,7 @@ class NewtonEigen(SecondOrderMethod):
     """Newton's method with a full eigen-factorisation, negative eigenvalues raised to 1e-10 or,
     with absolute, by their modulus.
 
-    Newton-Eigen (Section 10). 1e-10 is no scale of the problem: along a direction of negative
+    Newton-Eigen (Section 10), for lengths in twentieths of the cage's longer side. 1e-10 is no scale of the problem: along a direction of negative
     curvature the step is 1e10 times the gradient's component, and the line search shortens all of
     it to what that one direction allows. With ``absolute``, negative eigenvalues change their sign.
     """
@@ -188,7 +188,7 @@ class NewtonEigen(SecondOrderMethod):
     def direction(self, at: DirectedDescent) -> Array:
         h = at.hessian("exact") + at.p2p_hessian
         values, vectors = scipy.linalg.eigh(h, check_finite=False)
-        values = np.maximum(np.abs(values) if self.absolute else values, FLOOR)
+        values = np.maximum(np.abs(values) if self.absolute else values, FLOOR / at.unit**2)
         return -vectors @ ((vectors.T @ at.gradient) / values)
 
 
