@@ -68,10 +68,18 @@ def frozen(array: A) -> A:
 
 
 class Rebuilt:
-    """A dataclass whose copies are made by its constructor, without what it keeps beside fields."""
+    """A dataclass whose copies are made by its constructor, without what it keeps beside fields.
+
+    So arrays are read-only again where they come from a pickle, and what was checked is checked.
+    """
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return type(self), tuple(getattr(self, one.name) for one in fields(self))  # type: ignore[arg-type]
+        values = {one.name: getattr(self, one.name) for one in fields(self)}  # type: ignore[arg-type]
+        return _made, (type(self), values)
+
+
+def _made(cls: type, values: dict[str, Any]) -> Any:
+    return cls(**values)
 
 
 def _number(value: Any) -> float:

@@ -6,6 +6,7 @@ here; at module level they use :func:`jit` for ``jax.jit``, and :func:`once_load
 
 import functools
 import importlib
+import os
 import sys
 import threading
 from collections.abc import Callable
@@ -15,10 +16,38 @@ from typing import TYPE_CHECKING, Annotated, Any, TypeAlias
 
 import numpy as np
 
-from glid_nb._errors import IncompatibleVersionsError
+from glid_nb._errors import IncompatibleVersionsError, InputError
 
 AnyArray: TypeAlias = "jax.Array | np.ndarray[Any, Any]"
 """An array on the device or on the host: data for compiled programs may be either."""
+
+_forked = False  # whether this process is a fork of one that had run JAX
+
+
+class ForkError(InputError):
+    """JAX is asked for in a process in which it cannot run."""
+
+
+def _note_fork() -> None:
+    """Threads do not survive a fork, and JAX waits for its own for ever."""
+    global _forked, _lock
+    _lock = threading.RLock()  # a thread that is gone may have held it
+    if (bridge := sys.modules.get("jax._src.xla_bridge")) is not None:
+        ran = getattr(bridge, "backends_are_initialized", None)
+        _forked = _forked or ran is None or bool(ran())
+
+
+if hasattr(os, "register_at_fork"):
+    os.register_at_fork(after_in_child=_note_fork)
+
+
+def check_fork() -> None:
+    """Raise :class:`ForkError` where JAX would hang."""
+    if _forked:
+        what = "this process was forked from one that had run JAX, so JAX would wait here for ever"
+        remedy = 'multiprocessing.get_context("spawn") or "forkserver"'
+        raise ForkError(f"{what}; start processes with {remedy}")
+
 
 _lock = threading.RLock()
 _waiting: list[Callable[[], Any]] = []
@@ -112,6 +141,8 @@ else:
             self._module: ModuleType | None = None
 
         def __getattr__(self, name: str) -> Any:
+            if _forked:
+                check_fork()
             if self._module is None:
                 with _lock:  # threads that import parts of JAX at once find them half made
                     self._module = import_jax(self._name)

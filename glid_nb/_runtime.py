@@ -22,7 +22,7 @@ from threadpoolctl import ThreadpoolController
 
 from glid_nb._cache_folder import can_write
 from glid_nb._features import enable_x64, release_blas
-from glid_nb._jax import jax
+from glid_nb._jax import check_fork, jax
 
 P = ParamSpec("P")
 R = TypeVar("R")
@@ -34,6 +34,16 @@ _watcher: ContextVar[Callable[[str], None] | None] = ContextVar("watcher", defau
 _lock = threading.Lock()
 _depth = 0
 _limiter: Any = None
+
+
+def _unlock() -> None:
+    """In a forked process: a thread that is gone may have held the lock."""
+    global _lock
+    _lock = threading.Lock()
+
+
+if hasattr(os, "register_at_fork"):
+    os.register_at_fork(after_in_child=_unlock)
 
 
 @contextmanager
@@ -101,6 +111,7 @@ def double_precision(function: Callable[P, R]) -> Callable[P, R]:
 
     @functools.wraps(function)
     def wrapped(*args: P.args, **kwargs: P.kwargs) -> R:
+        check_fork()
         with enable_x64(), jax.default_matmul_precision("highest"):
             return function(*args, **kwargs)
 
@@ -122,10 +133,18 @@ def in_chunks(
         for first in range(0, max(len(rows[0]), 1), size):
             stage("rows")
             parts.append(program(*(a[first : first + size] for a in rows), *fixed))
-    join: Any = np.concatenate
-    if len(parts) > 1 and isinstance(parts[0], np.ndarray):
-        return join(parts)  # without JAX, which an editor's first canvas does not wait for
-    return parts[0] if len(parts) == 1 else jax.tree.map(lambda *column: join(column), *parts)
+    return parts[0] if len(parts) == 1 else _joined(parts)
+
+
+def _joined(parts: Sequence[Any]) -> Any:
+    """Arrays, or tuples of them, one after the other; without JAX, which not all callers need."""
+    first = parts[0]
+    if first is None:
+        return None
+    if isinstance(first, tuple):
+        columns = [_joined(column) for column in zip(*parts, strict=True)]
+        return type(first)(*columns) if hasattr(first, "_fields") else tuple(columns)
+    return np.concatenate(parts)
 
 
 def cache_directory() -> Path:

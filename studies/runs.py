@@ -103,6 +103,7 @@ def run(
     value = methods.by_name(method, **{k: v for k, v in settings.items() if k in own})
     options = {"align": False, "p2p_weight": P2P_WEIGHT, "restarts": 0, **_DEFAULTS.get(method, {})}
     options |= {k: v for k, v in settings.items() if k not in own}
+    options["p2p_weight"] *= case.problem.domain.cage.unit**2  # the paper's is in world units
     if callback is not None:
         options["iterations_per_call"] = 1
     start = None if mesh is None or value.certified else MeshMap(mesh, mesh.vertices)

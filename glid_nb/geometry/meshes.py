@@ -11,7 +11,7 @@ import shapely
 from numpy.typing import ArrayLike, NDArray
 
 from glid_nb._arguments import check_type
-from glid_nb._arrays import Array, number_pairs, read_only
+from glid_nb._arrays import Array, Rebuilt, frozen, number_pairs
 from glid_nb.geometry import _loops
 from glid_nb.geometry._loops import GeometryError, Loops, place
 from glid_nb.geometry.cage import Cage
@@ -23,7 +23,7 @@ _ROW = np.sqrt(3.0) / 2.0  # height of a lattice row, in spacings
 
 
 @dataclass(frozen=True, eq=False)
-class Triangulation:
+class Triangulation(Rebuilt):
     """A triangle mesh of a cage."""
 
     vertices: NDArray[np.float64]
@@ -33,8 +33,7 @@ class Triangulation:
     n_boundary: int
 
     def __post_init__(self) -> None:
-        read_only(self.vertices)
-        read_only(self.triangles)
+        vars(self).update(vertices=frozen(self.vertices), triangles=frozen(self.triangles))
 
     @cached_property
     def graph(self) -> scipy.sparse.csr_array:
@@ -72,7 +71,7 @@ class Triangulation:
 
 
 @dataclass(frozen=True, eq=False)
-class MeshMap:
+class MeshMap(Rebuilt):
     """A triangle mesh and the images of its vertices."""
 
     triangulation: Triangulation
@@ -80,7 +79,7 @@ class MeshMap:
     """(v, 2), world coordinates."""
 
     def __post_init__(self) -> None:
-        images = read_only(np.array(self.images, dtype=float))
+        images = frozen(np.array(self.images, dtype=float))
         if images.shape != (shape := self.triangulation.vertices.shape):
             given = f"there are images of shape {images.shape} for vertices of shape {shape}"
             raise ValueError(f"{given}; give one image per vertex")

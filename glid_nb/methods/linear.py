@@ -225,5 +225,7 @@ def harmonic_weights(mesh: Triangulation, handles: bytes, power: int = 2) -> Arr
 
 
 def _flat(mesh: Triangulation) -> tuple[Array, Array]:
-    vertices = np.column_stack([mesh.vertices, np.zeros(len(mesh.vertices))])
+    """For libigl, whose tolerances are absolute: the longer side is 20 units."""
+    scaled = mesh.vertices / (np.ptp(mesh.vertices, axis=0).max() / 20)
+    vertices = np.column_stack([scaled, np.zeros(len(scaled))])
     return np.ascontiguousarray(vertices), np.ascontiguousarray(mesh.triangles, dtype=np.int64)

@@ -11,7 +11,7 @@ from typing import Any, Self
 import numpy as np
 from numpy.typing import ArrayLike
 
-from glid_nb._arrays import Array, number_pairs, read_only
+from glid_nb._arrays import Array, Rebuilt, frozen, number_pairs
 from glid_nb._errors import about
 from glid_nb._files import same_file, write_atomically
 from glid_nb._runtime import single_blas_thread
@@ -48,7 +48,7 @@ class MotionCertificate:
 
 
 @dataclass(frozen=True, eq=False, init=False)
-class Motion:
+class Motion(Rebuilt):
     """What lies between certified maps of one domain, proved at every instant.
 
     The keyframes are at least two poses: a HarmonicMap, Result or Certificate each. Every one is
@@ -92,7 +92,7 @@ class Motion:
         count = len(all_times) - 1
         if handles is not None:
             wanted = "handles must be a list of [x, y] pairs"
-            handles = read_only(number_pairs(handles, wanted, MotionError))
+            handles = frozen(number_pairs(handles, wanted, MotionError))
         vars(self).update(
             keyframes=maps,
             times=all_times,
@@ -105,6 +105,10 @@ class Motion:
         )
         if between == "linear" and any(self.turns):
             raise MotionError(f"turns are {self.turns}; linear blending takes none, so give 0")
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """A copy keeps the pieces that were made, and their proofs."""
+        return *super().__reduce__(), {"_intervals": dict(self._intervals)}
 
     @property
     def settings(self) -> dict[str, Any]:

@@ -31,7 +31,7 @@ from glid_nb.solvers import Newton, Options, Pose
 T = TypeVar("T")
 
 FORMAT = "glid_nb-document"
-FORMAT_VERSION = 4
+FORMAT_VERSION = 5
 
 _JSON, _IMAGE = "document.json", "image.png"
 _MASKS = {key: f"scribbles-{key}.png" for key in ("foreground", "background")}
@@ -52,6 +52,7 @@ _POSE_KEYS = {
 # To poses, by versions.
 _ADDED = {3: ("depths",), 4: ("angles", "scales", "weights", "names", "stiffness")}
 _MOST_ITERATIONS = 200  # was written where max_iterations is None, the method's own limit
+_RELATIVE_WEIGHT = 5  # since that version p2p_weight is in units of the cage, before of the world
 _MASK = "mask"  # written instead of strokes; the pixels are in another member
 _NEVER = "never"  # TraceOptions.max_edge == inf, which JSON cannot say
 
@@ -218,6 +219,9 @@ def _pose_from_dict(index: int, data: Any, domain: Domain, version: int) -> Name
             _json.check_fields(method, "method", {**named, "settings": _json.check_object})
             method = methods.by_name(method["name"], **method["settings"])
         options = _from_fields(Options, data["options"], "options")
+        if version < _RELATIVE_WEIGHT:
+            weight = options.p2p_weight * domain.cage.unit**2
+            options = dataclasses.replace(options, p2p_weight=weight)
         if options.max_iterations == _MOST_ITERATIONS:
             options = dataclasses.replace(options, max_iterations=None)
         map = HarmonicMap(domain, phi, psi)

@@ -22,7 +22,7 @@ def build_report(result: Result) -> dict[str, Any]:
     """The report of a solve, with its certificate and global injectivity, both timed.
 
     ``status`` and ``message``; ``certified`` and the ``proof`` in words; the energies ``E``,
-    ``E_iso`` and ``E_p2p``, and ``E_start`` before the first iteration; the certified bounds
+    ``E_iso`` and ``E_p2p``, ``lambda / 2`` times the sum of squared ``misses`` (h,), in world units; and ``E_start`` before the first iteration; the certified bounds
     ``sigma2_lower``, ``sigma1_upper`` and ``k_upper``; ``windings`` of f_z per loop (exterior
     first) and their sum ``winding``; ``globally_injective`` ("yes", "no" or "undecided") and a
     ``crossing`` if not; counts (``panels`` and ``panels_split`` are the solver's, ``proof_panels``
@@ -50,6 +50,8 @@ def build_report(result: Result) -> dict[str, Any]:
         "energy": energy.name,
         "s": getattr(energy, "s", None),
         "p2p_weight": options.p2p_weight,
+        "lambda": options.lambda_on(map_.domain.cage),
+        "misses": result.misses,
         "sigma2_lower": certificate.sigma2_lower,
         "sigma1_upper": certificate.sigma1_upper,
         "k_upper": certificate.k_upper,

@@ -1,18 +1,16 @@
 """The status line of the deformation editor."""
 
-import math
 from dataclasses import dataclass
 from typing import Literal
 
 from glid_nb.certificate import Certificate, certificate_of
 from glid_nb.certificate.rounding import rounded_down, rounded_up
 from glid_nb.geometry import MeshMap
-from glid_nb.session.edit_state import EditState, Frame, Moment
-from glid_nb.solvers import MethodError, Status
+from glid_nb.harmonic import HarmonicMap
+from glid_nb.session.edit_state import Frame, Moment
+from glid_nb.solvers import MethodError, Pose, Status, misses
 
 Level = Literal["idle", "working", "good", "blocked", "error"]
-
-_REACHED = 0.01  # world units; a smaller distance from the target is not visible
 
 
 @dataclass(frozen=True)
@@ -59,16 +57,17 @@ def _ended(moment: Moment) -> tuple[Level, str]:
         if status is Status.STOPPED:
             return "idle", f"{title} stopped"
         if status.ok:
-            return "idle", f"{title}: done" + (f" after {count} iterations" if count != 1 else "")
+            done = f"{title}: done" + (f" after {count} iterations" if count != 1 else "")
+            return "idle", done + _missed(frame.mesh, moment.state.pose)
         return "blocked", f"{title}: {solution.message}"
     if status is Status.STOPPED:
         return "idle", "Stopped"
     if status is Status.BLOCKED:
         text = "Blocked: the shape follows as far as it is proved not to fold"
-        return "blocked", text + _miss(moment.state)
+        return "blocked", text + _missed(moment.state.map, moment.state.pose)
     if status in (Status.MAX_ITERATIONS, Status.INDEFINITE):
         return "blocked", solution.message
-    return "good", "Converged" + _miss(moment.state)
+    return "good", "Converged" + _missed(moment.state.map, moment.state.pose)
 
 
 def _bound(frame: Frame | None) -> str:
@@ -96,7 +95,6 @@ def uncertified(mesh: MeshMap) -> str:
     return f"not certified: {count} {'triangle is' if count == 1 else 'triangles are'} turned over"
 
 
-def _miss(state: EditState) -> str:
-    gaps = state.map(state.pose.handles) - state.pose.targets
-    worst = max(math.hypot(*gap) for gap in gaps)
-    return f", {worst:.2g} units from its target" if worst > _REACHED else ""
+def _missed(map: HarmonicMap | MeshMap, pose: Pose) -> str:
+    text = misses.told(pose, misses.misses_of(map, pose), misses.unit_of(map))
+    return f", {text}" if text else ""

@@ -7,7 +7,7 @@ A complex matrix ``D`` is stored as ``[Re D, -Im D]`` (the first row pair of Equ
 from __future__ import annotations
 
 import functools
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from typing import Any, Literal, NamedTuple
 
 import numpy as np
@@ -80,7 +80,19 @@ class Discretisation:
     sampling: Sampling
     certificate: CertificateKind
     panels: Panels
-    matrices: Matrices
+    given: Matrices
+    """The matrices, by JAX; by NumPy where they come from a pickle."""
+
+    @functools.cached_property
+    @double_precision
+    def matrices(self) -> Matrices:
+        """The matrices on the device."""
+        return jax.device_put(self.given)
+
+    def __getstate__(self) -> dict[str, Any]:
+        """For pickles: JAX's arrays would be read in single precision outside the package."""
+        known = {one.name: getattr(self, one.name) for one in fields(self)}
+        return {**known, "given": jax.tree.map(np.asarray, self.given)}
 
     @property
     def basis(self) -> Basis:

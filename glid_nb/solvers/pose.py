@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from glid_nb._arrays import Array, number_pairs, read_only, real_array
+from glid_nb._arrays import Array, Rebuilt, frozen, number_pairs, real_array
 from glid_nb._errors import InputError
 from glid_nb.geometry import Domain, place
 from glid_nb.solvers.stiffness import FARTHEST, Stiffness
@@ -31,7 +31,7 @@ class PoseError(InputError):
 
 
 @dataclass(frozen=True, eq=False, init=False)
-class Pose:
+class Pose(Rebuilt):
     """Positional constraints (paper Section 6.1): handle ``i`` should map to target ``i``.
 
     It is made of lists or arrays. A PoseError where shapes or counts differ, a coordinate is not
@@ -168,7 +168,7 @@ def _checked_points(points: Any, name: str) -> Array:
             side = "a picture's longer side is 20 units"
             why = f"coordinates beyond {FARTHEST:g} are out of scale ({side})"
         raise PoseError(f"{name}[{wrong[0]}] is {place(point)}; {why}")
-    return read_only(array)
+    return frozen(array)
 
 
 def _checked_names(names: Sequence[str] | None, count: int) -> Array:
@@ -176,13 +176,13 @@ def _checked_names(names: Sequence[str] | None, count: int) -> Array:
     listed = isinstance(texts, list | tuple | np.ndarray) and len(texts) == count
     if not listed or not all(isinstance(text, str) for text in texts):
         raise PoseError(f"names must be {count} texts, one per handle, not {names!r:.60}")
-    return read_only(np.array(texts, dtype=str))
+    return frozen(np.array(texts, dtype=str))
 
 
 def _checked_numbers(name: str, values: ArrayLike | None, count: int) -> Array:
     least, most, default = _MORE[name]
     if values is None:
-        return read_only(np.full(count, default))
+        return frozen(np.full(count, default))
     wanted = f"{name} must be {count} numbers from {least:g} to {most:g}, one per handle"
     wanted += ", or null where free" if np.isnan(default) else ""
     try:
@@ -194,4 +194,4 @@ def _checked_numbers(name: str, values: ArrayLike | None, count: int) -> Array:
         raise PoseError(f"{wanted}, not {values!r:.60}")
     if wrong := np.flatnonzero(~within).tolist():
         raise PoseError(f"{name}[{wrong[0]}] is {array[wrong[0]]:g}; {wanted}")
-    return read_only(array)
+    return frozen(array)

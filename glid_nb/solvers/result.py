@@ -15,6 +15,7 @@ from glid_nb.certificate import Certificate, certificate_of, certify
 from glid_nb.energies import Energy
 from glid_nb.geometry import MeshMap
 from glid_nb.harmonic import HarmonicMap
+from glid_nb.solvers import misses
 from glid_nb.solvers.discretisation import Discretisation
 from glid_nb.solvers.options import Options
 from glid_nb.solvers.pose import Pose
@@ -204,15 +205,29 @@ class Result(Course):
     proof: Certificate | None = field(default=None, repr=False)
     """What the solver proved of a harmonic map; always certified."""
 
+    def __getstate__(self) -> dict[str, Any]:
+        """For pickles: JAX's arrays would be read in single precision outside the package."""
+        return {**vars(self), "factor": None if self.factor is None else np.asarray(self.factor)}
+
     @property
     def start_energy(self) -> float:
         """Total energy of the map that the first iteration started from."""
         return self.initial.energy
 
+    @functools.cached_property
+    def misses(self) -> Array:
+        """(h,) distances of the handles' images from their targets, world units."""
+        return misses.misses_of(self.map, self.pose)
+
     @property
     def message(self) -> str:
-        """The outcome as a full sentence."""
-        return self.detail or self.status.message
+        """The outcome as a full sentence; where handles miss their targets notably, another one
+        tells the largest miss and, where the targets fold the shape, what was seen in them."""
+        outcome = self.detail or self.status.message
+        if self.status is Status.STOPPED:
+            return outcome
+        missed = misses.told(self.pose, self.misses, misses.unit_of(self.map))
+        return f"{outcome} {missed[0].upper()}{missed[1:]}." if missed else outcome
 
     @property
     def iterations(self) -> int:

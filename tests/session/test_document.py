@@ -309,7 +309,7 @@ def test_a_document_of_version_2_opens_without_depths(
     tmp_path: Path, valid: dict[str, bytes]
 ) -> None:
     data = json.loads(valid["document.json"])
-    assert (data["version"], data.pop("timeline")["back"]) == (4, 0.7)
+    assert (data["version"], data.pop("timeline")["back"]) == (5, 0.7)
     old = [
         {k: v for k, v in pose.items() if k not in ("depths", *NEW_PINS)} for pose in data["poses"]
     ]
@@ -345,6 +345,29 @@ def test_a_document_of_version_3_opens_without_a_timeline(
     refuse(tmp_path / "new", zipped({**valid, "document.json": text}), "unknown key 'timeline'")
 
 
+@pytest.mark.parametrize("version", [1, 2, 3, 4])
+def test_before_version_5_weights_were_in_world_units_and_keep_their_meaning(
+    tmp_path: Path, valid: dict[str, bytes], version: int
+) -> None:
+    data = json.loads(valid["document.json"])
+    newer = {1: ("method", "depths", *NEW_PINS), 2: ("depths", *NEW_PINS), 3: NEW_PINS, 4: ()}
+    poses = [{k: v for k, v in pose.items() if k not in newer[version]} for pose in data["poses"]]
+    for pose, weight in zip(poses, (1e5, 1 / 3), strict=True):
+        pose["options"]["p2p_weight"] = weight
+    if version < 4:
+        del data["timeline"]
+    text = json.dumps({**data, "version": version, "poses": poses}).encode()
+    path = tmp_path / "old.glid"
+    path.write_bytes(zipped({**valid, "document.json": text}))
+    kept = load_document(path)
+    weights = [pose.options.lambda_on(kept.domain.cage) for pose in kept.poses]
+    assert kept.domain.cage.unit != 1
+    assert weights == pytest.approx([1e5, 1 / 3], rel=1e-15)
+    save_document(kept, path)
+    again = [pose.options.p2p_weight for pose in load_document(path).poses]
+    assert again == [pose.options.p2p_weight for pose in kept.poses]
+
+
 def refuse(folder: Path, data: bytes, culprit: str) -> None:
     folder.mkdir(exist_ok=True)
     path = folder / "broken.glid"
@@ -374,7 +397,7 @@ NAN, INFINITY = float("nan"), float("inf")
 BAD: list[tuple[str, Callable[[Data], Any], str]] = [
     ("a list", lambda d: [d], "object"),
     ("another format", changed(format="glid_nb-map"), "format"),
-    ("a newer version", changed(version=5), "version 5 .*newer"),
+    ("a newer version", changed(version=6), "version 6 .*newer"),
     ("a version as text", changed(version="1"), "version '1'"),
     *[
         (f"no {key}", without(key), key)

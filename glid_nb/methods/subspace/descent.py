@@ -111,8 +111,12 @@ class DirectedDescent(SubspaceDescent):
         return np.asarray(h) - np.diag(1 - self.free)
 
     def hessian(self, curvature: Curvature) -> Array:
-        """(4c, 4c) Hessian of the isometric energy; the identity on what is fixed or tied."""
-        return np.asarray(_hessian(self.problem, self.point, curvature=curvature))
+        """(4c, 4c) Hessian of the isometric energy; on what is fixed or tied a diagonal that scales
+        with it."""
+        h = np.array(_hessian(self.problem, self.point, curvature=curvature))
+        fixed = np.flatnonzero(self.free == 0)
+        h[fixed, fixed] = self.unit**-2
+        return h
 
     def advance(self, may_refine: bool) -> Advance:
         """The next certified step, or why there is none."""

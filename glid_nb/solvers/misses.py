@@ -1,0 +1,100 @@
+"""By how much handles miss their targets, and what of the targets may be why."""
+
+import itertools
+
+import numpy as np
+from scipy.spatial import Delaunay, QhullError
+
+from glid_nb._arrays import Array, frozen
+from glid_nb.geometry import MeshMap
+from glid_nb.harmonic import HarmonicMap, as_complex
+from glid_nb.solvers.pose import Pose
+
+NOTABLE = 0.01  # twentieths of the cage's longer side; a smaller distance is not visible
+# Targets follow a motion where it leaves out less than the first share of their spread, and less
+# than the second share of what the present order of the targets leaves out.
+_FITS, _BETTER = 0.1, 0.1
+# Targets this close beside their handles are one place, and the other way round.
+_TOGETHER = 1e-3
+_MOST = 12  # handles that are compared in pairs, those that miss most
+
+
+def misses_of(map: HarmonicMap | MeshMap, pose: Pose) -> Array:
+    """(h,) distances of the handles' images from their targets, world units."""
+    if not len(pose):
+        return frozen(np.zeros(0))
+    return frozen(np.linalg.norm(map(pose.handles) - pose.targets, axis=1))
+
+
+def unit_of(map: HarmonicMap | MeshMap) -> float:
+    """The unit of a map's cage; of a mesh, which knows no cage, a twentieth of its longer side."""
+    if isinstance(map, HarmonicMap):
+        return map.domain.cage.unit
+    return float(np.ptp(map.triangulation.vertices, axis=0).max()) / 20
+
+
+def told(pose: Pose, misses: Array, unit: float) -> str:
+    """The largest miss as the end of a sentence, with what may be why; empty if none is notable.
+
+    ``misses`` are (h,) distances, ``unit`` is that of the cage.
+    """
+    if not len(misses) or not misses.max() > NOTABLE * unit:
+        return ""
+    worst = int(misses.argmax())
+    text = f"handle {worst} is {misses[worst]:.2g} units from its target"
+    why = conflict(pose, misses > NOTABLE * unit, worst)
+    return f"{text}: {why}" if why else text
+
+
+def conflict(pose: Pose, missing: Array, worst: int) -> str:
+    """What is seen in the targets that a map without folds can hardly do; empty if nothing is.
+
+    ``missing`` (h,) tells the handles that miss, of which the ``worst`` misses most. Where shapes
+    are long and bend far, some of these targets can be reached, but not by a shape that lies flat.
+    """
+    z, w = as_complex(pose.handles), as_complex(pose.targets)
+    first = np.flatnonzero(missing)
+    chosen = [worst, *first[first != worst][: _MOST - 1].tolist()]
+    pairs = list(itertools.combinations(sorted(chosen), 2))
+    for i, j in pairs:
+        before, after = abs(z[i] - z[j]), abs(w[i] - w[j])
+        if after <= _TOGETHER * before:
+            return f"the targets of handles {i} and {j} are one place"
+        if before <= _TOGETHER * after:
+            return f"handles {i} and {j} are nearly one place, and their targets {after:.2g} apart"
+    if len(z) > 2:
+        left = _left(z, w)
+        if _left(z.conj(), w) < min(_FITS, _BETTER * left):
+            return "the targets mirror the handles, and no map turns over"
+        for i, j in pairs:
+            swapped = w.copy()
+            swapped[[i, j]] = w[[j, i]]
+            if _left(z, swapped) < min(_FITS, _BETTER * left):
+                return f"the targets of handles {i} and {j} are swapped"
+    return _turned_over(z, w, worst)
+
+
+def _left(z: Array, w: Array) -> float:
+    """The share of the targets' spread that the similarity closest to them leaves out."""
+    z, w = z - z.mean(), w - w.mean()
+    spread = np.vdot(z, z).real * np.vdot(w, w).real
+    return float(1 - abs(np.vdot(z, w)) ** 2 / spread) if spread > 0 else 0.0
+
+
+def _turned_over(z: Array, w: Array, worst: int) -> str:
+    """A triangle of neighbouring handles, with the worst one, that its targets turn over."""
+    if len(z) < 3:
+        return ""
+    try:
+        triangles = Delaunay(np.column_stack([z.real, z.imag])).simplices
+    except QhullError:  # all on one line
+        return ""
+    a, b, c = triangles.T
+    areas = [np.imag(np.conj(x[b] - x[a]) * (x[c] - x[a])) for x in (z, w)]
+    sizes = np.abs(w[b] - w[a]) * np.abs(w[c] - w[a])
+    over = (areas[0] * areas[1] < 0) & (np.abs(areas[1]) > _FITS * sizes)
+    over &= (triangles == worst).any(axis=1)
+    if not over.any():
+        return ""
+    i, j, k = sorted(triangles[over][0].tolist())
+    return f"its targets turn the triangle of handles {i}, {j} and {k} over"

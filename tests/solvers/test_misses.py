@@ -1,0 +1,92 @@
+"""How far handles miss their targets, and what is seen in targets that fold a shape."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+from glid_nb.geometry import Cage, Domain, MeshMap, triangulate
+from glid_nb.harmonic import HarmonicMap
+from glid_nb.methods import MovingLeastSquares
+from glid_nb.session.report import build_report
+from glid_nb.solvers import Options, Pose, Status, solve, solve_batch
+from glid_nb.solvers.misses import misses_of, told, unit_of
+
+SQUARE = np.array([[-5.0, -5], [5, -5], [5, 5], [-5, 5]])
+FIVE = np.vstack([SQUARE, [[0, 0]]])
+
+
+def box(scale: float = 1.0) -> Domain:
+    return Domain.from_cage(Cage(scale * np.array([[-10, -8], [10, -8], [10, 8], [-10, 8]])))
+
+
+def at_rest(handles: Any, targets: Any) -> str:
+    """What is told where the shape stays as it is."""
+    pose, map = Pose(handles, targets), HarmonicMap.identity(box())
+    return told(pose, misses_of(map, pose), unit_of(map))
+
+
+@pytest.mark.parametrize(
+    ("handles", "targets", "seen"),
+    [
+        (SQUARE, SQUARE * [-1, 1], "the targets mirror the handles"),
+        (SQUARE, SQUARE[:, ::-1] * 0.5 + 3, "the targets mirror the handles"),
+        (FIVE, FIVE[[1, 0, 2, 3, 4]], "the targets of handles 0 and 1 are swapped"),
+        (FIVE, FIVE[[0, 1, 4, 3, 2]] + [30, 7], "the targets of handles 2 and 4 are swapped"),
+        (SQUARE, SQUARE[[0, 0, 2, 3]], "the targets of handles 0 and 1 are one place"),
+        ([[0, 0], [0, 1e-3], [5, 0]], [[0, 0], [0, 5], [5, 0]], "handles 0 and 1 are nearly one"),
+        (SQUARE, [[-5, -5], [5, -5], [-6, -6], [-5, 5]], "triangle of handles 1, 2 and 3 over"),
+        (SQUARE, SQUARE @ [[0.6, 0.8], [-0.8, 0.6]] + 40, None),
+        (SQUARE, SQUARE + [[1, 0], [0, 0.5], [0, 0], [0, 2]], None),
+        ([[0, 0], [1, 0], [2, 0]], [[2, 0], [1, 0], [0, 0]], None),  # half a turn
+        ([[0, 0]], [[3, 0]], None),
+    ],
+)
+def test_what_is_seen_in_targets(handles: Any, targets: Any, seen: str | None) -> None:
+    text = at_rest(handles, targets)
+    assert "units from its target" in text
+    assert (seen in text) if seen else (":" not in text)
+
+
+def test_what_cannot_be_seen_is_not_told() -> None:
+    assert at_rest(SQUARE, SQUARE + 0.005) == ""
+    assert at_rest(np.zeros((0, 2)), np.zeros((0, 2))) == ""
+
+
+def test_a_mirrored_square_is_told_in_message_and_report_at_every_scale() -> None:
+    for scale in (1.0, 1e-4):
+        pose = Pose(scale * SQUARE, scale * SQUARE * [-1, 1])
+        result = solve(box(scale), pose, options=Options(restarts=0))
+        images = result.map(pose.handles)
+        np.testing.assert_allclose(result.misses, np.hypot(*(images - pose.targets).T))
+        assert result.misses.max() > 4 * scale
+        worst = int(result.misses.argmax())
+        assert f" Handle {worst} is " in result.message
+        assert result.message.endswith("the targets mirror the handles, and no map turns over.")
+        report = build_report(result)
+        assert report["misses"] == result.misses.tolist()
+        assert report["message"] == result.message
+
+
+def test_every_result_knows_its_misses() -> None:
+    light, square = Options(p2p_weight=1.0), Pose(SQUARE, SQUARE + [[1, 0], [0, 0], [0, 0], [0, 1]])
+    met = solve(box(), square)
+    assert met.message == Status.CONVERGED.message
+    assert met.misses.max() < 1e-3
+    (result,) = solve_batch(box(), SQUARE, [square.targets], options=light)
+    assert "units from its target." in result.message
+    exact = solve(box(), square, method=MovingLeastSquares(n_vertices=200))
+    assert exact.misses.max() < 1e-12
+    stopped = solve(box(), Pose(SQUARE, 2 * SQUARE), callback=lambda _: True)
+    assert stopped.status is Status.STOPPED
+    assert stopped.message == Status.STOPPED.message
+    assert solve(box(), Pose(np.zeros((0, 2)), np.zeros((0, 2)))).misses.shape == (0,)
+
+
+def test_a_map_of_a_mesh_is_measured_too() -> None:
+    mesh = triangulate(box().cage, 100, points=SQUARE)
+    map, pose = MeshMap(mesh, mesh.vertices + [3, 4]), Pose(SQUARE, SQUARE)
+    np.testing.assert_allclose(misses_of(map, pose), 5)
+    assert unit_of(map) == pytest.approx(1)
