@@ -1,6 +1,7 @@
 """Arrays: aliases of their types, arrays of numbers from untrusted values, immutable arrays."""
 
 import math
+from collections.abc import Iterator
 from dataclasses import fields
 from typing import Any, TypeAlias, TypeVar
 
@@ -13,15 +14,18 @@ A = TypeVar("A", bound=Array)
 
 
 def real_array(value: Any) -> NDArray[np.float64]:
-    """``value`` as a new float64 array; a missing number (None) becomes NaN.
+    """``value`` as a new float64 array; a missing number (None, or masked) becomes NaN.
 
     A TypeError or ValueError for anything but real numbers in range, and for ragged nesting.
     """
+    value = list(value) if isinstance(value, Iterator) else value
     if _holds_truth_value(value):
         raise TypeError("true and false are not numbers")
+    if isinstance(value, np.ma.MaskedArray) and value.dtype.kind in "iuf":
+        return value.astype(np.float64).filled(np.nan)
     array = np.asarray(value)
     if array.dtype.kind in "iuf":
-        return array.astype(np.float64)
+        return array.astype(np.float64, order="C")
     if array.dtype.kind != "O" or array.ndim == 0:
         raise TypeError(f"{array.dtype.name} values are not real numbers")
     try:

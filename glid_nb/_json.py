@@ -31,13 +31,13 @@ def parse_json(raw: bytes, name: str, kind: str = "a JSON file", *, nan: bool = 
         raise InputFileError(f"{name} is not {kind}: it has over {MOST_VALUES:,} values")
     try:
         return json.loads(
-            raw.decode("utf-8-sig"),
+            raw.decode(json.detect_encoding(raw)),  # UTF-16 too, with or without a mark
             parse_int=lambda digits: (int if len(digits) < _EXACT_DIGITS else float)(digits),
             parse_constant=float if nan else _refuse_constant,
             object_pairs_hook=_object,
         )
     except UnicodeDecodeError:
-        raise InputFileError(f"{name} is not {kind}: it is not UTF-8 text") from None
+        raise InputFileError(f"{name} is not {kind}: it is neither UTF-8 nor UTF-16 text") from None
     except (ValueError, RecursionError) as error:
         raise InputFileError(f"{name} is not {kind}: {error}") from None
 

@@ -1,6 +1,6 @@
 """Figures of functions: levels of an energy, the curve of f_z, convergence, any line plot."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any, Literal
 
 import numpy as np
@@ -100,17 +100,18 @@ def derivative_curve(map: HarmonicMap, which: Literal["fz", "fzb"] = "fz") -> No
 
 
 def convergence(
-    results: Mapping[str, Result],
+    results: Result | Sequence[Result] | Mapping[str, Result],
     against: Literal["iterations", "seconds"] = "iterations",
     gap_to: float | None = None,
 ) -> NotebookFigure:
-    """Total energies of several named results, on a logarithmic axis.
+    """Total energies of results, on a logarithmic axis, by their names or their methods'.
 
     Against "iterations" or "seconds", those of `Iteration.time`: without compiling. With
     ``gap_to``, such as the lowest energy known, (E - gap_to) / gap_to is drawn instead.
     """
     if against not in ("iterations", "seconds"):
         raise ValueError(f"against is {against!r}; choose 'iterations' or 'seconds'")
+    results = _by_name(results)
     figure = NotebookFigure(_WIDTH * 0.75, 3.2)
     axes = figure.add_subplot()
     for below, (name, result) in zip(range(len(results))[::-1], results.items(), strict=True):
@@ -128,6 +129,24 @@ def convergence(
     _named(axes, against, "energy" if gap_to is None else "(E − E*) / E*", "")
     axes.legend(**style.LEGEND)
     return figure
+
+
+def _by_name(results: Any) -> Mapping[str, Result]:
+    """Results by names; those that have none are called like their methods, and numbered."""
+    given = [results] if isinstance(results, Result) else results
+    if not isinstance(given, Mapping):
+        if not isinstance(given, list | tuple) or not all(isinstance(r, Result) for r in given):
+            wanted = "results must be a Result, a list of them, or a dict of them by names"
+            raise TypeError(f"{wanted}, not {results!r:.60}")
+        labels = [result.method.label for result in given]
+        given = {
+            label if labels.count(label) == 1 else f"{label} ({i})": result
+            for i, (label, result) in enumerate(zip(labels, given, strict=True), 1)
+        }
+    for name, result in given.items():
+        if not isinstance(result, Result):
+            raise TypeError(f"results[{name!r}] must be a Result, not {type(result).__name__}")
+    return given
 
 
 def function(

@@ -9,7 +9,7 @@ import numpy as np
 import shapely
 from numpy.typing import ArrayLike, NDArray
 
-from glid_nb._arrays import Array, Rebuilt, frozen, number_pairs
+from glid_nb._arrays import Array, Rebuilt, frozen, number_pairs, real_array
 from glid_nb.geometry import _loops
 from glid_nb.geometry._loops import GeometryError, Loops, loop_name, place, plain_name
 
@@ -23,8 +23,9 @@ _EDGES = 64  # whose crossings are looked for at a time
 class Cage(Rebuilt):
     """A bounded polygon with any number of holes; the boundary P of the certified domain.
 
-    Loops have their vertices in order, either way round; the first is not repeated at the end. The
-    constructor checks what the package relies on: finite coordinates, at least three distinct
+    Loops have their vertices in order, either way round; where the first is repeated at the end,
+    that is left out. Polygons of shapely, and of others with a ``__geo_interface__``, and lists of
+    rings as in GeoJSON, the exterior first, are taken in place of a loop. The constructor checks what the package relies on: finite coordinates, at least three distinct
     vertices per loop, loops that neither cross nor touch themselves or each other, every hole
     inside the exterior and outside every other hole. If not, a GeometryError names the loop, the
     vertex and its place. Loops are reversed where needed, keeping vertex 0 first, so that the
@@ -36,9 +37,9 @@ class Cage(Rebuilt):
     holes: tuple[NDArray[np.float64], ...]
     """Each (k, 2) read-only, clockwise."""
 
-    def __init__(self, exterior: ArrayLike, holes: Iterable[ArrayLike] = ()) -> None:
-        loops = [_checked_vertices(exterior, loop_name(0))]
-        loops += [_checked_vertices(hole, loop_name(i + 1)) for i, hole in enumerate(holes)]
+    def __init__(self, exterior: Any, holes: Iterable[Any] = ()) -> None:
+        rings = _rings_of(exterior, holes)
+        loops = [_checked_vertices(ring, loop_name(i)) for i, ring in enumerate(rings)]
         _check_loops(loops)
         for i, loop in enumerate(loops):
             if (_loops.signed_area(loop) > 0) != (i == 0):
@@ -122,7 +123,10 @@ class Cage(Rebuilt):
         Points outside by at most the tolerance count as inside; it is at least 1e-12 of the cage's
         size, so that rounded boundary points count too.
         """
-        xy = np.asarray(points, dtype=np.float64)
+        try:
+            xy = real_array(points)
+        except (TypeError, ValueError) as error:
+            raise GeometryError(f"points must be pairs of numbers ({error})") from error
         if xy.shape[-1:] != (2,):
             raise GeometryError(f"points must have the shape (..., 2), not {xy.shape}")
         if not tolerance >= 0:
@@ -141,10 +145,50 @@ class Cage(Rebuilt):
         return inside.reshape(xy.shape[:-1])
 
 
-def _checked_vertices(vertices: ArrayLike, name: str) -> Array:
-    """A float64 copy of (n, 2) finite vertices, n >= 3."""
+def _rings_of(shape: Any, holes: Any) -> list[Any]:
+    """The exterior and the holes of whatever a cage may be made of."""
+    if isinstance(shape, Cage):
+        raise GeometryError("it is a cage already; use it as it is, or give its exterior and holes")
+    if (geometry := getattr(shape, "__geo_interface__", None)) is not None:
+        rings = _rings_of_geometry(geometry)
+    elif _depth(shape) == 3:
+        rings = list(shape)
+    else:
+        return [shape, *([holes] if _depth(holes) == 2 else holes)]
+    if len(rings) > 1 and len(given := list(holes)):
+        both = f"{len(rings) - 1} holes come with the exterior and {len(given)} beside it"
+        raise GeometryError(f"{both}; give holes in one of the two ways")
+    return [*rings, *holes]
+
+
+def _rings_of_geometry(geometry: Mapping[str, Any]) -> list[Any]:
+    kind, parts = geometry.get("type"), geometry.get("coordinates", ())
+    if kind == "MultiPolygon" and len(parts) == 1:
+        kind, parts = "Polygon", parts[0]
+    if kind in ("LinearRing", "LineString"):
+        kind, parts = "Polygon", [parts]
+    if kind != "Polygon" or not len(parts):
+        count = f" of {len(parts)} parts" if kind == "MultiPolygon" else ""
+        raise GeometryError(f"a cage is made of one polygon, not of a {kind}{count}; give one part")
+    return list(parts)
+
+
+def _depth(value: Any) -> int:
+    """How deep lists or arrays are nested, by their first elements: 2 for a loop of vertices."""
+    if isinstance(value, np.ndarray):
+        return value.ndim
+    listed = isinstance(value, list | tuple) and len(value) > 0
+    return 1 + _depth(value[0]) if listed else 0
+
+
+def _checked_vertices(vertices: Any, name: str) -> Array:
+    """A float64 copy of (n, 2) finite vertices, n >= 3, without a last one that closes the loop."""
+    if (geometry := getattr(vertices, "__geo_interface__", None)) is not None:
+        vertices = _rings_of_geometry(geometry)[0]
     pairs = f"{name}: vertices must be pairs of numbers [[x, y], ...]"
     loop = number_pairs(vertices, pairs, GeometryError)
+    if len(loop) > 3 and (loop[0] == loop[-1]).all():
+        loop = loop[:-1].copy()
     if len(loop) < 3:
         raise GeometryError(f"{name}: {len(loop)} vertices given, a loop needs at least 3")
     wrong = np.flatnonzero(~(np.abs(loop) <= 1e100).all(axis=1))

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 import pythoncdt
@@ -11,7 +11,7 @@ import shapely
 from numpy.typing import ArrayLike, NDArray
 
 from glid_nb._arguments import check_type
-from glid_nb._arrays import Array, Rebuilt, frozen, number_pairs
+from glid_nb._arrays import Array, Rebuilt, frozen, number_pairs, real_array
 from glid_nb.geometry import _loops
 from glid_nb.geometry._loops import GeometryError, Loops, place
 from glid_nb.geometry.cage import Cage
@@ -19,6 +19,7 @@ from glid_nb.geometry.cage import Cage
 # Least distances of lattice points from the boundary (closer ones make flat triangles) and from the
 _MARGIN, _CLEARANCE = 0.55, 0.6  # wanted points, in spacings
 _SAME = 1e-9  # points closer than this share of the cage's size count as one
+_ROUNDING = 1e-12  # points off the mesh by this share of its coordinates lie on it
 _ROW = np.sqrt(3.0) / 2.0  # height of a lattice row, in spacings
 
 
@@ -58,6 +59,15 @@ class Triangulation(Rebuilt):
         triangle.flat[which] = found
         return triangle
 
+    def covers(self, points: Array) -> NDArray[np.bool_]:
+        """Which of (k, 2) points lie on the mesh, rounded points of its boundary too."""
+        on = self.find(*points.T) >= 0
+        beside = np.asarray(shapely.points(points[~on]), dtype=object)
+        tolerance = _ROUNDING * max(float(np.abs(self.vertices).max()), 1e-300)
+        nearest = self._tree.geometries[self._tree.nearest(beside)]
+        on[~on] = shapely.distance(nearest, beside) <= tolerance
+        return on
+
     def weights(self, points: ArrayLike) -> Any:
         """(k, v) sparse: interpolates at (k, 2) points, off the mesh by the nearest triangle."""
         points = np.reshape(np.asarray(points, dtype=float), (-1, 2))
@@ -85,12 +95,25 @@ class MeshMap(Rebuilt):
             raise ValueError(f"{given}; give one image per vertex")
         object.__setattr__(self, "images", images)
 
-    def __call__(self, points: ArrayLike) -> Array:
-        """Images of (k, 2) points; one off the mesh moves with the nearest triangle."""
-        xy = np.atleast_2d(np.asarray(points, dtype=float))
+    def __call__(
+        self, points: ArrayLike, *, outside: Literal["extend", "nan"] = "extend"
+    ) -> Array:
+        """Images of (k, 2) points, by NumPy. With ``outside="extend"``, the default, one off the
+        mesh moves with the nearest triangle, with "nan" its image is NaN."""
+        if outside not in ("extend", "nan"):
+            raise GeometryError(f"outside must be 'extend' or 'nan', not {outside!r:.40}")
+        if "Tracer" in type(points).__name__:
+            what = "a map of a mesh looks its triangles up on the host, so JAX cannot trace it"
+            raise GeometryError(f"{what}; pass an array of NumPy, or use a HarmonicMap")
+        listed = np.asarray(points) if np.iscomplexobj(points) else points
+        pairs = _loops.as_points(listed) if np.iscomplexobj(listed) else real_array(listed)
+        xy = np.atleast_2d(pairs)
         if xy.ndim != 2 or xy.shape[1] != 2:
-            raise ValueError(f"points have shape {xy.shape}; expected (k, 2)")
-        return self.triangulation.weights(xy) @ self.images
+            raise GeometryError(f"points have shape {xy.shape}; expected (k, 2)")
+        images = self.triangulation.weights(xy) @ self.images
+        if outside == "nan":
+            images[~self.triangulation.covers(xy)] = np.nan
+        return images
 
     @property
     def areas(self) -> Array:

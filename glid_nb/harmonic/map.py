@@ -4,14 +4,15 @@ import functools
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, Self, TypeVar
+from typing import Any, Literal, Self, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from glid_nb._arguments import check_count, check_type
+from glid_nb._arguments import check_count, check_type, unmet
 from glid_nb._arrays import Array, Rebuilt, frozen, number_pairs, real_array
 from glid_nb._errors import InputError, about
+from glid_nb._jax import jax, jnp
 from glid_nb._json import checked_version, read_json, write_json
 from glid_nb._runtime import in_chunks
 from glid_nb.geometry import Domain, as_points, loop_name, uniform_panels
@@ -20,6 +21,9 @@ from glid_nb.harmonic.basis import basis_of
 from glid_nb.harmonic.cauchy import Singularities
 
 R = TypeVar("R")
+
+Outside = Literal["extend", "nan"]
+"""What a map gives at points outside its domain: what its formula gives, or NaN."""
 
 FORMAT = "glid_nb-map"
 FORMAT_VERSION = 1
@@ -38,6 +42,15 @@ class HarmonicMap(Rebuilt):
 
     ``f(z) = sum_j C_j(z) phi_j + conj(sum_j C_j(z) psi_j)``, with the offset cage's vertices in
     the order of its loops first, then one logarithm per hole.
+
+    Points are (k, 2) world coordinates, or complex numbers x + iy. Outside the cage the same formula
+    goes on, but nothing is certified there, and beside the offset cage the values mean nothing: with
+    ``outside="nan"`` they are NaN there, with "extend", the default, they are what it gives.
+
+    The map and its derivatives are functions of JAX, too: for an array of JAX they return one, can
+    be differentiated, compiled and mapped, and take points of the shape (..., 2). They compute in
+    the array's precision, by default single; NumPy's arrays and lists always in double. There
+    ``outside="nan"`` needs points that are known, so not within ``jax.jit``.
     """
 
     domain: Domain
@@ -84,39 +97,58 @@ class HarmonicMap(Rebuilt):
         phi[: len(exterior)] = exterior
         return cls(domain, phi, np.zeros_like(phi))
 
-    def __call__(self, points: ArrayLike) -> Array:
+    def __call__(self, points: Any, *, outside: Outside = "extend") -> Any:
         """(k, 2) images of points, world coordinates; certified where ``domain.cage.contains``."""
-        return as_points(run_on(self, _values, as_complex(points)))
+        return self._evaluated(_images, points, outside)
 
-    def wirtinger(self, points: ArrayLike) -> tuple[Array, Array]:
+    def wirtinger(self, points: Any, *, outside: Outside = "extend") -> tuple[Any, Any]:
         """Wirtinger derivatives ``f_z`` and ``f_zbar``, each (k,) complex (Equation (9))."""
-        fz, fzb_conj = run_on(self, _first, as_complex(points))
+        fz, fzb_conj = self._evaluated(_first, points, outside)
         return fz, fzb_conj.conj()
 
-    def wirtinger_derivatives(self, points: ArrayLike, order: int) -> tuple[Array, Array]:
+    def wirtinger_derivatives(
+        self, points: Any, order: int, *, outside: Outside = "extend"
+    ) -> tuple[Any, Any]:
         """The ``order``-th complex derivatives of ``f_z`` and of ``conj(f_zbar)``, order >= 1."""
         check_count("order", order, 1, "derivatives")
-        return run_on(self, functools.partial(_higher, order=order), as_complex(points))
+        return self._evaluated(functools.partial(_higher, order=order), points, outside)
 
-    def sigma1(self, points: ArrayLike) -> Array:
+    def sigma1(self, points: Any, *, outside: Outside = "extend") -> Any:
         """Large singular value of the Jacobian, (k,) (Equation (2))."""
-        fz, fzb = self.wirtinger(points)
-        return np.abs(fz) + np.abs(fzb)
+        fz, fzb = self.wirtinger(points, outside=outside)
+        return abs(fz) + abs(fzb)
 
-    def sigma2(self, points: ArrayLike) -> Array:
+    def sigma2(self, points: Any, *, outside: Outside = "extend") -> Any:
         """Signed small singular value ``|f_z| - |f_zbar|``, (k,); negative where it folds."""
-        fz, fzb = self.wirtinger(points)
-        return np.abs(fz) - np.abs(fzb)
+        fz, fzb = self.wirtinger(points, outside=outside)
+        return abs(fz) - abs(fzb)
 
-    def k(self, points: ArrayLike) -> Array:
+    def k(self, points: Any, *, outside: Outside = "extend") -> Any:
         """Little dilatation ``|f_zbar| / |f_z|``, (k,) (Section 3.2)."""
-        fz, fzb = self.wirtinger(points)
-        return np.abs(fzb) / np.abs(fz)
+        fz, fzb = self.wirtinger(points, outside=outside)
+        return abs(fzb) / abs(fz)
 
-    def det(self, points: ArrayLike) -> Array:
+    def det(self, points: Any, *, outside: Outside = "extend") -> Any:
         """Determinant of the Jacobian, ``|f_z|^2 - |f_zbar|^2``, (k,)."""
-        fz, fzb = self.wirtinger(points)
-        return np.abs(fz) ** 2 - np.abs(fzb) ** 2
+        fz, fzb = self.wirtinger(points, outside=outside)
+        return abs(fz) ** 2 - abs(fzb) ** 2
+
+    def _evaluated(self, program: Callable[..., Any], points: Any, outside: Outside) -> Any:
+        """``program(z, rows, singularities)`` at points, NaN where that is wanted."""
+        if unmet(Outside, outside):
+            raise MapError(f"outside must be 'extend' or 'nan', not {outside!r:.40}")
+        of_jax = is_of_jax(points)
+        if of_jax:
+            values = _on_jax(self, program, points)
+        else:
+            z = as_complex(points)
+            values = run_on(self, program, z)
+        if outside == "extend":
+            return values
+        inside = self.domain.cage.contains(_known(points) if of_jax else as_points(z))
+        parts = values if isinstance(values, tuple) else (values,)
+        left = tuple(_only(part, inside) for part in parts)
+        return left if isinstance(values, tuple) else left[0]
 
     def distance(self, other: Self, n_points: int = 2000) -> float:
         """Largest distance between the images under two maps, at ``n_points`` boundary points.
@@ -186,10 +218,55 @@ def images_under(maps: Sequence[HarmonicMap], points: ArrayLike) -> Array:
     return in_chunks(values, basis.n_columns, [as_complex(points)], columns, basis.singularities)
 
 
-def as_complex(points: ArrayLike) -> Array:
-    """(k, 2) real points, or an array of complex ones of any shape, as a (k,) complex array."""
+def _on_jax(map: HarmonicMap, program: Callable[..., Any], points: Any) -> Any:
+    """``program`` by JAX, at (..., 2) real or (...) complex points, which may be traced."""
+    if points.dtype.kind == "c":
+        z = points
+    elif points.shape[-1:] == (2,) and points.dtype.kind in "fiu":
+        z = points[..., 0] + 1j * points[..., 1]
+    else:
+        given = f"{points.dtype.name} of the shape {points.shape}"
+        raise MapError(f"points must be (..., 2) coordinates or complex numbers, not {given}")
+    known = basis_of(map.domain).singularities
+    # As arrays of JAX: NumPy's would be compiled into programs of whatever precision came first.
+    rows, vertices, holes = (
+        jnp.asarray(a.astype(z.dtype)) for a in (rows_of(map), known.vertices, known.hole_points)
+    )
+    after, before = (jnp.asarray(a.astype(np.int32)) for a in (known.next, known.previous))
+    values = program(z.ravel(), rows, Singularities(vertices, after, before, holes))
+    parts = values if isinstance(values, tuple) else (values,)
+    shaped = tuple(part.reshape(z.shape + part.shape[1:]) for part in parts)
+    return shaped if isinstance(values, tuple) else shaped[0]
+
+
+def is_of_jax(points: Any) -> bool:
+    """Whether points are an array of JAX, or are traced by it; without importing it."""
+    return type(points).__module__.startswith("jax") and isinstance(points, jax.Array)
+
+
+def _known(points: Any) -> Array:
+    """(..., 2) NumPy points of an array of JAX; a MapError while it is traced."""
+    if isinstance(points, jax.core.Tracer):
+        what = "outside='nan' needs points that are known, but JAX traces these"
+        raise MapError(f"{what}; ask domain.cage.contains before, and use jax.numpy.where")
+    known = np.asarray(points)
+    return as_points(known) if np.iscomplexobj(known) else known
+
+
+def _only(values: Any, inside: Array) -> Any:
+    """The values with NaN at the points that are not inside."""
+    mask = inside.reshape(inside.shape + (1,) * (values.ndim - inside.ndim))
+    nothing = complex(np.nan, np.nan) if values.dtype.kind == "c" else np.nan
+    return values.__array_namespace__().where(mask, values, nothing)
+
+
+def as_complex(points: Any) -> Array:
+    """(k, 2) real points, or complex ones of any shape, as a (k,) complex array."""
+    listed = [points] if isinstance(points, complex) else points
+    if isinstance(listed, list | tuple) and any(isinstance(one, complex) for one in listed):
+        points = np.asarray(listed)
     if hasattr(points, "dtype") and np.iscomplexobj(points):
-        z = np.asarray(points, dtype=complex).ravel()
+        z = np.asarray(np.ma.filled(points, np.nan), dtype=complex).ravel()
     else:
         array = number_pairs(points, "points must be (k, 2) coordinates", MapError)
         z = array[:, 0] + 1j * array[:, 1]
@@ -201,7 +278,16 @@ def as_complex(points: ArrayLike) -> Array:
 
 def _values(z: Any, coefficients: Any, singularities: Singularities) -> Any:
     c = cauchy.cauchy_coordinates(z, singularities)
-    return c @ coefficients[0] + np.conj(c @ coefficients[1])
+    return c @ coefficients[0] + (c @ coefficients[1]).conj()
+
+
+def _images(z: Any, coefficients: Any, singularities: Singularities) -> Any:
+    """(k, 2) real."""
+    w = _values(z, coefficients, singularities)
+    if isinstance(w, np.ndarray):
+        return as_points(w)
+    xp = w.__array_namespace__()
+    return xp.stack([xp.real(w), xp.imag(w)], axis=-1)
 
 
 def _first(z: Any, coefficients: Any, singularities: Singularities) -> tuple[Any, ...]:

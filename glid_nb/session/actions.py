@@ -24,7 +24,7 @@ from glid_nb.session.document import NamedPose, check_room
 from glid_nb.session.edit_state import EditError, EditState
 from glid_nb.session.timeline import LEAST_GAP
 from glid_nb.solvers import Method, Pose
-from glid_nb.solvers.pose import DEEPEST, PER_HANDLE
+from glid_nb.solvers.pose import DEEPEST, PER_HANDLE, misplaced
 from glid_nb.solvers.stiffness import Stiffness
 
 # Least distance of two handles, as a share of the cage's size.
@@ -42,7 +42,9 @@ def add_handles(state: EditState, points: ArrayLike, targets: ArrayLike | None =
     for i, (point, inside) in enumerate(zip(points, cage.contains(points), strict=True)):
         where = place(point, 4)
         if not inside:
-            raise EditError(f"{where} lies outside the shape; choose a place on it")
+            why = misplaced(cage, points)
+            what = f"{where} lies outside the shape; choose a place on it"
+            raise EditError(f"{what}{'. ' * bool(why)}{why}")
         gaps = np.linalg.norm(np.concatenate([pose.handles, points[:i]]) - point, axis=1)
         if (gaps < _LEAST_DISTANCE * cage.longer_side).any():
             raise EditError(f"{where} is pinned already")

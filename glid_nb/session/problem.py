@@ -6,9 +6,11 @@ from pathlib import Path
 from typing import Any, Self
 
 from glid_nb import _json
+from glid_nb._arrays import Array
 from glid_nb._errors import about
 from glid_nb.geometry import Domain
-from glid_nb.solvers import Pose
+from glid_nb.imaging import PixelFrame
+from glid_nb.solvers import Pose, PoseError
 
 _POSE = {"handles": _json.check_points, "targets": _json.check_points}
 _CHOSEN_WHEN_MISSING = {
@@ -46,7 +48,12 @@ class Problem:
         required = {"cage": _json.check_points, **_POSE}
         _json.check_fields(data, "a problem", required, _CHOSEN_WHEN_MISSING, others=True)
         shape = {key: data.get(key) for key in ("cage", *_CHOSEN_WHEN_MISSING)}
-        return cls(Domain.from_dict(shape), Pose.from_dict(data))
+        domain, pose = Domain.from_dict(shape), Pose.from_dict(data)
+        outside = not domain.cage.contains(pose.handles).all()
+        if outside and (size := data.get("image_size_px")) is not None:
+            frame = PixelFrame(*_json.picture_size(size, "image_size_px"))
+            _refuse_pixels(domain, pose.handles, frame)
+        return cls(domain, pose)
 
     def to_dict(self) -> dict[str, Any]:
         """Plain JSON values under the keys that :meth:`from_dict` reads."""
@@ -64,6 +71,19 @@ class Problem:
         """
         with about(path):
             return cls.from_dict(_json.read_object(path))
+
+
+def _refuse_pixels(domain: Domain, handles: Array, frame: PixelFrame) -> None:
+    """Raise PoseError for handles that are inside the domain as pixels of the picture."""
+    for order, name in ((slice(None), "(x, y)"), (slice(None, None, -1), "(row, column)")):
+        if domain.cage.contains(frame.to_world(handles[:, order])).all():
+            xmin, ymin, xmax, ymax = frame.bounds
+            world = f"x from {xmin:g} to {xmax:g} and y, upwards, from {ymin:g} to {ymax:g}"
+            picture = f"the picture of {frame.width} x {frame.height} pixels spans {world}"
+            index = "" if name == "(x, y)" else "[:, ::-1]"
+            call = f"PixelFrame({frame.width}, {frame.height}).to_world(handles{index})"
+            what = f"handles and targets are pixels {name}, not world coordinates, in which {picture}"
+            raise PoseError(f"{what}; convert both: {call}")
 
 
 def load_pose(path: str | Path) -> Pose:
