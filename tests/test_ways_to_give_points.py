@@ -110,7 +110,10 @@ def test_a_handle_just_outside_is_told_with_its_distance() -> None:
 @pytest.mark.parametrize(
     ("handles", "hint"),
     [
-        ([[120, 200], [400, 210]], r"PixelFrame(width, height).to_world(handles), (row, column) by"),
+        (
+            [[120, 200], [400, 210]],
+            "PixelFrame(width, height).to_world(handles), (row",
+        ),
         ([[2, -8], [2, 8]], "x and y look swapped, for all would lie inside as handles[:, ::-1]"),
         ([[50, -80], [20, 80]], "and y from -3 to 3"),
     ],
@@ -140,7 +143,7 @@ def test_pixels_of_a_problem_with_a_picture_are_recognised(
     assert "the picture of 640 x 480 pixels spans x from -10 to 10" in str(caught.value)
     assert str(caught.value).endswith(f"PixelFrame(640, 480).to_world(handles{index})")
     call = str(caught.value).rpartition(": ")[2]
-    handles = eval(call, {"PixelFrame": PixelFrame, "handles": pixels})  # noqa: S307
+    handles = eval(call, {"PixelFrame": PixelFrame, "handles": pixels})
     np.testing.assert_allclose(handles, FILE["handles"])
 
 

@@ -25,7 +25,9 @@ class Cage(Rebuilt):
 
     Loops have their vertices in order, either way round; where the first is repeated at the end,
     that is left out. Polygons of shapely, and of others with a ``__geo_interface__``, and lists of
-    rings as in GeoJSON, the exterior first, are taken in place of a loop. The constructor checks what the package relies on: finite coordinates, at least three distinct
+    rings as in GeoJSON, the exterior first, are taken in place of a loop.
+
+    The constructor checks what the package relies on: finite coordinates, at least three distinct
     vertices per loop, loops that neither cross nor touch themselves or each other, every hole
     inside the exterior and outside every other hole. If not, a GeometryError names the loop, the
     vertex and its place. Loops are reversed where needed, keeping vertex 0 first, so that the
@@ -167,7 +169,7 @@ def _rings_of_geometry(geometry: Mapping[str, Any]) -> list[Any]:
         kind, parts = "Polygon", parts[0]
     if kind in ("LinearRing", "LineString"):
         kind, parts = "Polygon", [parts]
-    if kind != "Polygon" or not len(parts):
+    if kind != "Polygon" or len(parts) == 0:
         count = f" of {len(parts)} parts" if kind == "MultiPolygon" else ""
         raise GeometryError(f"a cage is made of one polygon, not of a {kind}{count}; give one part")
     return list(parts)

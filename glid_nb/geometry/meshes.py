@@ -95,9 +95,7 @@ class MeshMap(Rebuilt):
             raise ValueError(f"{given}; give one image per vertex")
         object.__setattr__(self, "images", images)
 
-    def __call__(
-        self, points: ArrayLike, *, outside: Literal["extend", "nan"] = "extend"
-    ) -> Array:
+    def __call__(self, points: ArrayLike, *, outside: Literal["extend", "nan"] = "extend") -> Array:
         """Images of (k, 2) points, by NumPy. With ``outside="extend"``, the default, one off the
         mesh moves with the nearest triangle, with "nan" its image is NaN."""
         if outside not in ("extend", "nan"):

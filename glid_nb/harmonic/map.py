@@ -43,9 +43,9 @@ class HarmonicMap(Rebuilt):
     ``f(z) = sum_j C_j(z) phi_j + conj(sum_j C_j(z) psi_j)``, with the offset cage's vertices in
     the order of its loops first, then one logarithm per hole.
 
-    Points are (k, 2) world coordinates, or complex numbers x + iy. Outside the cage the same formula
-    goes on, but nothing is certified there, and beside the offset cage the values mean nothing: with
-    ``outside="nan"`` they are NaN there, with "extend", the default, they are what it gives.
+    Points are (k, 2) world coordinates, or complex numbers x + iy. Nothing is certified outside the
+    cage, and beyond the offset cage values mean nothing. There ``outside="nan"`` gives NaN, and
+    "extend", the default, what the formula gives.
 
     The map and its derivatives are functions of JAX, too: for an array of JAX they return one, can
     be differentiated, compiled and mapped, and take points of the shape (..., 2). They compute in

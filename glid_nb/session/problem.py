@@ -82,7 +82,9 @@ def _refuse_pixels(domain: Domain, handles: Array, frame: PixelFrame) -> None:
             picture = f"the picture of {frame.width} x {frame.height} pixels spans {world}"
             index = "" if name == "(x, y)" else "[:, ::-1]"
             call = f"PixelFrame({frame.width}, {frame.height}).to_world(handles{index})"
-            what = f"handles and targets are pixels {name}, not world coordinates, in which {picture}"
+            what = (
+                f"handles and targets are pixels {name}, not world coordinates, in which {picture}"
+            )
             raise PoseError(f"{what}; convert both: {call}")
 
 

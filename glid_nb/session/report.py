@@ -22,8 +22,9 @@ def build_report(result: Result) -> dict[str, Any]:
     """The report of a solve, with its certificate and global injectivity, both timed.
 
     ``status`` and ``message``; ``certified`` and the ``proof`` in words; the energies ``E``,
-    ``E_iso`` and ``E_p2p``, ``lambda / 2`` times the sum of squared ``misses`` (h,), in world units; and ``E_start`` before the first iteration; the certified bounds
-    ``sigma2_lower``, ``sigma1_upper`` and ``k_upper``; ``windings`` of f_z per loop (exterior
+    ``E_iso`` and ``E_p2p``, which is ``lambda / 2`` times the sum of squared ``misses`` (h,), world
+    units; ``E_start`` before the first iteration; the certified bounds ``sigma2_lower``,
+    ``sigma1_upper`` and ``k_upper``; ``windings`` of f_z per loop (exterior
     first) and their sum ``winding``; ``globally_injective`` ("yes", "no" or "undecided") and a
     ``crossing`` if not; counts (``panels`` and ``panels_split`` are the solver's, ``proof_panels``
     those on which the final proof ended); times in seconds; ``attempts``, what each way to a

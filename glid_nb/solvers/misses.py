@@ -55,8 +55,7 @@ def conflict(pose: Pose, missing: Array, worst: int) -> str:
     z, w = as_complex(pose.handles), as_complex(pose.targets)
     first = np.flatnonzero(missing)
     chosen = [worst, *first[first != worst][: _MOST - 1].tolist()]
-    pairs = list(itertools.combinations(sorted(chosen), 2))
-    for i, j in pairs:
+    for i, j in sorted({(min(i, j), max(i, j)) for i in chosen for j in range(len(z)) if i != j}):
         before, after = abs(z[i] - z[j]), abs(w[i] - w[j])
         if after <= _TOGETHER * before:
             return f"the targets of handles {i} and {j} are one place"
@@ -66,7 +65,7 @@ def conflict(pose: Pose, missing: Array, worst: int) -> str:
         left = _left(z, w)
         if _left(z.conj(), w) < min(_FITS, _BETTER * left):
             return "the targets mirror the handles, and no map turns over"
-        for i, j in pairs:
+        for i, j in itertools.combinations(sorted(chosen), 2):
             swapped = w.copy()
             swapped[[i, j]] = w[[j, i]]
             if _left(z, swapped) < min(_FITS, _BETTER * left):

@@ -96,7 +96,9 @@ def positional_energy(
         bends = np.maximum(damping * strain, (1 - damping) * strain).clip(0, 1)
         aims[0, pinned] = np.nan_to_num(scales)
         held = np.stack([~np.isnan(scales), np.where(np.isnan(angles), bends, 1)])
-        weights[:, pinned] = np.minimum(_TURN * weight, _MOST_TURN / firm[turned]) * firm[turned] * held
+        weights[:, pinned] = (
+            np.minimum(_TURN * weight, _MOST_TURN / firm[turned]) * firm[turned] * held
+        )
         matrix = matrix.reshape(2, size, -1).copy()
         matrix[:, pinned, : 2 * basis.n_columns] = [
             np.hstack([np.real(d), -np.imag(d)]),

@@ -35,7 +35,7 @@ def jacobian(map: HarmonicMap, points: Any) -> Any:
     return np.stack([np.stack([x.real, y.real], -1), np.stack([x.imag, y.imag], -1)], -2)
 
 
-@pytest.mark.parametrize("x64", [False, True, False])
+@pytest.mark.parametrize("x64", [False, True])
 def test_a_map_is_traced_mapped_and_differentiated(x64: bool) -> None:
     map, close = bent(), PRECISION[x64]
     points = inside(map)
@@ -90,9 +90,10 @@ def test_outside_its_domain_a_map_gives_nan_where_asked() -> None:
     for name in ("__call__", "sigma1", "sigma2", "k", "det", "wirtinger"):
         evaluate = getattr(map, name)
         extended = np.moveaxis(np.asarray(evaluate(points)), 0, -1)
-        assert extended.tobytes() == np.moveaxis(
-            np.asarray(evaluate(points, outside="extend")), 0, -1
-        ).tobytes()
+        assert (
+            extended.tobytes()
+            == np.moveaxis(np.asarray(evaluate(points, outside="extend")), 0, -1).tobytes()
+        )
         for given in (points, jnp.asarray(points)):
             values = evaluate(given, outside="nan")
             for part in values if isinstance(values, tuple) else (values,):

@@ -14,7 +14,8 @@ from glid_nb.session.report import build_report
 from glid_nb.solvers import Options, Pose, Status, solve, solve_batch
 from glid_nb.solvers.misses import misses_of, told, unit_of
 
-SQUARE = np.array([[-5.0, -5], [5, -5], [5, 5], [-5, 5]])
+SQUARE: Any = np.array([[-5.0, -5], [5, -5], [5, 5], [-5, 5]])
+PULLED = np.array([[1.0, 0], [0, 0], [0, 0], [0, 1]])
 FIVE = np.vstack([SQUARE, [[0, 0]]])
 
 
@@ -39,7 +40,7 @@ def at_rest(handles: Any, targets: Any) -> str:
         ([[0, 0], [0, 1e-3], [5, 0]], [[0, 0], [0, 5], [5, 0]], "handles 0 and 1 are nearly one"),
         (SQUARE, [[-5, -5], [5, -5], [-6, -6], [-5, 5]], "triangle of handles 1, 2 and 3 over"),
         (SQUARE, SQUARE @ [[0.6, 0.8], [-0.8, 0.6]] + 40, None),
-        (SQUARE, SQUARE + [[1, 0], [0, 0.5], [0, 0], [0, 2]], None),
+        (SQUARE, SQUARE + PULLED, None),
         ([[0, 0], [1, 0], [2, 0]], [[2, 0], [1, 0], [0, 0]], None),  # half a turn
         ([[0, 0]], [[3, 0]], None),
     ],
@@ -71,7 +72,7 @@ def test_a_mirrored_square_is_told_in_message_and_report_at_every_scale() -> Non
 
 
 def test_every_result_knows_its_misses() -> None:
-    light, square = Options(p2p_weight=1.0), Pose(SQUARE, SQUARE + [[1, 0], [0, 0], [0, 0], [0, 1]])
+    light, square = Options(p2p_weight=1.0), Pose(SQUARE, SQUARE + PULLED)
     met = solve(box(), square)
     assert met.message == Status.CONVERGED.message
     assert met.misses.max() < 1e-3
@@ -87,6 +88,6 @@ def test_every_result_knows_its_misses() -> None:
 
 def test_a_map_of_a_mesh_is_measured_too() -> None:
     mesh = triangulate(box().cage, 100, points=SQUARE)
-    map, pose = MeshMap(mesh, mesh.vertices + [3, 4]), Pose(SQUARE, SQUARE)
+    map, pose = MeshMap(mesh, mesh.vertices + np.array([3, 4])), Pose(SQUARE, SQUARE)
     np.testing.assert_allclose(misses_of(map, pose), 5)
     assert unit_of(map) == pytest.approx(1)

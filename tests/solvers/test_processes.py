@@ -24,7 +24,7 @@ from glid_nb.solvers import Options, Pose, Result, Status, refine, solve, solve_
 pytestmark = pytest.mark.slow
 
 POSE = Pose([[-8.0, 0], [0, 0], [8, 0]], [[-8.0, 0], [0, 3], [8, 0]])
-OTHER = POSE.with_targets(POSE.targets + [0, 0.5])
+OTHER = POSE.with_targets(POSE.targets + np.array([0, 0.5]))
 
 
 class WithoutJax(pickle.Unpickler):

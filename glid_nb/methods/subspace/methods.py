@@ -175,9 +175,10 @@ class NewtonEigen(SecondOrderMethod):
     """Newton's method with a full eigen-factorisation, negative eigenvalues raised to 1e-10 or,
     with absolute, by their modulus.
 
-    Newton-Eigen (Section 10), for lengths in twentieths of the cage's longer side. 1e-10 is no scale of the problem: along a direction of negative
-    curvature the step is 1e10 times the gradient's component, and the line search shortens all of
-    it to what that one direction allows. With ``absolute``, negative eigenvalues change their sign.
+    Newton-Eigen (Section 10), for lengths in twentieths of the cage's longer side. 1e-10 is no
+    scale of the problem: along a direction of negative curvature the step is 1e10 times the
+    gradient's component, and the line search shortens all of it to what that one direction allows.
+    With ``absolute``, negative eigenvalues change their sign.
     """
 
     name = "newton-eigen"
