@@ -142,4 +142,4 @@ def _starting_point(
     disc = start.discretisation if isinstance(start, Result) else None
     if disc is None or (disc.sampling, disc.certificate) != (options.sampling, options.certificate):
         disc = fresh()
-    return canonical(HarmonicMap(disc.domain, map_.phi, map_.psi)), proof, disc
+    return canonical(HarmonicMap(domain, map_.phi, map_.psi)), proof, disc

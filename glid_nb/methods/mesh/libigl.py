@@ -60,21 +60,22 @@ class SLIM(MeshMethod):
 
         name, factor = _ENERGIES[problem.inputs.energy.name]
         mesh, w = problem.operators.mesh, problem.start
-        flat = np.column_stack([mesh.vertices, np.zeros(len(mesh.vertices))])
+        unit = problem.inputs.domain.cage.unit  # libigl's tolerances are absolute
+        flat = np.column_stack([mesh.vertices / unit, np.zeros(len(mesh.vertices))])
         if flips(*problem.operators.wirtinger(w)):
             w = problem.operators.rest
         data = igl.slim_precompute(
             np.asfortranarray(flat),
             np.asfortranarray(mesh.triangles),
-            np.asfortranarray(as_points(w)),
+            np.asfortranarray(as_points(w / unit)),
             getattr(igl.MappingEnergyType, name),
             problem.handles.astype(np.int32),
-            np.asfortranarray(as_points(problem.targets)),
+            np.asfortranarray(as_points(problem.targets / unit)),
             problem.p2p_weight * problem.operators.area * factor,
         )
         while True:
             yield problem.at(w)
-            w = as_complex(igl.slim_solve(data, 1))
+            w = unit * as_complex(igl.slim_solve(data, 1))
 
 
 @dataclass(frozen=True)
