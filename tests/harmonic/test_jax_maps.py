@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from glid_nb._features import enable_x64
 from glid_nb._jax import jax, jnp
 from glid_nb.geometry import Cage, GeometryError, MeshMap, triangulate
 from glid_nb.harmonic.map import HarmonicMap, MapError
@@ -40,7 +41,7 @@ def test_a_map_is_traced_mapped_and_differentiated(x64: bool) -> None:
     map, close = bent(), PRECISION[x64]
     points = inside(map)
     usual, slopes = map(points), jacobian(map, points)
-    with jax.enable_x64(x64):
+    with enable_x64(x64):
         q = jnp.asarray(points)
         for images in (map(q), jax.jit(map)(q), jax.vmap(map)(q), map(q.reshape(2, -1, 2))):
             assert isinstance(images, jax.Array)
@@ -64,7 +65,7 @@ def test_arrays_of_numpy_stay_in_double_precision_with_the_same_bits() -> None:
     map = bent()
     points = inside(map)
     usual = map(points)
-    with jax.enable_x64(False):
+    with enable_x64(False):
         jax.jit(map)(jnp.asarray(points))
         again = map(points)
     assert type(again) is np.ndarray
