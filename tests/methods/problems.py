@@ -34,10 +34,13 @@ def problem(name: str) -> tuple[Domain, Pose]:
 def run_method(
     name: str, shape: Domain, pose: Pose, energy: Energy | str | None = None, **settings: Any
 ) -> Result:
-    """A solve by the method of a name; its settings, options and the rest together as keywords."""
+    """A solve by the method of a name; its settings, options and the rest together as keywords.
+
+    ``p2p_weight`` is lambda in the shape's own units."""
     own = methods.METHODS[name].kinds()
     chosen = {k: settings.pop(k) for k in [*settings] if k in own}
-    options = {k: settings.pop(k) for k in [*settings] if k in _OPTIONS}
+    options = {"p2p_weight": 1e5} | {k: settings.pop(k) for k in [*settings] if k in _OPTIONS}
+    options["p2p_weight"] *= shape.cage.unit**2
     method = methods.by_name(name, **chosen)
     return solve(
         shape, pose, energy, Options(**{"restarts": 0, **options}), method=method, **settings

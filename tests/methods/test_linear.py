@@ -100,7 +100,7 @@ def test_cauchy_coordinates_solve_a_least_squares_problem_by_quadrature(weight: 
     stiff = np.sqrt(weight / 2)
     loop = shape.offset_cage.loops_complex[0]
     rows = [
-        share[:, None] * hats_by_quadrature(loop, panels.middle, 2),
+        shape.cage.unit * share[:, None] * hats_by_quadrature(loop, panels.middle, 2),
         stiff * hats_by_quadrature(loop, as_complex(pose.handles), 0),
     ]
     right = np.concatenate([np.zeros(len(share)), stiff * as_complex(pose.targets)])
