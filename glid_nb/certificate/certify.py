@@ -69,6 +69,12 @@ class Certificate:
         if self.certified:  # `_assembled` says so afterwards
             vars(self).update(certified=False, reason="Undecided: no proof made this certificate.")
 
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        """From a pickle, in which maps come without the proofs that they have kept."""
+        vars(self).update(state)
+        if self.certified:
+            vars(self.map).setdefault("_proof", self)
+
     def belongs_to(self, map: HarmonicMap) -> bool:
         """Whether it is of this map: the same coefficients on the same or an equal domain."""
         check_type("map", map, HarmonicMap, "such as that of a result")

@@ -15,7 +15,7 @@ import numpy as np
 import pytest
 
 from glid_nb import methods
-from glid_nb.certificate import certify
+from glid_nb.certificate import certificate_of, certify
 from glid_nb.geometry import Cage, Domain, MeshMap
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.motion import Motion
@@ -81,6 +81,7 @@ def test_a_result_is_the_same_bit_for_bit(kind: str, copied: Callable[[Any], Any
         assert other.proof is not None
         assert other.proof.certified
         assert other.proof.belongs_to(other.map)
+        assert certificate_of(other.map).certified
         assert other.certificate is not None
         assert other.certificate.certified
     assert other.history == result.history
