@@ -85,7 +85,8 @@ def test_cauchy_coordinates_reproduce_similarities() -> None:
     for name in ("ell", "ring"):
         shape, pose = problem(name)
         targets = real(turn * as_complex(pose.handles) + shift)
-        map = cauchy_point_to_point(shape, pose.with_targets(targets), 1e5)
+        weight = 1e5 * shape.cage.unit**2
+        map = cauchy_point_to_point(shape, pose.with_targets(targets), weight)
         points = triangulate(shape.cage, 200).vertices
         np.testing.assert_allclose(as_complex(map(points)), turn * as_complex(points) + shift, 1e-8)
         assert not map.psi.any()
