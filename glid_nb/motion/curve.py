@@ -23,6 +23,7 @@ _STAGES = 5  # of each lap of an interval whose maps are solved for
 _POINTS = 40
 _SOFT = 1e-4  # weight of the handles of maps that mend a motion
 _ROUNDS = 5  # of halving where it is mended
+_PROGRESS = 0.7  # share of the excess that may be left by a round, else it is the last one
 
 Between = Callable[[int, float], Coefficients]
 
@@ -114,14 +115,17 @@ def through_mended(follow: Bounded, closed: bool) -> tuple[Between, tuple[str, .
     curve, points = follow, _even_points(follow)
     pose = Pose(points, points, weights=np.full(len(points), _SOFT))
     owners = every = range(len(follow.turns))
-    alone = excess = [follow.excess(i).max() for i in every]
+    alone = excess = reached = [follow.excess(i).max() for i in every]
+    mending = set(every)
     for _ in range(_ROUNDS):
-        over = [i for i, share in enumerate(excess) if share > EXCESS]
+        over = [i for i, share in enumerate(excess) if share > EXCESS and owners[i] in mending]
         if not over:
             break
         curve, owners = _divided(curve, owners, over, 2, pose, closed)
         excess = [curve.excess(i).max() for i in range(len(owners))]
-    reached = dict(sorted(zip(owners, excess, strict=True)))  # the largest of each interval
+        before = reached
+        reached = [max(e for e, of in zip(excess, owners, strict=True) if of == i) for i in every]
+        mending = {i for i in mending if reached[i] < _PROGRESS * before[i]}
     ways = [
         follow if reached[i] > max(alone[i], EXCESS) else _by_time(follow, curve) for i in every
     ]
