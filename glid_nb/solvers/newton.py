@@ -37,7 +37,7 @@ _CREEPING = 1e-6
 _WORK_PER_CALL = 10**10  # products of a Hessian: some seconds, after which a callback may stop it
 # Steep coordinates are put back until the others together would gain less than this share of the
 # energy. They are first asked at a decrement that promises the second share.
-_GAIN, _ROUGH = 1e-7, 1e-5
+_GAIN, _ROUGH = 1e-7, 1e-3
 _ROUNDING = 1e-8  # a decrease promised by the Newton decrement that rounding of the energy can hide
 
 
