@@ -151,7 +151,7 @@ def test_closing_changes_f_z_alone_and_leaves_no_gap() -> None:
         open_gap = np.abs(boundary._gap(np.exp(log), nu)[0]).max()
         closed = boundary.closed(log, nu)
         assert np.abs(boundary._gap(closed, nu)[0]).max() <= max(1e-6 * open_gap, 1e-9)
-        phi, psi = boundary.fitted(closed, nu * closed)
+        phi, _ = boundary.fitted(closed, nu * closed)
         missed = np.abs(boundary.first @ phi - closed).max() / np.abs(closed).max()
         assert missed < 0.05, name
 
