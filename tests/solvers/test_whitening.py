@@ -204,7 +204,8 @@ def test_coordinates_put_back_are_orthonormal_to_the_others() -> None:
     assert known.sum() == discretise(uneven()).matrices.whitening.any(axis=(0, 1)).sum() - 1 + (
         count - count // 2
     )
-    np.testing.assert_allclose(gram, np.diag(known.astype(float)), atol=1e-6)
+    # The Gram matrix's ridge shortens the steepest ones a little.
+    np.testing.assert_allclose(gram, np.diag(known.astype(float)), atol=1e-5)
 
 
 def test_the_papers_settings_keep_the_whole_subspace() -> None:
