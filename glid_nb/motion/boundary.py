@@ -1,6 +1,7 @@
 """A domain's boundary as motion needs it: continuous logarithms, and a projection on the basis."""
 
 import functools
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -15,6 +16,12 @@ from glid_nb.solvers.discretisation import complex_basis, discretise
 
 _POINTS = 200  # at which images are compared
 _ON_LINK = 128
+# Periods are closed by turning rather than by scaling, which weighs so many times as much.
+_SCALING = 5.0
+_SMOOTH, _SMOOTH_PER_HOLE = 16, 4  # functions that close them
+# Newton steps; the gap is of second order in the difference of the keyframes. None is taken where
+# the gap, a coefficient of the logarithm, is below the second number.
+_CLOSINGS, _CLOSED = 3, 1e-9
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,6 +49,11 @@ class Boundary:
     logarithms: Array
     """(N, s) likewise, scaled coefficients of the logarithms of the best fits to two functions."""
     with_logarithms: Array  # (n, N) what these add to the coefficients
+    holomorphic: Array
+    """(s, m) smooth single-valued functions at the nodes, for real coefficients. Their squares add
+    up to the function's mean square, in which its real part counts more."""
+    periods: Array
+    """(N, s) the logarithms' coefficients in the best fit to a function by itself: its periods."""
 
     def images(self, phi: Array, psi: Array) -> Array:
         """(k,) images of the even points."""
@@ -70,6 +82,34 @@ class Boundary:
         phi, psi = (self.single_valued @ both + self.with_logarithms @ tied).T
         return phi, psi
 
+    def closed(self, log: Array, nu: Array) -> Array:
+        """``f_z`` so changed that one map has the derivatives ``f_z`` and ``nu f_z``.
+
+        Around a hole the map must come back to its value: the periods of ``f_z dz`` and of ``f_zbar
+        d conj(z)`` must add up to 0. A holomorphic function, small in the mean square, is added to
+        ``log f_z``. That changes no ``|nu|``, so no k.
+        """
+        fz = np.exp(log)
+        gap, change = self._gap(fz, nu)
+        for _ in range(_CLOSINGS):
+            if np.abs(gap).max(initial=0.0) <= _CLOSED:
+                break
+            x = np.linalg.lstsq(change, -gap)[0]
+            closer = fz * np.exp(self.holomorphic @ x)
+            before = np.linalg.norm(gap)
+            gap, change = self._gap(closer, nu)
+            if not np.linalg.norm(gap) < before:
+                break  # too far for Newton's method; the projection shares the gap out
+            fz = closer
+        return fz
+
+    def _gap(self, fz: Array, nu: Array) -> tuple[Array, Array]:
+        """(2 N,) what periods lack, and (2 N, m) its derivative by `holomorphic` functions."""
+        a, b = self.periods * fz, self.periods * (nu * fz)
+        gap = a.sum(axis=1) - np.conj(b.sum(axis=1))
+        change = a @ self.holomorphic - np.conj(b @ self.holomorphic)
+        return np.concatenate([gap.real, gap.imag]), np.concatenate([change.real, change.imag])
+
     def logarithm(self, phi: Array, fz: Array) -> Array:
         """(s,) ``log f_z`` at the nodes, of one branch: continuous along loops and their links."""
         result = np.log(np.abs(fz)).astype(complex)
@@ -95,10 +135,13 @@ def boundary_of(domain: Domain) -> Boundary:
     first = (rows[:c][columns] - 1j * rows[c:][columns])[:, chosen].T
     mean = np.asarray(disc.matrices.weights)[chosen]
     t = np.asarray(disc.matrices.whitening)
-    fit = _fit(first, mean, (t[0] + 1j * t[1])[columns], basis.n_hole_columns, domain.n_holes)
+    branches = _branches(domain, disc.panels.start, disc.panels.end, disc.panels.loop)
+    whitening = (t[0] + 1j * t[1])[columns]
+    *fit, q = _fit(first, mean, whitening, basis.n_hole_columns, domain.n_holes)
+    loops = [branch.indices for branch in branches]
+    fit[-1:-1] = [_smooth(q / np.sqrt(mean)[:, None], mean, loops)]
     points = uniform_panels(domain.cage, _POINTS).start
     values = complex_basis(cauchy.cauchy_coordinates, points, basis)[:, columns]
-    branches = _branches(domain, disc.panels.start, disc.panels.end, disc.panels.loop)
     return Boundary(domain, points, values, first, mean, branches, *fit)
 
 
@@ -115,8 +158,22 @@ def _fit(first: Array, mean: Array, t: Array, n_padded: int, n_holes: int) -> tu
     rest = log - q @ along
     gram = 2 * np.real(rest.conj().T @ rest)
     single = (t_single @ q.conj().T) * root.T
-    logarithms = np.linalg.solve(gram, rest.conj().T * root.T) if n_holes else rest.conj().T
-    return single, logarithms, t_log - t_single @ along
+    across = rest.conj().T * root.T
+    logarithms = np.linalg.solve(gram, across) if n_holes else across
+    periods = np.linalg.solve(rest.conj().T @ rest, across) if n_holes else across
+    return single, logarithms, t_log - t_single @ along, periods, q
+
+
+def _smooth(functions: Array, mean: Array, loops: Sequence[Array]) -> Array:
+    """Of the span of orthonormal functions the smoothest along the loops, as `holomorphic`."""
+    rises = np.concatenate([np.diff(functions[loop], axis=0) for loop in loops])
+    gaps = np.concatenate([mean[loop[1:]] + mean[loop[:-1]] for loop in loops])
+    _, turn = np.linalg.eigh(rises.conj().T @ (rises / gaps[:, None]))
+    chosen = functions @ turn[:, : _SMOOTH + _SMOOTH_PER_HOLE * (len(loops) - 1)]
+    parts, root = np.hstack([chosen, 1j * chosen]), np.sqrt(mean)[:, None]
+    weighted = np.vstack([_SCALING * root * parts.real, root * parts.imag])
+    lower = np.linalg.cholesky(weighted.T @ weighted)
+    return np.linalg.solve(lower, parts.T).T
 
 
 def _branches(domain: Domain, start: Array, end: Array, loop: Array) -> tuple[Branch, ...]:

@@ -151,7 +151,7 @@ def _freed(
 def _fitted(boundary: Boundary, fields: Array) -> Array:
     """(2, n) phi and psi of the map nearest to given fields, with the mean image 0."""
     log, nu = np.split(fields, 2)
-    fz = np.exp(log)
+    fz = boundary.closed(log, nu)
     phi, psi = boundary.fitted(fz, nu * fz)
     return np.stack([boundary.translated(phi, -boundary.images(phi, psi).mean()), psi])
 

@@ -23,6 +23,7 @@ _STAGES = 5  # of each lap of an interval whose maps are solved for
 _POINTS = 40
 _SOFT = 1e-4  # weight of the handles of maps that mend a motion
 _ROUNDS = 5  # of halving where it is mended
+_PROGRESS = 0.7  # where two rounds leave a larger share of the excess, they are the last ones
 
 Between = Callable[[int, float], Coefficients]
 
@@ -115,13 +116,17 @@ def through_mended(follow: Bounded, closed: bool) -> tuple[Between, tuple[str, .
     pose = Pose(points, points, weights=np.full(len(points), _SOFT))
     owners = every = range(len(follow.turns))
     alone = excess = [follow.excess(i).max() for i in every]
+    mending, course = set(every), [alone]  # the largest excess of each interval, after each round
     for _ in range(_ROUNDS):
-        over = [i for i, share in enumerate(excess) if share > EXCESS]
+        over = [i for i, share in enumerate(excess) if share > EXCESS and owners[i] in mending]
         if not over:
             break
         curve, owners = _divided(curve, owners, over, 2, pose, closed)
         excess = [curve.excess(i).max() for i in range(len(owners))]
-    reached = dict(sorted(zip(owners, excess, strict=True)))  # the largest of each interval
+        course.append([max(np.compress(np.equal(owners, i), excess)) for i in every])
+        if len(course) > 2:
+            mending = {i for i in mending if course[-1][i] < _PROGRESS * course[-3][i]}
+    reached = course[-1]
     ways = [
         follow if reached[i] > max(alone[i], EXCESS) else _by_time(follow, curve) for i in every
     ]

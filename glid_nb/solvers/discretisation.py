@@ -7,7 +7,7 @@ A complex matrix ``D`` is stored as ``[Re D, -Im D]`` (the first row pair of Equ
 from __future__ import annotations
 
 import functools
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from typing import Any, Literal, NamedTuple
 
 import numpy as np
@@ -19,7 +19,7 @@ from glid_nb.certificate.panels import split
 from glid_nb.geometry import Domain, graded_panels, uniform_panels
 from glid_nb.geometry.panels import Panels, paired
 from glid_nb.harmonic import Basis, Singularities, basis_of, cauchy
-from glid_nb.solvers.whitening import whitened, whitening
+from glid_nb.solvers.whitening import Whitening, whitened, whitening
 
 Sampling = Literal["graded", "uniform"]
 
@@ -82,6 +82,7 @@ class Discretisation:
     panels: Panels
     given: Matrices
     """The matrices, by JAX; by NumPy where they come from a pickle."""
+    whitening: Whitening
 
     @functools.cached_property
     @double_precision
@@ -128,8 +129,24 @@ class Discretisation:
             # every size, unless the padding costs more. Few sizes serve all ways to a minimum.
             small = basis.n_columns <= _LARGE
             size = _rung(len(panels)) if small else bucket(int(_GROWTH_OF_LARGE * len(panels)))
-        t = self.matrices.whitening
-        return _assembled(self.domain, "graded", self.certificate, panels, rows, size, t)
+        kinds = self.sampling, self.certificate
+        return _assembled(self.domain, *kinds, panels, rows, size, self.whitening)
+
+    @double_precision
+    def with_steep(self, chosen: np.ndarray) -> Discretisation:
+        """With coordinates for some of the steep columns that it left out, on the same panels."""
+        m, w = self.matrices, self.whitening.with_steep(chosen, self.basis.n_hole_columns)
+        weights, length = np.asarray(m.weights), self.panels.length / self.panels.length.sum()
+        index, share = _hessian_nodes(self.panels, self.domain, length, weights, w.t)
+        h = bucket(len(index))
+        index = padded(index, h)
+        on_host = {
+            "hessian_index": index,
+            "hessian_weights": padded(share, h, 0.0),
+            "whitened": whitened(m.nodes, index, w.t, np.float32),
+            "whitening": w.t,
+        }
+        return replace(self, given=m._replace(**jax.device_put(on_host)), whitening=w)
 
     def _rows(self) -> _Rows:
         """The rows that the matrices of a graded sampling were made of."""
@@ -190,9 +207,9 @@ def _assembled(
     panels: Panels,
     rows: _Rows,
     p: int,
-    t: Any = None,
+    known: Whitening | None = None,
 ) -> Discretisation:
-    """On ``p`` padded panels; ``t`` is the whitening of the panels that a solve began with."""
+    """On ``p`` padded panels; ``known`` is the whitening of the panels that a solve began with."""
     count, length = len(panels), panels.length / panels.length.sum()
     if sampling == "graded":
         # Simpson's rule shares the ends, which the certificate needs anyway, between neighbours.
@@ -207,14 +224,16 @@ def _assembled(
         index = np.arange(0, count, HESSIAN_STRIDE)
         share = np.full(len(index), 1 / len(index))
         along = rows.ends[index], share
-    few_sizes = t is not None and basis_of(domain).n_columns <= _LARGE  # each is compiled for
-    if t is None:
+    few_sizes = known is not None and basis_of(domain).n_columns <= _LARGE  # each is compiled for
+    if known is None:
         stage("whitening")
         basis = basis_of(domain)
         (anchor,) = complex_basis(cauchy.cauchy_coordinates, panels.start[:1], basis)
-        t = whitening(*along, anchor, basis)
+        # The paper's settings have the paper's subspace, whole.
+        known = whitening(*along, anchor, basis, whole=sampling == "uniform")
+    t = known.t
     if sampling == "graded":
-        index, share = _hessian_nodes(panels, domain, length, weights, np.asarray(t))
+        index, share = _hessian_nodes(panels, domain, length, weights, t)
         h = p * (1 + (len(index) > p)) if few_sizes else bucket(len(index))
     else:
         h = -(-len(index) // 16) * 16
@@ -235,7 +254,7 @@ def _assembled(
     }
     # Unlike jnp.asarray, device_put compiles nothing.
     matrices = Matrices(**jax.device_put(on_host))
-    return Discretisation(domain, sampling, certificate, panels, matrices)
+    return Discretisation(domain, sampling, certificate, panels, matrices, known)
 
 
 def _hessian_nodes(

@@ -7,14 +7,16 @@ from typing import Any
 import numpy as np
 
 from glid_nb._arrays import Array
-from glid_nb._jax import jax, jnp
+from glid_nb._jax import jax, jit, jnp
 from glid_nb._runtime import double_precision
 from glid_nb.harmonic import HarmonicMap
-from glid_nb.solvers import evaluation, line_search, step
+from glid_nb.solvers import evaluation, hessian, line_search, step
+from glid_nb.solvers.discretisation import Matrices
+from glid_nb.solvers.evaluation import Point
 from glid_nb.solvers.loop import Advance, Ending, Stopwatch, follow
 from glid_nb.solvers.method import Inputs, Method
 from glid_nb.solvers.options import Options
-from glid_nb.solvers.problem import SubspaceProblem, map_from, restrict_rows
+from glid_nb.solvers.problem import SubspaceProblem, map_from, restrict_rows, unknowns_of
 from glid_nb.solvers.restarts import improve
 from glid_nb.solvers.result import Iteration, Result, Status
 from glid_nb.solvers.subspace import SubspaceDescent
@@ -33,6 +35,9 @@ _STALLED, _STALL_GAIN = 4, 1e-10
 # If all of them are shorter than this, it need only be less than this.
 _CREEPING = 1e-6
 _WORK_PER_CALL = 10**10  # products of a Hessian: some seconds, after which a callback may stop it
+# Steep coordinates are put back until the others together would gain less than this share of the
+# energy. They are first asked at a decrement that promises the second share.
+_GAIN, _ROUGH = 1e-7, 1e-3
 _ROUNDING = 1e-8  # a decrease promised by the Newton decrement that rounding of the energy can hide
 
 
@@ -68,6 +73,7 @@ class NewtonDescent(SubspaceDescent):
         singular = len(inputs.pose) < 2
         self.ridge, self._least_ridge = (_SINGULAR_RIDGE, _RIDGE) if singular else (0.0, 0.0)
         self.full_since: int | None = None
+        self._begins = self.discretisation.whitening.steep.shape[1] > 0  # without some coordinates
         if isinstance(inputs.start, Result) and self._continues(inputs.start):
             # The result keeps its own.
             self.factor = jnp.array(inputs.start.factor, copy=True)
@@ -88,7 +94,7 @@ class NewtonDescent(SubspaceDescent):
     def settings(self, may_refine: bool = True) -> step.Settings:
         options = self.inputs.options
         return step.Settings(
-            tolerance=options.tolerance,
+            tolerance=max(options.tolerance, _ROUGH * self._begins),
             iterations=min(options.iterations_per_call, self.left, self._most_at_once()),
             may_refine=may_refine and self.discretisation.can_refine,
             ridge=self.ridge,
@@ -139,9 +145,14 @@ class NewtonDescent(SubspaceDescent):
 
     def adapt(self, done: Advance) -> Ending | None:
         """Take the full Hessian or another ridge where that may help; else end."""
+        if done.outcome == line_search.CONVERGED and self._begins:
+            self._begins = False
+            self.reuse = not self.put_back() and bool(self.inputs.options.corrections)
+            return None
         if done.outcome == line_search.CONVERGED:
             now = map_from(self.inputs.domain, self.point.coefficients)
-            return None if self.pin(now) else Ending(Status.CONVERGED)
+            goes_on = self.pin(now) or self.put_back()
+            return None if goes_on else Ending(Status.CONVERGED)
         if done.iterations:
             # Lower an epsilon that one place needed: at the minimum it would make steps short.
             relaxed = self.ridge / _RIDGE_FACTOR
@@ -165,6 +176,32 @@ class NewtonDescent(SubspaceDescent):
         hidden = _ROUNDING * abs(float(self.point.energy))
         return Ending(Status.STATIONARY if self.decrement**2 / 2 <= hidden else Status.BLOCKED)
 
+    def put_back(self) -> bool:
+        """Take the steep coordinates by which the minimum would fall; whether there are any."""
+        steep = self.discretisation.whitening.steep
+        if not steep.shape[1]:
+            return False
+        gains = _promised(self.problem, self.point, steep, self.inputs.options.conformal)
+        order = np.argsort(gains)
+        least = _GAIN * max(abs(float(self.point.energy)), step.LEAST_ENERGY)
+        chosen = np.sort(order[np.cumsum(gains[order]) > least])
+        if not len(chosen):
+            return False
+        self.discretisation = self.discretisation.with_steep(chosen)
+        basis, t = self.discretisation.basis, self.discretisation.whitening.t
+        unknowns = unknowns_of(basis, self.inputs.options.conformal, t)
+        # What is steep oscillates between the fewer nodes.
+        self.full_since = len(self.history) if self.full_since is None else self.full_since
+        self.problem = self.problem._replace(matrices=self._hessian_matrices(), unknowns=unknowns)
+        self.problem = self.problem._replace(p2p_hessian=_p2p_hessian(self.problem))
+        self.factor, self.reuse = None, False
+        return True
+
+    def _hessian_matrices(self) -> Matrices:
+        """The panels' matrices, with the full Hessian where that was taken."""
+        full = self.full_since is not None
+        return self.discretisation.full(self.matrices) if full else self.matrices
+
     def pin(self, map: HarmonicMap) -> bool:
         changes = super().pin(map)
         self.problem = self.problem._replace(p2p_hessian=_p2p_hessian(self.problem))
@@ -172,8 +209,8 @@ class NewtonDescent(SubspaceDescent):
 
     def split(self, refused: Array) -> int:
         count = super().split(refused)
-        if count and self.full_since is not None:
-            self.problem = self.problem._replace(matrices=self.discretisation.full(self.matrices))
+        if count:
+            self.problem = self.problem._replace(matrices=self._hessian_matrices())
         return count
 
     def _take_full_hessian(self) -> bool:
@@ -181,8 +218,31 @@ class NewtonDescent(SubspaceDescent):
         if self.full_since is not None:
             return False
         self.full_since = len(self.history)
-        self.problem = self.problem._replace(matrices=self.discretisation.full(self.matrices))
+        self.problem = self.problem._replace(matrices=self._hessian_matrices())
         return True
+
+
+_gradient = jit(evaluation.gradient)
+
+
+def _promised(problem: SubspaceProblem, point: Point, columns: Array, conformal: bool) -> Array:
+    """(k,) decreases of the energy along orthonormal steep columns (c, k), each by itself.
+
+    By a Newton step with the mean curvature along and across the derivatives, for what is steep
+    oscillates; harmonic means over the boundary, which are rather too small.
+    """
+    x, y = evaluation.squares(point.samples.values)
+    k = hessian.positive_part(hessian.local_hessian(problem.energy.differentials(x, y), x, y))
+    weights = np.asarray(problem.matrices.weights)
+    g = np.asarray(_gradient(problem, point)).reshape(2, 2, -1)
+    slopes = np.abs((g[:, 0] + 1j * g[:, 1]) @ columns.conj()) ** 2
+    along = (k.along_ff, k.across_f), (k.along_gg, k.across_g)
+    means = [np.asarray(a + b) / 2 for a, b in along]
+    curvatures = [
+        weights.sum() / (weights[weights > 0] / mean[weights > 0]).sum() for mean in means
+    ]
+    gains = slopes / (2 * np.array(curvatures)[:, None])
+    return gains[0] if conformal else gains.sum(axis=0)
 
 
 _latest: tuple[list[Any], Any] | None = None

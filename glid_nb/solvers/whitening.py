@@ -9,12 +9,14 @@ padding, and last one for each logarithm, its coefficient, scaled. All but the t
 one point of the boundary, so none moves a handle by more than its length along the boundary: else
 the positional energy would swamp the other.
 
-On a finely divided cage some large coefficients make next to no map but rounding errors, for which
-the certificate has to allow. Directions in which the derivative is small against the slopes of the
-coefficients along the offset cage have no coordinate.
+On a finely divided cage some large coefficients make next to no map: the derivative is small
+against the slopes of the coefficients along the offset cage. A solve begins without coordinates for
+such steep directions, which need many nodes and gain little, and puts back those that would gain
+something (:meth:`~glid_nb.solvers.newton.NewtonDescent.put_back`).
 """
 
 from typing import Any as Array  # of NumPy or of JAX
+from typing import NamedTuple
 
 import numpy as np
 import scipy
@@ -26,8 +28,25 @@ from glid_nb.harmonic.basis import Basis, column_bucket
 _RIDGE = 1e-13
 # Derivatives, in the mean square over the boundary, of coordinates whose slopes along the offset
 # cage have the mean square 1. Where some are below the first number (traced cages have 0.005 and
-# more), those below the second are left out: they oscillate faster than the panels' nodes can tell.
+# more), a solve begins without those below the second: they oscillate about as fast as the panels'
+# nodes follow each other.
 _STEEP, _LEAST = 4.5e-3, 3e-2
+
+
+class Whitening(NamedTuple):
+    """The coordinates of a solve, and those that it begins without."""
+
+    t: Float[np.ndarray, "2 c u"]  # as (Re, Im)
+    steep: Complex[np.ndarray, "c k"]
+    """Columns that are orthonormal to those of ``t``, too."""
+
+    def with_steep(self, chosen: Int[np.ndarray, " m"], n_hole_columns: int) -> "Whitening":
+        """With some of the steep columns as coordinates."""
+        t = self.t[0] + 1j * self.t[1]
+        own, logarithms = np.split(t, [t.shape[1] - n_hole_columns], axis=1)
+        kept = own[:, : 1 + np.flatnonzero(own.any(axis=0)).max()]
+        whole = _padded(np.hstack([kept, self.steep[:, chosen]]), logarithms)
+        return Whitening(whole, np.delete(self.steep, chosen, axis=1))
 
 
 def whitening(
@@ -35,9 +54,11 @@ def whitening(
     weights: Float[np.ndarray, " s"],
     anchor: Complex[np.ndarray, " c"],
     basis: Basis,
-) -> Float[np.ndarray, "2 c u"]:
-    """``T`` as (Re, Im), from ``D`` at samples of the boundary (``rows``), their quadrature's
-    ``weights``, and ``C`` at the ``anchor`` where all but the translation vanish."""
+    whole: bool = False,
+) -> Whitening:
+    """``T`` from ``D`` at samples of the boundary (``rows``), their quadrature's ``weights``, and
+    ``C`` at the ``anchor`` where all but the translation vanish; ``whole``: with all coordinates.
+    """
     c, scaled = basis.n_columns, np.sqrt(weights)[:, None] * rows
     single_valued = np.flatnonzero(basis.psi_free)
     # The exterior's first is no unknown of psi either.
@@ -47,25 +68,38 @@ def whitening(
     gram[np.diag_indices_from(gram)] += _RIDGE * np.trace(gram).real / len(gram)
     lower = scipy.linalg.cholesky(gram, lower=True)
     inverse = scipy.linalg.solve_triangular(lower, np.eye(len(gram)), lower=True)
-    inverse = _without_steep(inverse, single_valued, basis)
+    steep = inverse[:0]
+    if not whole:
+        inverse, steep = _without_steep(inverse, single_valued, basis)
 
-    kept, n_holes = len(inverse), basis.n_hole_columns
-    u = column_bucket(1 + kept + n_holes)
-    t = np.zeros((c, u), dtype=complex)
-    t[: basis.n_exterior, 0] = 1
-    t[single_valued, 1 : 1 + kept] = inverse.conj().T
+    own = np.zeros((c, 1 + len(inverse) + len(steep)), dtype=complex)
+    own[: basis.n_exterior, 0] = 1
+    own[single_valued, 1:] = np.vstack([inverse, steep]).conj().T
+    holes = np.zeros((c, basis.n_hole_columns), dtype=complex)
     for j in logarithms:
         along = inverse.conj().T @ (inverse @ (columns.conj().T @ scaled[:, j]))
         rest = np.linalg.norm(scaled[:, j] - columns @ along)
-        t[single_valued, u - c + j], t[j, u - c + j] = -along / rest, 1 / rest
-    t[: basis.n_exterior, 1:] -= anchor @ t[:, 1:]
+        place = j - c + basis.n_hole_columns
+        holes[single_valued, place], holes[j, place] = -along / rest, 1 / rest
+    for part in (own[:, 1:], holes):
+        part[: basis.n_exterior] -= anchor @ part
+    kept, steep_columns = np.split(own, [1 + len(inverse)], axis=1)
+    return Whitening(_padded(kept, holes), steep_columns)
+
+
+def _padded(
+    own: Complex[np.ndarray, "c k"], logarithms: Complex[np.ndarray, "c N"]
+) -> Float[np.ndarray, "2 c u"]:
+    """Columns as (Re, Im), with zeros between them and the logarithms, which come last."""
+    c, count = len(own), own.shape[1] + logarithms.shape[1]
+    t = np.hstack([own, np.zeros((c, column_bucket(count) - count)), logarithms])
     return np.stack([np.real(t), np.imag(t)])
 
 
 def _without_steep(
     inverse: Complex[np.ndarray, "n n"], chosen: Int[np.ndarray, " n"], basis: Basis
-) -> Complex[np.ndarray, "k n"]:
-    """The chosen columns' coordinates, conjugate rows, without those of steep slopes if any is."""
+) -> tuple[Complex[np.ndarray, "k n"], Complex[np.ndarray, "m n"]]:
+    """The chosen columns' coordinates, conjugate rows: those to begin with, and the others."""
     values = np.zeros((basis.n_columns, len(inverse)), dtype=complex)
     values[chosen] = inverse.conj().T
     vertices, _, previous, _ = basis.singularities
@@ -73,11 +107,12 @@ def _without_steep(
     edges = np.abs(vertices - vertices[previous])[own]
     rises = (values[own] - values[previous[own]]) / np.sqrt(edges * edges.sum())[:, None]
     if np.linalg.norm(rises) <= 1 / _STEEP:
-        return inverse
+        return inverse, inverse[:0]
     squares, turn = scipy.linalg.eigh(rises.conj().T @ rises)
     if squares[-1] <= _STEEP**-2:
-        return inverse
-    return turn[:, squares <= _LEAST**-2].conj().T @ inverse
+        return inverse, inverse[:0]
+    rows, first = turn.conj().T @ inverse, np.searchsorted(squares, _LEAST**-2, side="right")
+    return rows[:first], rows[first:]
 
 
 def whitened(

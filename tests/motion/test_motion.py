@@ -13,15 +13,15 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from glid_nb import Domain, Motion, load_pose, samples, solve, trace
+from glid_nb import Cage, Domain, Motion, Pose, load_pose, samples, solve, trace
 from glid_nb.certificate import certificate_of, certify
 from glid_nb.certificate.pieces import certify_pieces
 from glid_nb.geometry import as_points, uniform_panels
 from glid_nb.harmonic import HarmonicMap
-from glid_nb.motion import MotionError
+from glid_nb.motion import MotionError, curve
 from glid_nb.motion.boundary import boundary_of
 
-from ..domains import MANY_HOLES, NAMES, dense_check, domain, random_map
+from ..domains import MANY_HOLES, NAMES, circle, dense_check, domain, random_map
 from .test_pieces import check, turned
 
 pytestmark = pytest.mark.slow
@@ -117,6 +117,57 @@ def test_maps_solved_on_the_way_mend_what_the_projection_loses(
             sigma2, k = extremes(map, points)
             assert sigma2 >= 0.985 * worse[0]
             assert k <= 1.015 * worse[1]
+
+
+def bent_ring() -> HarmonicMap:
+    """A thin ring whose three handles bend it: k is small, but parts of it turn far."""
+    outer, hole = circle(50, 3.0), circle(30, 2.5)
+    handles = [[2.63, -0.81], [-0.73, 2.65], [-0.35, -2.73]]
+    targets = [[0.19, -1.14], [1.07, 3.42], [0.79, -2.45]]
+    result = solve(Domain.from_cage(Cage(outer, [hole]), 0.1), Pose(handles, targets))
+    assert result.status.ok
+    return result.map
+
+
+def test_periods_around_holes_are_closed_without_distortion() -> None:
+    """Were the gap only shared out, k between would be up to a quarter above the worse end's."""
+    end = bent_ring()
+    motion = Motion([HarmonicMap.identity(end.domain), end])
+    assert motion.ways == ("bounded",)
+    assert motion.certificate.certified
+    points = uniform_panels(end.domain.cage, 4000).start
+    sigma2, k = extremes(end, points)
+    for s in np.linspace(0, 1, 17):
+        now = extremes(motion._curve.map(s), points)
+        assert now[0] >= 0.98 * sigma2
+        assert now[1] <= 1.02 * k
+
+
+def test_closing_changes_f_z_alone_and_leaves_a_thousandth_of_the_gap() -> None:
+    for name in NAMES[1:]:
+        boundary, end = boundary_of(domain(name)), poses(name, 0.4)[-1]
+        fz, fzb_conj = boundary.first @ end.phi, boundary.first @ end.psi
+        log, nu = 0.5 * boundary.logarithm(end.phi, fz), 0.5 * fzb_conj / fz
+        open_gap = np.abs(boundary._gap(np.exp(log), nu)[0]).max()
+        closed = boundary.closed(log, nu)
+        assert np.abs(boundary._gap(closed, nu)[0]).max() <= 1e-3 * open_gap
+        phi, _ = boundary.fitted(closed, nu * closed)
+        missed = np.abs(boundary.first @ phi - closed).max() / np.abs(closed).max()
+        assert missed < 0.05, name
+
+
+def test_solving_ends_where_it_mends_nothing(
+    stretched: list[HarmonicMap], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    solved = []
+
+    def in_vain(between: Any, piece: int, s: float, *_: Any) -> HarmonicMap:
+        solved.append(s)
+        return HarmonicMap(stretched[0].domain, *between(piece, s))
+
+    monkeypatch.setattr(curve, "_solved", in_vain)
+    assert Motion(stretched[1:]).ways == ("bounded",)
+    assert len(solved) <= 3
 
 
 def test_a_fold_is_refused_at_once_and_as_asked(

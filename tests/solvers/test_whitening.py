@@ -12,7 +12,7 @@ from glid_nb._features import enable_x64
 from glid_nb.geometry import Cage, Domain
 from glid_nb.harmonic import basis_of
 from glid_nb.harmonic.cauchy import cauchy_coordinates
-from glid_nb.solvers import Options, Pose, Status, solve, step
+from glid_nb.solvers import Options, Pose, Status, solve, step, whitening
 from glid_nb.solvers.discretisation import complex_basis, discretise
 from glid_nb.solvers.evaluation import products
 from glid_nb.solvers.line_search import INDEFINITE
@@ -161,3 +161,64 @@ def test_a_finely_divided_cage_does_not_stop_the_solver() -> None:
     assert result.iterations <= least.iterations + 3
     # Coefficients stay as large as the map.
     assert np.abs(result.map.phi).max() < 10 * np.abs(fine.cage.exterior).max()
+
+
+# One edge divided so finely that some coordinates are steep, the others whole.
+UNEVEN = (1, 18, 1, 1, 1, 1)
+UNEVEN_POSE = Pose([[2.8, -2.5], [2.8, -0.5], [-2, 2]], [[2.2, -2.5], [3.2, -1.2], [-1.5, 2]])
+
+
+def uneven() -> Domain:
+    return divided(domain("ell"), lambda n: np.array(UNEVEN[:n]))
+
+
+def test_a_solve_puts_steep_coordinates_back_that_lower_the_minimum(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    options = Options(restarts=0)
+    begun = discretise(uneven()).whitening
+    assert begun.steep.shape[1] > 3
+    result = solve(uneven(), UNEVEN_POSE, options=options)
+    assert result.discretisation is not None
+    assert result.discretisation.whitening.steep.shape[1] < begun.steep.shape[1]
+    monkeypatch.setattr(whitening, "_STEEP", 1e-12)
+    discretise.cache_clear()
+    whole = solve(uneven(), UNEVEN_POSE, options=options)
+    discretise.cache_clear()
+    assert whole.status is result.status is Status.CONVERGED
+    assert result.energy <= (1 + 1e-6) * whole.energy
+    assert result.certificate.certified
+
+
+def test_coordinates_put_back_are_orthonormal_to_the_others() -> None:
+    disc = discretise(uneven())
+    count = disc.whitening.steep.shape[1]
+    more = disc.with_steep(np.arange(0, count, 2))
+    assert more.whitening.steep.shape[1] == count // 2
+    t = np.asarray(more.matrices.whitening)
+    np.testing.assert_array_equal(t, more.whitening.t)
+    middles = _complex(disc.matrices.nodes)[len(disc.matrices.real) :][: len(disc.panels)]
+    d = middles @ (t[0] + 1j * t[1])[:, 1:]
+    gram = d.conj().T @ (disc.panels.length[:, None] * d) / disc.panels.length.sum()
+    known = t[:, :, 1:].any(axis=(0, 1))
+    assert known.sum() == discretise(uneven()).matrices.whitening.any(axis=(0, 1)).sum() - 1 + (
+        count - count // 2
+    )
+    # The Gram matrix's ridge shortens the steepest ones a little.
+    np.testing.assert_allclose(gram, np.diag(known.astype(float)), atol=1e-5)
+
+
+def test_the_papers_settings_keep_the_whole_subspace() -> None:
+    fine = divided(domain("ell"), lambda n: np.full(n, 24))
+    disc = discretise(fine, "uniform", "lipschitz")
+    assert disc.whitening.steep.shape[1] == 0
+    assert np.asarray(disc.matrices.whitening).any(axis=(0, 1)).sum() == disc.basis.phi_free.sum()
+
+
+def test_what_gains_nothing_is_not_put_back() -> None:
+    """Rigid targets: all steep coordinates stay away."""
+    moved = Pose(UNEVEN_POSE.handles, UNEVEN_POSE.handles + np.array([0.5, 0.2]))
+    fine = uneven()
+    result = solve(fine, moved, options=Options(restarts=0))
+    assert result.status is Status.CONVERGED
+    assert result.discretisation is discretise(fine)
