@@ -10,9 +10,10 @@ from numpy.typing import ArrayLike, NDArray
 from PIL import Image
 
 from glid_nb._arrays import Array
-from glid_nb.export.moving import MovingMesh, Progress, report
+from glid_nb.export.moving import MovingMesh
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging import PixelFrame, as_rgba8
+from glid_nb.imaging.progress import Progress, report
 from glid_nb.motion import Motion
 from glid_nb.solvers import Pose
 

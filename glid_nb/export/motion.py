@@ -13,9 +13,10 @@ from glid_nb.export import encode
 from glid_nb.export.encode import RGB
 from glid_nb.export.formats import file_names, suffix_of
 from glid_nb.export.mesh import motion_glb
-from glid_nb.export.moving import Progress, Stopped, frames, report
+from glid_nb.export.moving import frames
 from glid_nb.export.page import page_html
 from glid_nb.imaging import PixelFrame, as_rgba8
+from glid_nb.imaging.progress import Progress, Stopped, report
 from glid_nb.imaging.render import check_fits
 from glid_nb.motion import Motion
 from glid_nb.motion.settings import checked

@@ -16,11 +16,12 @@ from glid_nb._arrays import Array
 from glid_nb._scripts import bundle, glsl
 from glid_nb.certificate import Certificate, global_injectivity
 from glid_nb.certificate.rounding import rounded_down, rounded_up
-from glid_nb.export.moving import MovingMesh, Progress, report
+from glid_nb.export.moving import MovingMesh
 from glid_nb.figures.style import COLORS, rgb
 from glid_nb.geometry import Domain
 from glid_nb.harmonic import FixedPoints, HarmonicMap, ShaderMap
 from glid_nb.imaging import PixelFrame, as_rgba8, png
+from glid_nb.imaging.progress import Progress, report
 from glid_nb.imaging.render import MARGIN
 from glid_nb.motion import Motion, MotionCertificate
 from glid_nb.motion.settings import checked
