@@ -88,8 +88,11 @@ def picture_pixels(picture: Image.Image, data: bytes | None, name: str) -> NDArr
     return np.array((picture.convert(step) if step else picture).convert("RGBA"))
 
 
-def tiff_pixels(data: bytes, name: str) -> tuple[NDArray[Any], bytes | None]:
-    """Pixels of a TIFF of any depth that tifffile decodes, upright, and the ICC profile."""
+def tiff_pixels(
+    data: bytes, name: str, as_stored: bool = False
+) -> tuple[NDArray[Any], bytes | None]:
+    """Pixels of a TIFF of any depth that tifffile decodes, upright, and the ICC profile; or all
+    samples as they are stored, whatever they mean."""
     import tifffile  # noqa: PLC0415  (slow to import and seldom needed; scikit-image brings it)
 
     with tifffile.TiffFile(io.BytesIO(data)) as file:
@@ -98,10 +101,8 @@ def tiff_pixels(data: bytes, name: str) -> tuple[NDArray[Any], bytes | None]:
         array = page.asarray()
         if page.axes == "SYX":
             array = np.moveaxis(array, 0, -1)
-        if page.photometric == tifffile.PHOTOMETRIC.MINISWHITE and array.dtype.kind == "u":
-            colour = array if array.ndim == 2 else array[..., :1]
-            np.subtract(np.iinfo(array.dtype).max, colour, out=colour)
-        array = _with_alpha(array, page, tifffile)
+        if not as_stored:
+            array = _as_colours(array, page, tifffile)
         orientation = page.tags.valueof(_ORIENTATION, 1)
         return _upright(array, orientation), page.tags.valueof(_PROFILE)
 
@@ -189,6 +190,14 @@ def _wide_tiff(picture: TiffImageFile, data: bytes, name: str) -> NDArray[Any]:
         return _both_bytes(data, raw)
     upright = ImageOps.exif_transpose(picture)
     return np.asarray(upright if upright.mode.startswith("I") else upright.convert("RGBA"))
+
+
+def _as_colours(array: NDArray[Any], page: Any, tifffile: Any) -> NDArray[Any]:
+    """Pixels of a page with white above black, and with straight alpha if any."""
+    if page.photometric == tifffile.PHOTOMETRIC.MINISWHITE and array.dtype.kind == "u":
+        colour = array if array.ndim == 2 else array[..., :1]
+        np.subtract(np.iinfo(array.dtype).max, colour, out=colour)
+    return _with_alpha(array, page, tifffile)
 
 
 def _with_alpha(array: NDArray[Any], page: Any, tifffile: Any) -> NDArray[Any]:

@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from glid_nb._arrays import Floats
+from glid_nb._arrays import Array, Floats
 from glid_nb.imaging.mesh import unique_edges
 from glid_nb.imaging.progress import Progress, report
 from glid_nb.imaging.texture import Sampler, Texture, affine, gradients, placed
@@ -161,7 +161,7 @@ def _draw_tile(
     count = np.bincount(hits.place, minlength=tile.size)
     if (layered := count > 1).any():
         band[layered] = _straight(surface.draw(tile, layered, 1)[0][:, 0])
-        hits = Hits(*(values[~layered[hits.place]] for values in hits))
+        hits = hits.where(~layered[hits.place])
     band[hits.place] = _straight(surface.sampler(hits.triangle, hits.x, hits.y))
     if touched.any():
         fine, count = surface.draw(tile, touched, SUBSAMPLES)
@@ -186,7 +186,7 @@ def _draw_nearest(
     h, w, channels = values.shape
     column, row = np.floor(placed(maps, hits.triangle, hits.x, hits.y)).astype(np.intp)
     inside = (column >= 0) & (column < w) & (row >= 0) & (row < h)
-    hits = Hits(*(one[inside] for one in hits))
+    hits = hits.where(inside)
     found = values[row[inside], column[inside]]
     if channels == 4 and values.dtype in (np.uint8, np.uint16):
         seen = found[:, 3] > 0
@@ -204,8 +204,11 @@ class Hits(NamedTuple):
 
     triangle: Ints
     place: Ints  # number of the sample
-    x: Floats  # continuous output pixels
-    y: Floats
+    x: Array  # continuous output pixels
+    y: Array
+
+    def where(self, chosen: NDArray[np.bool_]) -> "Hits":
+        return Hits(self.triangle[chosen], self.place[chosen], self.x[chosen], self.y[chosen])
 
 
 class ScanConverter:

@@ -73,7 +73,7 @@ def render(
         raise RenderError(f"unknown interpolation {interpolation!r:.60}; choose one of {known}")
     source = Texture.from_image(image) if interpolation == "smooth" else _values(image, fill)
     own = source.size if isinstance(source, Texture) else source.shape[1::-1]
-    frame = frame_of(PixelFrame(*own), map, size, view)
+    frame = frame_of(PixelFrame(own[0], own[1]), map, size, view)
     tolerance = None
     if n_vertices is None:
         tolerance = TOLERANCE_PX * frame.units_per_pixel

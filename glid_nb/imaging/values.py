@@ -33,11 +33,11 @@ def read_values(path: Path) -> Values:
             return Values(np.load(io.BytesIO(data), allow_pickle=False))
         picture = opened(data, str(path))
         if picture is None or picture.format == "TIFF":
-            return Values(tiff_pixels(data, str(path))[0])
+            return Values(tiff_pixels(data, str(path), as_stored=True)[0])
         with picture:
             if picture.mode not in ("1", "L", "LA", "P", "RGB", "RGBA"):
                 return Values(picture_pixels(picture, data, str(path)))
-            if str(picture.tile[0].args).endswith(";16B"):
+            if str(getattr(picture, "tile", [])[0].args).endswith(";16B"):
                 return Values(picture_pixels(picture, data, str(path)))
             palette = picture.getpalette() if picture.mode == "P" else None
             return Values(np.array(ImageOps.exif_transpose(picture)), palette)

@@ -183,7 +183,7 @@ class TestLabels:
         assert run("render", tmp_path / "labels.png", *words, tmp_path / "o.png").code == 0
         drawn = Image.open(tmp_path / "o.png")
         assert drawn.mode == "P"
-        assert drawn.getpalette()[:9] == [255, 0, 0, 0, 255, 0, 0, 0, 255]
+        assert (drawn.getpalette() or [])[:9] == [255, 0, 0, 0, 255, 0, 0, 0, 255]
         assert set(np.unique(np.asarray(drawn))) == set(range(11))
 
     @pytest.mark.parametrize("suffix", [".npy", ".tif"])

@@ -26,9 +26,9 @@ def test_a_disc_of_one_colour_has_it_everywhere(size: int) -> None:
     assert (result[..., :3] == (10, 90, 200)).all()
 
 
-def test_what_is_seen_stays_and_the_picture_itself(rng=np.random.default_rng(0)) -> None:
+def test_what_is_seen_stays_and_the_picture_itself() -> None:
     image = disc(50, 15)
-    image[..., :3] = rng.integers(0, 256, (50, 50, 3))
+    image[..., :3] = np.random.default_rng(0).integers(0, 256, (50, 50, 3))
     before = image.copy()
     result = bled(image)
     np.testing.assert_array_equal(image, before)

@@ -127,9 +127,9 @@ class TestRemedies:
         assert agreement(mask) > 0.97 or agreement(~mask) > 0.97
 
     def test_a_faint_drawing_is_told_by_its_alpha(self) -> None:
-        with pytest.raises(TraceError, match="has alpha up to 47 %; lower the threshold, to 0.2"):
+        with pytest.raises(TraceError, match=r"has alpha up to 47 %; lower the threshold, to 0.2"):
             trace(faint())
-        with pytest.raises(TraceError, match="has alpha up to 49.9 %;"):
+        with pytest.raises(TraceError, match=r"has alpha up to 49\.9 %;"):
             trace(faint(most=0.4991))
 
     def test_colours_behind_no_alpha_at_all(self) -> None:
