@@ -16,6 +16,7 @@ from PIL import ImageColor
 
 import glid_nb
 from glid_nb._errors import InputError, InputFileError
+from glid_nb.cli.many import refuse_standard_output
 from glid_nb.cli.output import check_files, check_folder, step
 from glid_nb.session.timeline import Timeline
 
@@ -38,6 +39,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(chosen: argparse.Namespace) -> None:
     out: Path = chosen.out
+    refuse_standard_output(out, "--out", "the suffix says the format, so name a file")
     if not glid_nb.export.suffix_of(out.name):
         check_folder(out)
     else:

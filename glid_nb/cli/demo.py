@@ -16,6 +16,7 @@ import glid_nb
 from glid_nb._errors import InputFileError, about
 from glid_nb._json import json_text
 from glid_nb.cli import flags
+from glid_nb.cli.many import refuse_standard_output
 from glid_nb.cli.output import check_files, check_folder, finish, map_text, run_solver, step
 from glid_nb.cli.trace import cage_data, size_in_words
 
@@ -40,6 +41,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(chosen: argparse.Namespace) -> None:
     out: Path = chosen.out
+    refuse_standard_output(out, "--out", f"{len(_FILES)} files are written, so name a folder")
     check_folder(out)
     if out.is_dir():
         check_files([out / name for name in _FILES], [chosen.image, chosen.pose, chosen.scribbles])

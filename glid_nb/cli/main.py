@@ -8,20 +8,10 @@ from collections.abc import Sequence
 from typing import Any, NoReturn
 
 import glid_nb
-from glid_nb._errors import InputError
 from glid_nb.cli import animate, demo, doctor, lab, render, samples, solve, trace
+from glid_nb.cli.output import BAD_INPUT, one_line
 
 COMMANDS = (demo, trace, solve, render, animate, samples, lab, doctor)
-
-BAD_INPUT = (OSError, InputError)
-"""Errors told in one line. Any other, a plain ValueError too, is a bug and keeps its traceback."""
-
-
-def one_line(error: BaseException) -> str:
-    """The exception's message on one line, with the file first."""
-    if isinstance(error, OSError) and error.filename is not None and error.strerror:
-        return f"{error.filename}: {error.strerror}"
-    return " ".join(str(error).split())
 
 
 class OneLineParser(argparse.ArgumentParser):

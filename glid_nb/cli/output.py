@@ -27,11 +27,46 @@ _INJECTIVE = {"yes": "locally and globally", "no": "locally only"}
 _INJECTIVE["undecided"] = "locally; globally undecided"
 
 
+BAD_INPUT = (OSError, InputError)
+"""Errors told in one line. Any other, a plain ValueError too, is a bug and keeps its traceback."""
+
+
+def one_line(error: BaseException) -> str:
+    """The exception's message on one line, with the file first."""
+    if isinstance(error, OSError) and error.filename is not None and error.strerror:
+        return f"{error.filename}: {error.strerror}"
+    return " ".join(str(error).split())
+
+
+STANDARD_OUTPUT = Path("standard output")
+"""Stands for ``-``; compared by identity, so that a file may have any name."""
+
+
+def write(path: Path, data: bytes | str) -> None:
+    """Write a result to its file, or to standard output."""
+    if path is not STANDARD_OUTPUT:
+        write_atomically(path, data)
+        return
+    if isinstance(data, bytes):
+        sys.stdout.flush()
+        sys.stdout.buffer.write(data)
+        sys.stdout.buffer.flush()
+    else:
+        sys.stdout.write(data)
+        sys.stdout.flush()
+
+
+def tell(text: str, *results: Path | None) -> None:
+    """Print what was done, on stderr where standard output holds a result."""
+    occupied = any(path is STANDARD_OUTPUT for path in results)
+    print(text, file=sys.stderr if occupied else sys.stdout)
+
+
 def check_files(outputs: Iterable[Path | None], inputs: Iterable[str | Path | None]) -> None:
     """Raise an error if a file cannot be made, or is an input or another output; skip None."""
     taken = [(Path(path), "it is read too") for path in inputs if path is not None]
     for path in outputs:
-        if path is None:
+        if path is None or path is STANDARD_OUTPUT:
             continue
         if path.is_dir():
             raise IsADirectoryError(21, "is a folder; name a file", str(path))
@@ -152,12 +187,12 @@ def finish(
     Raises KeyboardInterrupt after a solve that Ctrl-C stopped, InputError where nothing is proved.
     """
     for path, data in files.items():
-        write_atomically(path, data)
+        write(path, data)
     if as_json:
         short = {key: value for key, value in report.items() if key not in _LONG}
         print(json.dumps({**extra, **short, "files": {path.name: str(path) for path in files}}))
     else:
-        print(summary_text(report, files, rows))
+        tell(summary_text(report, files, rows), *files)
     if result.status is glid_nb.Status.STOPPED:
         raise KeyboardInterrupt
     if result.status is glid_nb.Status.UNPROVED or not report["certified"]:
@@ -166,8 +201,10 @@ def finish(
 
 def summary_text(report: Any, files: Iterable[Path], rows: Iterable[tuple[str, str]] = ()) -> str:
     """The report on one screen: ``rows`` of (name, text) and ``files`` too."""
-    folders = groupby(files, key=lambda path: path.parent)
+    named = [path for path in files if path is not STANDARD_OUTPUT]
+    folders = groupby(named, key=lambda path: path.parent)
     written = [f"{folder}: {', '.join(path.name for path in f)}" for folder, f in folders]
+    written += ["standard output"] if len(named) < len(list(files)) else []
     written = written or ["nothing; name files with --out and --report"]
     table = [*rows, *_rows(report), *(("written", text) for text in written)]
     width = max(len(name) for name, _ in table)

@@ -3,27 +3,32 @@
 PROBLEM.json is an object with the keys cage, holes, handles and targets (world coordinates);
 offset, offset_cage, offset_holes, hole_points, angles, scales and weights (of the handles) are used
 when given, and image_size_px and depths go into the map. Without --report only the map is written,
-without --out only the report.
+without --out only the report. Of many problems these are folders, and one that fails does not stop
+the others. One of them may be `-`, standard output.
 """
 
 import argparse
+import itertools
 from pathlib import Path
+from typing import Any
 
 import glid_nb
-from glid_nb._errors import about
+from glid_nb._errors import InputFileError, about
 from glid_nb._json import json_text, picture_size, read_object
 from glid_nb.certificate.certify import proof_text
 from glid_nb.cli.flags import add_solver_flags, energy_of, options_of
-from glid_nb.cli.output import check_files, finish, map_text, run_solver
+from glid_nb.cli.many import destination, for_each, planned
+from glid_nb.cli.output import STANDARD_OUTPUT, check_files, finish, map_text, run_solver
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     add = parser.add_argument
-    add("problem", type=Path, metavar="PROBLEM.json", help="what is solved")
-    add("--out", type=Path, metavar="map.json", help="where the map goes")
+    problem = "what is solved: a file, or several"
+    add("problem", type=Path, nargs="+", metavar="PROBLEM.json", help=problem)
+    add("--out", type=destination, metavar="map.json", help="where the map goes")
     proof = "where the proof goes, for glid-check map.json proof.json"
-    add("--proof", type=Path, metavar="proof.json", help=proof)
-    add("--report", type=Path, metavar="report.json", help="where the report goes")
+    add("--proof", type=destination, metavar="proof.json", help=proof)
+    add("--report", type=destination, metavar="report.json", help="where the report goes")
     start = "a certified map of the same domain to start from (default: see --align)"
     add("--start", type=Path, metavar="map.json", help=start)
     refine = "solve again with finer bases until that lowers the energy by less than 1 %%"
@@ -33,23 +38,37 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(chosen: argparse.Namespace) -> None:
-    check_files([chosen.out, chosen.proof, chosen.report], [chosen.problem, chosen.start])
-    data = read_object(chosen.problem)
-    with about(chosen.problem):
+    problems: list[Path] = chosen.problem
+    flags = {"--out": chosen.out, "--proof": chosen.proof, "--report": chosen.report}
+    standard = [flag for flag, to in flags.items() if to and to.path is STANDARD_OUTPUT]
+    if len(standard) > 1 or (standard and chosen.json):
+        both = " and ".join([*standard, *(["--json"] if chosen.json else [])])
+        raise InputFileError(f"{both} would share standard output; name a file for one of them")
+    results = [planned(problems, flag, to, ".json") for flag, to in flags.items()]
+    check_files(itertools.chain(*results), [*problems, chosen.start])
+    each: list[Any] = list(zip(*results, strict=True))
+    for_each(problems, lambda i: _solve(problems[i], *each[i], chosen), chosen.debug)
+
+
+def _solve(
+    path: Path, out: Path | None, proof: Path | None, told: Path | None, chosen: argparse.Namespace
+) -> None:
+    data = read_object(path)
+    with about(path):
         problem = glid_nb.Problem.from_dict(data)
         if (size := data.get("image_size_px")) is not None:
             size = picture_size(size, "image_size_px")
     energy, options = energy_of(chosen), options_of(chosen)
     start = glid_nb.HarmonicMap.load(chosen.start) if chosen.start else None
-    with about(chosen.start or chosen.problem):
+    with about(chosen.start or path):
         what = problem.domain, problem.pose, energy, options, start, chosen.refine
         result, report = run_solver(*what)
     assert isinstance(result.map, glid_nb.HarmonicMap)
     files: dict[Path, bytes | str] = {}
-    if chosen.out:
-        files[chosen.out] = map_text(result.map, size, problem.pose)
-    if chosen.proof and result.certificate:
-        files[chosen.proof] = proof_text(result.certificate)
-    if chosen.report:
-        files[chosen.report] = json_text(report)
+    if out:
+        files[out] = map_text(result.map, size, problem.pose)
+    if proof and result.certificate:
+        files[proof] = proof_text(result.certificate)
+    if told:
+        files[told] = json_text(report)
     finish(result, report, files, chosen.json)

@@ -3,6 +3,9 @@
 The result holds the cage and its holes in world coordinates (y up, origin at the picture's centre,
 its longer side 20 units long). With the keys handles and targets added it is a problem for
 `glid-nb solve`. Pixels count from the picture's top left corner, x to the right and y down.
+
+Of many pictures --out is a folder, and one that cannot be traced does not stop the others.
+`--out -` is standard output.
 """
 
 import argparse
@@ -11,28 +14,36 @@ from typing import Any
 
 import glid_nb
 from glid_nb._errors import about
-from glid_nb._json import write_json
+from glid_nb._json import json_text
 from glid_nb.cli.flags import add_trace_flags, trace_options_of
-from glid_nb.cli.output import check_files, step
+from glid_nb.cli.many import destination, for_each, planned
+from glid_nb.cli.output import check_files, step, tell, write
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("image", type=Path, metavar="IMAGE", help="the picture's file")
-    out = "where the cage goes"
-    parser.add_argument("--out", type=Path, metavar="cage.json", required=True, help=out)
+    image = "the picture's file, or several"
+    parser.add_argument("image", type=Path, nargs="+", metavar="IMAGE", help=image)
+    out = "where the cage goes; a folder for several, - for standard output"
+    parser.add_argument("--out", type=destination, metavar="cage.json", required=True, help=out)
     add_trace_flags(parser)
 
 
 def run(chosen: argparse.Namespace) -> None:
-    check_files([chosen.out], [chosen.image, chosen.scribbles])
+    results = planned(chosen.image, "--out", chosen.out, ".json")
+    check_files(results, [*chosen.image, chosen.scribbles])
     options = trace_options_of(chosen)
-    image = glid_nb.read_image(chosen.image)
-    with about(chosen.image), step(f"tracing {chosen.image.name}"):
+    for_each(chosen.image, lambda i: _trace(chosen.image[i], options, results[i]), chosen.debug)
+
+
+def _trace(path: Path, options: glid_nb.TraceOptions, out: Path | None) -> None:
+    assert out is not None
+    image = glid_nb.read_image(path)
+    with about(path), step(f"tracing {path.name}"):
         tracing = glid_nb.trace(image, options)
-    write_json(chosen.out, cage_data(tracing))
-    print(f"{chosen.out}: {size_in_words(tracing.cage)}")
+    write(out, json_text(cage_data(tracing)))
+    tell(f"{out}: {size_in_words(tracing.cage)}", out)
     for note in tracing.notes:
-        print(f"  {note}")
+        tell(f"  {note}", out)
 
 
 def cage_data(tracing: glid_nb.Tracing) -> dict[str, Any]:

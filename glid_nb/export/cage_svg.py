@@ -11,6 +11,7 @@ from glid_nb.geometry import as_points
 from glid_nb.geometry._loops import subdivided
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging import PixelFrame, Sheets, deformed_loops, order_of
+from glid_nb.imaging.render import check_fits
 from glid_nb.solvers import Pose
 
 _MARGIN = 0.02  # around everything, as a share of the longer side
@@ -32,6 +33,7 @@ def cage_svg(
     over ``cage``, with an open subpath for every piece that is not covered.
     """
     frame = PixelFrame(*image_size)
+    check_fits(frame, map)
     loops = [frame.to_pixel(loop) for loop in deformed_loops(map)]
     cage_loops = [frame.to_pixel(loop) for loop in map.domain.cage.loops]
     targets = [frame.to_pixel(pose.targets)] if pose is not None else []

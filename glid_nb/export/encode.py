@@ -21,7 +21,7 @@ from PIL import Image
 from glid_nb._arguments import plain
 from glid_nb._errors import InputError
 from glid_nb._files import zipped
-from glid_nb.imaging.read import png
+from glid_nb.imaging.read import png, srgb_chunk
 from glid_nb.motion.settings import checked
 
 RGB = tuple[int, int, int]
@@ -100,6 +100,7 @@ def _animation(
         settings = {"duration": (10 * np.diff(ends)).astype(int).tolist()}
         settings |= {"loop": 0} if loop else {}
     settings |= {"save_all": True, "optimize": False, "append_images": pictures[1:]}
+    settings |= {"pnginfo": srgb_chunk()} if suffix == ".apng" else {}
     buffer = io.BytesIO()
     pictures[0].save(buffer, "GIF" if suffix == ".gif" else "PNG", **settings)
     return buffer.getvalue()

@@ -9,10 +9,14 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from PIL import Image
 
+from glid_nb._arguments import check_type
 from glid_nb._arrays import Array
-from glid_nb.export.moving import MovingMesh, Progress, report
+from glid_nb._errors import InputError
+from glid_nb.export.moving import MovingMesh, check_picture
 from glid_nb.harmonic import HarmonicMap
-from glid_nb.imaging import PixelFrame, as_rgba8
+from glid_nb.imaging import PixelFrame, as_rgba8, png
+from glid_nb.imaging.bleed import bled
+from glid_nb.imaging.progress import Progress, report
 from glid_nb.motion import Motion
 from glid_nb.solvers import Pose
 
@@ -51,6 +55,9 @@ def textured_mesh(
     units are split. The depths of a pose say which part is in front where the shape overlaps.
     Raises a ValueError that names an argument out of range.
     """
+    image = as_rgba8(image)
+    check_type("map", map, HarmonicMap, "such as that of a result", InputError)
+    check_picture((image.shape[1], image.shape[0]), map)
     return _at_knots(image, MovingMesh.of(map, pose, n_vertices, tolerance))[0]
 
 
@@ -61,7 +68,7 @@ def _at_knots(image: ArrayLike, mesh: MovingMesh) -> tuple[TexturedMesh, Array]:
     relief = replace(mesh, heights=_RELIEF * ranks / np.maximum(ranks.max(axis=1), 1)[:, None])
     z = np.array([relief.heights_at(time) for time in mesh.times])
     positions = np.concatenate([mesh.images, z[:, :, None]], axis=2)
-    texture = as_rgba8(image)
+    texture = bled(as_rgba8(image))
     size = texture.shape[1::-1]
     u, v = (PixelFrame(*size).to_pixel(mesh.vertices) / size).T
     places = np.column_stack([u, 1 - v])
@@ -83,7 +90,8 @@ def mesh_obj(mesh: TexturedMesh, name: str = "shape") -> dict[str, bytes]:
     parts: Any = {"include_normals": False, "include_texture": True, "return_texture": True}
     names: Any = {"mtl_name": f"{name}.mtl", "header": "glid_nb"}
     text, files = export_obj(_trimesh(mesh, material), **parts, **names)
-    return {f"{name}.obj": text.encode("utf-8"), **files}
+    texture = {f"{name}-texture.png": png(mesh.texture)}
+    return {f"{name}.obj": text.encode("utf-8"), **files, **texture}
 
 
 def mesh_glb(mesh: TexturedMesh, edit: Callable[..., None] | None = None) -> bytes:
@@ -93,9 +101,25 @@ def mesh_glb(mesh: TexturedMesh, edit: Callable[..., None] | None = None) -> byt
     matt: Any = {"metallicFactor": 0.0, "roughnessFactor": 1.0}
     look: Any = {**matt, "alphaMode": "BLEND", "doubleSided": True}
     material = PBRMaterial(baseColorTexture=Image.fromarray(mesh.texture), **look)
-    data = _trimesh(mesh, material).export(file_type="glb", buffer_postprocessor=edit)
+    finish = functools.partial(_finish, mesh.texture, edit)
+    data = _trimesh(mesh, material).export(file_type="glb", buffer_postprocessor=finish)
     assert isinstance(data, bytes)
     return data
+
+
+def _finish(texture: Array, edit: Callable[..., None] | None, buffers: Any, tree: Any) -> None:
+    """Let glTF's only texture say that it is sRGB, and end at its sides: it would be repeated."""
+    name = list(buffers)[tree["images"][0]["bufferView"]]
+    data = png(texture)
+    buffers[name] = data + bytes(-len(data) % 4)
+    linear, mipmaps, clamped = 9729, 9987, 33071
+    tree["samplers"] = [
+        {"magFilter": linear, "minFilter": mipmaps, "wrapS": clamped, "wrapT": clamped}
+    ]
+    for one in tree["textures"]:
+        one["sampler"] = 0
+    if edit is not None:
+        edit(buffers, tree)
 
 
 def motion_glb(
@@ -113,6 +137,9 @@ def motion_glb(
     Arguments are as in `textured_mesh`, one pose per keyframe; the tolerance holds at any time.
     """
     report(progress, 0, 2)
+    image = as_rgba8(image)
+    check_type("motion", motion, Motion, "make one of certified maps", InputError)
+    check_picture((image.shape[1], image.shape[0]), motion)
     mesh = MovingMesh.of(motion, poses, n_vertices, tolerance)
     report(progress, 1, 2)
     first, positions = _at_knots(image, mesh)

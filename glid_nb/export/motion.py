@@ -13,10 +13,10 @@ from glid_nb.export import encode
 from glid_nb.export.encode import RGB
 from glid_nb.export.formats import file_names, suffix_of
 from glid_nb.export.mesh import motion_glb
-from glid_nb.export.moving import Progress, Stopped, frames, report
+from glid_nb.export.moving import check_picture, frames
 from glid_nb.export.page import page_html
-from glid_nb.imaging import PixelFrame, as_rgba8
-from glid_nb.imaging.render import check_fits
+from glid_nb.imaging import as_rgba8
+from glid_nb.imaging.progress import Progress, Stopped, report
 from glid_nb.motion import Motion
 from glid_nb.motion.settings import checked
 from glid_nb.solvers import Pose
@@ -99,7 +99,8 @@ def motion_files(
     encode.check_settings(size, fps, background, suffix)
     checked("loop", bool, loop)
     image = as_rgba8(image)
-    check_fits(PixelFrame(*image.shape[1::-1]), motion.keyframes[0])
+    height, width = image.shape[:2]
+    check_picture((width, height), motion)
     if not motion.certificate.certified:
         remedy = 'add a keyframe before that, or choose between="auto"'
         raise InputError(f"{motion.certificate.reason} Nothing uncertified is exported; {remedy}.")
@@ -112,7 +113,7 @@ def motion_files(
                 contents = [motion_glb(image, motion, poses, progress=progress)]
             case ".motion.json":
                 report(progress, 0, 1)
-                contents = [text.encode() for text in motion.texts()]
+                contents = [text.encode() for text in motion.texts(image_size=(width, height))]
                 report(progress, 1, 1)
             case _:
                 drawn = frames(image, motion, poses, size, fps, background, progress)

@@ -1,7 +1,7 @@
 """A motion on one mesh: its shape and picture at any time."""
 
 import functools
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Self
 
@@ -14,27 +14,25 @@ from glid_nb._errors import InputError
 from glid_nb.export.encode import RGB, Frames
 from glid_nb.export.picture import frame_around, on_background
 from glid_nb.harmonic import HarmonicMap, images_under
-from glid_nb.imaging import DeformedMesh, as_rgba8, fine_mesh, order_of
-from glid_nb.imaging.render import TOLERANCE_PX, draw_mesh
+from glid_nb.imaging import DeformedMesh, PixelFrame, as_rgba8, fine_mesh, order_of
+from glid_nb.imaging.progress import Progress, report
+from glid_nb.imaging.render import TOLERANCE_PX, check_fits, draw_mesh
 from glid_nb.imaging.texture import Texture
 from glid_nb.motion import Motion
 from glid_nb.solvers import Pose
 
 _VERTICES = 1500  # evenly spread ones, before refinement
 
-Progress = Callable[[int, int], bool | None]
 
-
-class Stopped(Exception):  # noqa: N818 - not an error
-    """The caller's progress function wants no file."""
-
-
-def report(progress: Progress | None, done: int, total: int) -> None:
-    """Tell how far an export is; Stopped where it is to go no further."""
-    if progress is not None and not callable(progress):
-        raise InputError(f"progress is {progress!r:.60}; it must be a function of two numbers")
-    if progress is not None and progress(done, total):
-        raise Stopped
+def check_picture(size: tuple[int, int], shown: Motion | HarmonicMap) -> None:
+    """Raise an InputError unless a picture of (w, h) pixels can be the one that is to move."""
+    if isinstance(shown, Motion):
+        if shown.image_size not in (None, size):
+            w, h = shown.image_size
+            what = f"the picture has {size[0]} x {size[1]} pixels, but the motion is of {w} x {h}"
+            raise InputError(f"{what}; take the picture that its cage was traced from")
+        shown = shown.keyframes[0]
+    check_fits(PixelFrame(*size), shown)
 
 
 @dataclass(frozen=True, eq=False)

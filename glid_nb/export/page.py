@@ -12,15 +12,19 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from glid_nb._arguments import check_type
 from glid_nb._arrays import Array
+from glid_nb._errors import InputError
 from glid_nb._scripts import bundle, glsl
 from glid_nb.certificate import Certificate, global_injectivity
 from glid_nb.certificate.rounding import rounded_down, rounded_up
-from glid_nb.export.moving import MovingMesh, Progress, report
+from glid_nb.export.moving import MovingMesh, check_picture
 from glid_nb.figures.style import COLORS, rgb
 from glid_nb.geometry import Domain
 from glid_nb.harmonic import FixedPoints, HarmonicMap, ShaderMap
 from glid_nb.imaging import PixelFrame, as_rgba8, png
+from glid_nb.imaging.bleed import bled
+from glid_nb.imaging.progress import Progress, report
 from glid_nb.imaging.render import MARGIN
 from glid_nb.motion import Motion, MotionCertificate
 from glid_nb.motion.settings import checked
@@ -80,6 +84,9 @@ def page_html(
     report(progress, 0, 3)
     checked("loop", bool, loop)
     texture = as_rgba8(image)
+    check_type("map", map, HarmonicMap | Motion, "such as that of a result", InputError)
+    check_picture((texture.shape[1], texture.shape[0]), map)
+    texture = bled(texture)
     mesh = MovingMesh.of(map, pose, _VERTICES, tolerance)
     report(progress, 1, 3)
     proof = map.certificate if isinstance(map, Motion) else certificate

@@ -15,8 +15,9 @@ from glid_nb.export.encode import RGB, Frames, check_settings, encoded
 from glid_nb.figures.style import CYAN, INK
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging import PixelFrame, Sheets, as_rgba8, deformed_loops, deformed_mesh, order_of
+from glid_nb.imaging.progress import Progress
 from glid_nb.imaging.read import png
-from glid_nb.imaging.render import MARGIN, TOLERANCE_PX, View, draw_mesh, render
+from glid_nb.imaging.render import MARGIN, TOLERANCE_PX, View, check_fits, draw_mesh, render
 from glid_nb.imaging.texture import Texture
 from glid_nb.motion.settings import checked
 from glid_nb.solvers import Pose
@@ -34,9 +35,10 @@ def picture_png(
     size: tuple[int, int] | None = None,
     view: View = "source",
     pose: Pose | None = None,
+    progress: Progress | None = None,
 ) -> bytes:
     """Warp a picture through a map, as `glid_nb.render` does; a PNG file with an alpha channel."""
-    return png(render(image, map, size, view=view, pose=pose))
+    return png(render(image, map, size, view=view, pose=pose, progress=progress))
 
 
 def animation_bytes(
@@ -74,9 +76,12 @@ def animation_bytes(
         raise InputError(f"there are {len(maps)} maps but {len(poses)} poses; give one per map")
     checked("format", Format, format)
     check_settings(size, frames_per_second, background, f".{format}")
+    pixels = as_rgba8(image)
+    for map in maps:
+        check_fits(PixelFrame(pixels.shape[1], pixels.shape[0]), map)
     # The boundaries suffice to find what holds all the deformed shapes.
     points = np.concatenate([deformed_loops(map)[0] for map in maps])
-    pixels, frame = as_rgba8(image), frame_around(points, size)
+    frame = frame_around(points, size)
     texture, frames = Texture.from_image(pixels), []
     for i, map in enumerate(maps):
         pose = None if poses is None else poses[i]

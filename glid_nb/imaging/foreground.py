@@ -31,6 +31,8 @@ class Foreground:
     automatic_threshold: float  # as in `TraceOptions.threshold`
     inverted: bool  # score is 1 minus what the method measures
     notes: tuple[str, ...]
+    alpha: tuple[float, float] = (1.0, 1.0)
+    """The least and the greatest alpha of the picture, in [0, 1]."""
 
     def threshold(self, threshold: float | None = None) -> float:
         """`threshold`, or by default the automatic one."""
@@ -46,15 +48,50 @@ class Foreground:
         mask = self.score > self.level(threshold)
         if mask.any() and not mask.all():
             return mask
-        empty, measured = not mask.any(), _MEASURES.get(self.method, self.method)
+        raise self._refusal(self.threshold(threshold), empty=not mask.any())
+
+    def _refusal(self, threshold: float, empty: bool) -> TraceError:
+        """What was measured, and a threshold or a method that parts the picture."""
+        measured = _MEASURES.get(self.method, self.method)
         problem = "the image has no foreground"
         problem = problem if empty else "the foreground covers the whole image"
-        change = "raise" if empty == self.inverted else "lower"
-        remedy = f"{change} the threshold, or paint over the shape with Scribbles"
+        problem += f" by {measured} at the threshold {threshold:.3g}"
+        low, high = float(self.score.min()), float(self.score.max())
+        if self.inverted:
+            low, high = 1 - high, 1 - low
         if self.method == "scribbles":
             remedy = "paint over more of the shape, and over the background around it"
-        at = f"by {measured} at the threshold {self.threshold(threshold):.3g}"
-        raise TraceError(f"{problem} {at}; {remedy}")
+            return TraceError(f"{problem}; {remedy}")
+        if (working := self._working_threshold(low, high)) is None:
+            problem += f": {measured} is {low:.2%} everywhere"
+            if self.method != "alpha" and self.alpha[0] < self.alpha[1]:
+                middle = f"{sum(self.alpha) / 2:.3g}"
+                varies = f"alpha runs from {self.alpha[0]:.0%} to {self.alpha[1]:.0%}"
+                remedy = f"{varies}, so take method='alpha' and threshold={middle}"
+                plain = f"{varies}, so choose Alpha and the threshold {middle}"
+                return TraceError(f"{problem}, but {remedy}", f"{problem}, but {plain}")
+            return TraceError(f"{problem}; choose another method, or paint over the shape")
+        seen = f"{measured} is {high:.2g} at most" if threshold >= high else ""
+        seen = seen or f"{measured} is {low:.2g} at least"
+        if self.method == "alpha" and threshold >= high:
+            percent = f"{100 * high:.0f}" if round(high, 2) < threshold else f"{100 * high:.3g}"
+            seen = f"the picture has alpha up to {percent} %"
+        change = "lower" if threshold > working else "raise"
+        remedy = f"{change} the threshold, to {working:.9g} for example"
+        return TraceError(f"{problem}: {seen}; {remedy}, or paint over the shape with Scribbles")
+
+    def _working_threshold(self, low: float, high: float) -> float | None:
+        """A threshold, in few digits, between the least and the greatest of what is measured, that
+        parts the picture; None if nothing varies."""
+        measured = 1 - self.score if self.inverted else self.score
+        middle = (low + high) / 2
+        for value in (self.automatic_threshold, measure.otsu(measure.histogram(measured)), middle):
+            for digits in (2, 3, 9):
+                rounded = float(f"{value:.{digits}g}")
+                above = self.score > self.level(rounded)
+                if above.any() and not above.all():
+                    return rounded
+        return None
 
 
 def find_foreground(
@@ -68,6 +105,9 @@ def find_foreground(
 ) -> Foreground:
     """The foreground of an (h, w, 4) image by options of `TraceOptions`, without smoothing."""
     _check_not_uniform(image)
+    if not image[..., 3].any():
+        what = "the image has no foreground: it is fully transparent"
+        raise TraceError(f"{what}; remove its alpha channel if its colours show the shape")
     notes: list[str] = []
     if method == "auto":
         method, why = _choose_method(image, background, background_at, scribbles)
@@ -96,13 +136,14 @@ def find_foreground(
         notes += more
     if inverted:
         score = 1 - score
-    if method in ("threshold", "color") and alpha.min() < 1:
-        score = score * alpha  # transparent pixels are background in any case
+    seen = float(alpha.min()), float(alpha.max())
+    if method in ("threshold", "color") and seen[0] < seen[1]:
+        score = score * (alpha / alpha.max())  # transparent pixels are background in any case
     if method == "color" and not inverted:
         threshold = measure.color_threshold(score, spread)
     elif method == "color":  # the shape's; the spread of the border's colours is irrelevant
         threshold = measure.otsu(measure.histogram(1 - score))
-    return Foreground(read_only(score.view()), method, threshold, inverted, tuple(notes))
+    return Foreground(read_only(score.view()), method, threshold, inverted, tuple(notes), seen)
 
 
 def smoothed(foreground: Foreground, sigma: float | None) -> Foreground:
@@ -131,8 +172,6 @@ def _check_not_uniform(image: RGBA) -> None:
 
 def _check_alpha(alpha: NDArray[np.float32]) -> None:
     low, high = alpha.min(), alpha.max()
-    if low == high == 0:
-        raise TraceError("the image has no foreground: it is fully transparent")
     if low == high:
         what = f"the foreground covers the whole image: its alpha channel is {low:.3g} everywhere"
         raise TraceError(f"{what}; choose Colour or Brightness, or scribble over the shape")
@@ -145,7 +184,10 @@ def _choose_method(
         return "scribbles", "scribbles, which were given"
     if background is not None or background_at is not None:
         return "color", "colour distance, as a background colour was given"
-    if _LEAST_SHARE < np.mean(image[..., 3] < full(image) / 2) < 1 - _LEAST_SHARE:
+    alpha = image[..., 3]
+    # Of a faint drawing nothing is half opaque.
+    middle = (full(image) if alpha.max() > full(image) / 2 else int(alpha.max())) / 2
+    if _LEAST_SHARE < np.mean(alpha < middle) < 1 - _LEAST_SHARE:
         return "alpha", "alpha, as part of the image is transparent"
     border = measure.border_color(image)
     if border is not None and border.is_uniform:

@@ -8,30 +8,33 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from PIL import Image, ImageOps, UnidentifiedImageError
-from PIL.TiffImagePlugin import TiffImageFile
+from PIL import Image
+from PIL.PngImagePlugin import PngInfo
 
 from glid_nb._errors import InputFileError, about
 from glid_nb._files import read_file
+from glid_nb.imaging.color import ColorSpace, cmyk_in_srgb, in_srgb
+from glid_nb.imaging.decode import (
+    FORMATS,
+    MAX_SIDE,
+    RGBA,
+    check_size,
+    eight_bit,
+    opened,
+    picture_pixels,
+    tiff_pixels,
+    unread_file,
+)
 from glid_nb.imaging.frame import TraceError
 
-MAX_SIDE = 8000  # longest side in pixels that is accepted
+__all__ = ["MAX_SIDE", "RGBA", "ImageSource", "as_rgba", "as_rgba8", "png", "read_image"]
 
 ImageSource = str | os.PathLike[str] | bytes | Image.Image | ArrayLike
 """What is accepted as a picture: a path, a file's bytes, a PIL image or an array."""
 
-RGBA = NDArray[np.uint8] | NDArray[np.uint16]
-"""(h, w, 4) red, green, blue and alpha (not premultiplied), row 0 at the top."""
-
-# Pillow's others start programs (EPS), are no pictures, or have no signature to tell them by.
-_FORMATS = (
-    *("PNG", "JPEG", "GIF", "TIFF", "WEBP", "BMP", "AVIF", "JPEG2000"),
-    *("ICO", "ICNS", "PPM", "PSD", "PCX", "QOI", "SGI"),
-)
-_TIFF_STARTS = (b"II*\0", b"MM\0*", b"II+\0", b"MM\0+")
-_BITS_PER_SAMPLE = 258  # the TIFF tag
 _ADDRESS = re.compile(r"([a-z][a-z0-9+.-]+):/{1,2}(.*)", re.IGNORECASE | re.DOTALL)
 _ROWS = 256  # per block where a whole picture in float would need gigabytes
+_PERCEPTUAL = b"\0"  # the rendering intent that an sRGB chunk names
 
 
 def read_image(source: ImageSource, name: str | None = None) -> RGBA:
@@ -39,9 +42,13 @@ def read_image(source: ImageSource, name: str | None = None) -> RGBA:
 
     Alpha is not premultiplied. The source is the path or the bytes of a file (PNG, JPEG, TIFF, GIF,
     WebP, BMP, AVIF, JPEG 2000, Photoshop or another format of pixels; its first frame), a PIL
-    image, or an array as in `as_rgba`. EXIF orientation is applied. The result is uint8, or uint16
-    where the source holds more than 8 bit and the reader keeps them (grey PNG, TIFF, arrays).
-    Messages call the picture ``name``, by default the file's path.
+    image, or an array as in `as_rgba`. EXIF orientation is applied. Transparency is read however
+    a file has it: as alpha, or as one colour or entries of a palette that are transparent.
+
+    The colours are sRGB: what an embedded ICC profile, or a PNG's cICP, gAMA and cHRM chunks say is
+    converted; a profile that is damaged is ignored, with a ColorWarning. The result is uint8, or
+    uint16 where the source holds more than 8 bit (PNG, TIFF, arrays), unless its profile is another
+    one than sRGB's. Messages call the picture ``name``, by default the file's path.
 
     Raises a TraceError when the file is missing, damaged or not a picture, the path is a URL, or
     the picture is empty or too large.
@@ -51,7 +58,9 @@ def read_image(source: ImageSource, name: str | None = None) -> RGBA:
     name = name or "the picture"
     try:
         if isinstance(source, Image.Image):
-            return _from_pillow(source, name)
+            if (data := unread_file(source)) is not None:
+                return _decode(data, name)
+            return _from_pillow(source, None, name)
         if isinstance(source, (bytes, bytearray, memoryview)):
             return _decode(bytes(source), name)
     except TraceError:
@@ -103,25 +112,23 @@ def as_rgba(image: ArrayLike) -> RGBA:
 
 
 def png(pixels: NDArray[np.uint8], compress_level: int = 6) -> bytes:
-    """A PNG file of (h, w), (h, w, 3) or (h, w, 4) pixels."""
+    """A PNG file of (h, w), (h, w, 3) or (h, w, 4) pixels, which says that they are sRGB."""
     buffer = io.BytesIO()
-    Image.fromarray(pixels).save(buffer, format="PNG", compress_level=compress_level)
+    picture = Image.fromarray(pixels)
+    picture.save(buffer, "PNG", compress_level=compress_level, pnginfo=srgb_chunk())
     return buffer.getvalue()
+
+
+def srgb_chunk() -> PngInfo:
+    """What Pillow is told to write into a PNG for it to say that its colours are sRGB."""
+    chunks = PngInfo()
+    chunks.add(b"sRGB", _PERCEPTUAL)
+    return chunks
 
 
 def as_rgba8(image: ArrayLike) -> NDArray[np.uint8]:
     """`as_rgba`, rounded to 8 bit."""
-    rgba = as_rgba(image)
-    if rgba.dtype == np.uint8:
-        return rgba.view(np.uint8)
-    return (rgba // 257 + (rgba % 257 > 128)).astype(np.uint8)
-
-
-def check_size(width: int, height: int, name: str = "the image") -> None:
-    """Raise a TraceError about ``name`` if a side is longer than `MAX_SIDE`."""
-    if max(width, height) > MAX_SIDE:
-        most = f"a side may have at most {MAX_SIDE}: scale it down first"
-        raise TraceError(f"{name} is too large, {width} x {height} pixels; {most}")
+    return eight_bit(as_rgba(image))
 
 
 def _from_float(array: NDArray[Any]) -> NDArray[np.uint16]:
@@ -154,51 +161,32 @@ def _bytes_of(path: str | os.PathLike[str]) -> bytes:
 
 
 def _decode(data: bytes, name: str) -> RGBA:
-    if not data:
-        raise TraceError(f"{name} is empty")
-    try:
-        picture = Image.open(io.BytesIO(data), formats=_FORMATS)
-    except UnidentifiedImageError:
-        if data.startswith(_TIFF_STARTS):
-            return _from_tifffile(data, name)  # formats that Pillow does not know
-        advice = "not in a picture format that can be read; save it as PNG or JPEG first"
-        if data.startswith(b"PK"):
-            advice = "a session or another zip file; open a session by its path"
-        raise TraceError(f"{name} is {advice}") from None
+    picture = opened(data, name)
+    if picture is None:
+        array, profile = tiff_pixels(data, name)
+        space = ColorSpace(profile)
+        return in_srgb(_from_array(array, name), space, name)
     with picture:
-        tags = picture.tag_v2 if isinstance(picture, TiffImageFile) else {}
-        if picture.mode in ("RGB", "RGBA") and max(tags.get(_BITS_PER_SAMPLE, (8,))) > 8:
-            return _from_tifffile(data, name)  # Pillow would round to 8 bit
-        return _from_pillow(picture, name)
+        return _from_pillow(picture, data, name)
 
 
 def picture_format(data: bytes) -> str | None:
     """Pillow's name for the format of a picture's file, such as "JPEG"; None for no picture."""
     try:
-        with Image.open(io.BytesIO(data), formats=_FORMATS) as picture:
+        with Image.open(io.BytesIO(data), formats=FORMATS) as picture:
             return picture.format
     except Exception:  # a damaged picture is none either
         return None
 
 
-def _from_pillow(picture: Image.Image, name: str) -> RGBA:
-    if 0 in picture.size:
-        raise TraceError(f"{name} is empty: it has {picture.width} x {picture.height} pixels")
-    check_size(*picture.size, name)  # before the pixels are decoded
-    picture = ImageOps.exif_transpose(picture)
-    if picture.mode == "F" or picture.mode.startswith("I"):
-        return _from_array(np.asarray(picture), name)
-    return np.array(picture.convert("RGBA"))
-
-
-def _from_tifffile(data: bytes, name: str) -> RGBA:
-    import tifffile  # noqa: PLC0415  (slow to import and seldom needed; scikit-image brings it)
-
-    with tifffile.TiffFile(io.BytesIO(data)) as file:
-        page = file.pages.first
-        check_size(page.imagewidth, page.imagelength, name)
-        array = page.asarray()
-        return _from_array(np.moveaxis(array, 0, -1) if page.axes == "SYX" else array, name)
+def _from_pillow(picture: Image.Image, data: bytes | None, name: str) -> RGBA:
+    space = ColorSpace.of(picture, data)
+    if 0 not in picture.size:
+        check_size(*picture.size, name)  # before the pixels are decoded
+    if picture.mode == "CMYK" and (converted := cmyk_in_srgb(picture, space, name)) is not None:
+        return converted
+    array = picture_pixels(picture, data, name)
+    return in_srgb(_from_array(array, name), space, name)
 
 
 def _from_array(array: NDArray[Any], name: str) -> RGBA:

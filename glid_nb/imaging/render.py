@@ -1,6 +1,6 @@
 """Warp a picture through a harmonic map."""
 
-from typing import Literal, get_args
+from typing import Any, Literal, get_args
 
 import numpy as np
 import shapely
@@ -12,11 +12,13 @@ from glid_nb.geometry import place
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging.frame import PixelFrame
 from glid_nb.imaging.mesh import DeformedMesh, deformed_loops, deformed_mesh
-from glid_nb.imaging.rasterise import render_mesh
+from glid_nb.imaging.progress import Progress
+from glid_nb.imaging.rasterise import render_mesh, render_nearest
 from glid_nb.imaging.texture import Texture
 from glid_nb.solvers import Pose
 
 View = Literal["source", "fit"]
+Interpolation = Literal["smooth", "nearest"]
 _SIZE = {"least": -np.inf, "form": "(width, height) in whole pixels"}
 
 TOLERANCE_PX = 0.25  # straight mesh edges may stray from the map by this many output pixels
@@ -38,30 +40,91 @@ def render(
     n_vertices: int | None = None,
     view: View = "source",
     pose: Pose | None = None,
-) -> NDArray[np.uint8]:
+    interpolation: Interpolation = "smooth",
+    fill: float = 0,
+    progress: Progress | None = None,
+) -> NDArray[Any]:
     """Warp a picture through a map; (h, w, 4) uint8 RGBA with straight alpha.
 
     The image, (h, w), (h, w, 3), (h, w, 4) or a Texture, is the one that the map's cage was traced
     from, or one of the same aspect ratio; its longer side is 20 world units. The result has
     ``size``, (w, h) pixels, by default the image's own, and is transparent beside the shape.
 
+    With ``interpolation="nearest"`` the image may be (h, w) or (h, w, c) numbers of any type, such
+    as labels, and the result is alike: a pixel takes the value of one pixel of the image, or
+    ``fill`` beside the shape. Where the shape overlaps itself, what is ``fill`` covers nothing.
+
     The view is "source", the rectangle of the image, letter-boxed if ``size`` has another aspect
     ratio; or "fit", all of the deformed shape, with a margin. The depths of a pose say which part
     is in front where the shape overlaps itself. The mesh gets about ``n_vertices``, evenly spread;
     by default as many as keep its straight edges within 0.25 output pixels of the map.
+
+    A large picture is drawn in tiles, on all cores. ``progress`` is called with the numbers of
+    finished and of all tiles; where it returns True the drawing ends with
+    `glid_nb.imaging.progress.Stopped`.
 
     Raises a RenderError that says which argument is out of range, or that the map's cage does not
     fit the picture or the map collapses the shape.
     """
     check_type("map", map, HarmonicMap, "such as that of a result")
     check_type("pose", pose, Pose | None, "for its depths")
-    texture = Texture.from_image(image)
-    frame = frame_of(PixelFrame(*texture.size), map, size, view)
+    if interpolation not in get_args(Interpolation):
+        known = ", ".join(get_args(Interpolation))
+        raise RenderError(f"unknown interpolation {interpolation!r:.60}; choose one of {known}")
+    source = Texture.from_image(image) if interpolation == "smooth" else _values(image, fill)
+    own = source.size if isinstance(source, Texture) else source.shape[1::-1]
+    frame = frame_of(PixelFrame(own[0], own[1]), map, size, view)
     tolerance = None
     if n_vertices is None:
         tolerance = TOLERANCE_PX * frame.units_per_pixel
         n_vertices = int(np.clip(frame.width * frame.height / _PIXELS_PER_VERTEX, *_EVEN_VERTICES))
-    return draw_mesh(texture, deformed_mesh(map, n_vertices, tolerance, pose, frame.bounds), frame)
+    mesh = deformed_mesh(map, n_vertices, tolerance, pose, frame.bounds)
+    if isinstance(source, Texture):
+        return draw_mesh(source, mesh, frame, progress)
+    return _moved(source, mesh, frame, fill, progress)
+
+
+def _moved(
+    values: NDArray[Any],
+    mesh: DeformedMesh,
+    frame: PixelFrame,
+    fill: float,
+    progress: Progress | None,
+) -> NDArray[Any]:
+    """The values (h, w) or (h, w, c) of a deformed mesh whose cage was traced from them."""
+    height, width = values.shape[:2]
+    places = PixelFrame(width, height).to_pixel(mesh.vertices)
+    positions, size = frame.to_pixel(mesh.images), (frame.width, frame.height)
+    pixels = values.reshape(height, width, -1)
+    where = places, positions, mesh.triangles, size, mesh.heights
+    result = render_nearest(pixels, *where, fill, progress)
+    return result.reshape(frame.height, frame.width, *values.shape[2:])
+
+
+def _values(image: ArrayLike | Texture, fill: float) -> NDArray[Any]:
+    """An array for interpolation="nearest"; a RenderError if it is none, or cannot hold `fill`."""
+    if isinstance(image, Texture):
+        what = "a Texture has been prepared for interpolation"
+        raise RenderError(f'{what}; for interpolation="nearest" give the array itself')
+    try:
+        values: NDArray[Any] = np.asarray(image)
+    except ValueError as error:  # rows of different lengths
+        raise RenderError(f"the image is no array: {error}") from None
+    if values.ndim not in (2, 3) or not values.size or values.dtype.kind not in "biufc":
+        wanted = "(h, w) or (h, w, c) numbers, at least one"
+        given = f"{values.dtype} of the shape {values.shape}"
+        raise RenderError(f"the image must be {wanted}, not {given}")
+    try:
+        with np.errstate(all="ignore"):
+            kept = np.array(fill).astype(values.dtype)
+        holds = bool(kept == fill) or (fill != fill and kept != kept)
+    except (TypeError, ValueError, OverflowError):
+        holds = False
+    if not holds:
+        raise RenderError(
+            f"fill is {fill!r:.60}, which the image's type {values.dtype} cannot hold"
+        )
+    return values
 
 
 def frame_of(
@@ -109,8 +172,10 @@ def check_fits(frame: PixelFrame, map: HarmonicMap) -> None:
         )
 
 
-def draw_mesh(texture: Texture, mesh: DeformedMesh, frame: PixelFrame) -> NDArray[np.uint8]:
+def draw_mesh(
+    texture: Texture, mesh: DeformedMesh, frame: PixelFrame, progress: Progress | None = None
+) -> NDArray[np.uint8]:
     """The RGBA pixels of a deformed mesh whose cage was traced from the texture."""
     places = PixelFrame(*texture.size).to_pixel(mesh.vertices)
     positions, size = frame.to_pixel(mesh.images), (frame.width, frame.height)
-    return render_mesh(texture, places, positions, mesh.triangles, size, mesh.heights)
+    return render_mesh(texture, places, positions, mesh.triangles, size, mesh.heights, progress)

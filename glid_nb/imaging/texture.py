@@ -2,8 +2,10 @@
 
 import itertools
 from dataclasses import dataclass, field
+from typing import Any, NamedTuple, Self
 
 import numpy as np
+import scipy.sparse
 from numpy.typing import ArrayLike, NDArray
 
 from glid_nb._arrays import Array, Floats
@@ -14,8 +16,8 @@ _MOST_PROBES = 16  # look-ups along an axis of a pixel's footprint
 _MOST_BLUR = 1.5  # by which nearly all of a minified picture may lose resolution
 _ROWS = 256  # rows of a picture that are converted at a time, to bound the memory
 
-# Weights of four neighbours by the powers 0 to 3 of the place between the middle two.
-_CATMULL_ROM = np.array([[0, -1, 2, -1], [2, 0, -5, 3], [0, 1, 4, -3], [0, 0, -1, 1]]) / 2
+_SPARSE = 12  # texels per look-up; where there are more, each look-up fetches its own
+_AROUND = np.arange(-1, 3, dtype=np.int32)[:, np.newaxis]
 
 
 @dataclass(frozen=True, eq=False)
@@ -32,11 +34,13 @@ class Texture:
             return image
         source = as_rgba(image)
         pixels = np.empty(source.shape, np.uint16)
+        factor = np.uint16(257 if source.dtype == np.uint8 else 1)
         for top in range(0, len(source), _ROWS):
-            wide = source[top : top + _ROWS].astype(np.uint32)
-            wide *= 257 if source.dtype == np.uint8 else 1
-            wide[..., :3] = (wide[..., :3] * wide[..., 3:] + 32767) // 65535
-            pixels[top : top + _ROWS] = wide
+            band = pixels[top : top + _ROWS]
+            np.multiply(source[top : top + _ROWS], factor, out=band)
+            if (band[..., 3] < 65535).any():
+                wide = band[..., :3].astype(np.uint32) * band[..., 3:]
+                band[..., :3] = (wide + 32767) // 65535
         return cls(pixels)
 
     @property
@@ -83,58 +87,132 @@ class Sampler:
         scale = max(1, int(min(_MOST_BLUR * stretched, typical)))
         self._pixels = texture.reduced(scale)
         self._size = np.array(self._pixels.shape[1::-1])
-        self._anchor, self._origin = positions[:, 0], places[:, 0] / scale
-        self._jacobian, radii = jacobian / scale, radii / scale
+        self._affine = affine(positions, places / scale, jacobian / scale)
+        radii = radii / scale
         self._radius = radii[:, 0]
         self._probes = np.ceil(radii - 0.25).clip(1, _MOST_PROBES).astype(int)
+        self._n_lookups = self._probes.prod(axis=1)
         self._steps = axes * (radii / self._probes)[:, None]
 
     def __call__(self, triangle: NDArray[np.integer], x: Floats, y: Floats) -> NDArray[np.float32]:
         """(k, 4) premultiplied RGBA in [0, 1] at points of the output, each seen in a triangle."""
         result = np.empty((len(triangle), 4), np.float32)
-        lookups = np.cumsum(self._probes[triangle].prod(axis=1))
+        if not len(triangle):
+            return result
+        places = placed(self._affine, triangle, x, y)
+        n_lookups = self._n_lookups[triangle]
+        lookups = np.cumsum(n_lookups)
+        patch = _Patch.around(self._pixels, places, self._radius[triangle].max(), lookups[-1])
         cuts = np.flatnonzero(np.diff(lookups // _CHUNK)) + 1
         for low, high in itertools.pairwise([0, *cuts.tolist(), len(triangle)]):
             chunk = slice(low, high)
-            result[chunk] = self._colours(triangle[chunk], np.stack([x[chunk], y[chunk]], axis=1))
+            result[chunk] = self._colours(
+                patch, triangle[chunk], places[:, chunk], n_lookups[chunk]
+            )
         return result
 
-    def _colours(self, triangle: Array, points: Floats) -> Array:
-        place = self._origin[triangle]
-        place = place + _times(self._jacobian[triangle], points - self._anchor[triangle])
-        n_lookups = self._probes[triangle].prod(axis=1)
-        point = np.repeat(np.arange(len(points)), n_lookups)
-        first, seen = np.cumsum(n_lookups) - n_lookups, triangle[point]
-        number = np.divmod(np.arange(len(point)) - first[point], self._probes[seen, 1])
-        share = np.stack(number, axis=1) - (self._probes[seen] - 1) / 2
-        colours = _bicubic(self._pixels, place[point] + _times(self._steps[seen], share) - 0.5)
-        total = np.add.reduceat(colours, first) / (65535 * n_lookups[:, None])
-        # Distance from the picture, in output pixels.
-        outside = np.maximum(-place, place - self._size).max(axis=1)
-        total *= (1 - outside / np.maximum(self._radius[triangle], 1e-6)).clip(0, 1)[:, None]
+    def _colours(self, patch: "_Patch", triangle: Array, places: Floats, n_lookups: Array) -> Array:
+        if n_lookups.max() == 1:
+            total = patch.bicubic(places[0] - 0.5, places[1] - 0.5)
+            total /= np.float32(65535)
+        else:
+            point = np.repeat(np.arange(len(triangle)), n_lookups)
+            first, seen = np.cumsum(n_lookups) - n_lookups, triangle[point]
+            number = np.divmod(np.arange(len(point)) - first[point], self._probes[seen, 1])
+            share = np.stack(number, axis=1) - (self._probes[seen] - 1) / 2
+            at = places[:, point] + _times(self._steps[seen], share).T - 0.5
+            total = np.add.reduceat(patch.bicubic(*at), first)
+            total /= (65535 * n_lookups[:, None]).astype(np.float32)
+        self._fade(total, triangle, places)
         # Cubics overshoot: restore 0 <= colour <= alpha <= 1, with the hue where alpha exceeds 1.
         total /= np.maximum(total[:, 3:], 1)
-        alpha = np.maximum(total[:, 3:], 0)
-        return np.concatenate([np.clip(total[:, :3], 0, alpha), alpha], axis=1)
+        alpha = total[:, 3:]
+        np.maximum(alpha, 0, out=alpha)
+        np.clip(total[:, :3], 0, alpha, out=total[:, :3])
+        return total
+
+    def _fade(self, total: Array, triangle: Array, places: Floats) -> None:
+        """Fade out colours beyond the picture, by their distance from it in output pixels."""
+        (x, y), (width, height) = places, self._size
+        if x.min() >= 0 and y.min() >= 0 and x.max() <= width and y.max() <= height:
+            return
+        outside = np.maximum(np.maximum(-x, x - width), np.maximum(-y, y - height))
+        total *= (1 - outside / np.maximum(self._radius[triangle], 1e-6)).clip(0, 1)[:, None]
+
+
+class _Patch(NamedTuple):
+    """The part of a picture that look-ups need."""
+
+    texels: NDArray[Any]
+    """(m, 4): float32 of the part alone, or the whole picture where look-ups are few and far."""
+    size: tuple[int, int]  # (w, h) of the whole picture
+    corner: tuple[int, int]  # (x, y) of the first texel
+    width: int
+
+    @classmethod
+    def around(
+        cls, pixels: NDArray[np.uint16], places: Floats, radius: float, n_lookups: int
+    ) -> Self:
+        height, width, _ = pixels.shape
+        room = radius + 3  # an ellipse, and the neighbours of a place
+        low, high = places.min(axis=1) - room, places.max(axis=1) + room
+        x0, y0 = (int(v) for v in np.clip(low, 0, (width - 1, height - 1)))
+        x1, y1 = (int(v) + 1 for v in np.clip(high, 0, (width - 1, height - 1)))
+        if (x1 - x0) * (y1 - y0) > _SPARSE * n_lookups:
+            return cls(pixels.reshape(-1, 4), (width, height), (0, 0), width)
+        part = pixels[y0:y1, x0:x1].astype(np.float32).reshape(-1, 4)
+        return cls(part, (width, height), (x0, y0), x1 - x0)
+
+    def bicubic(self, x: Floats, y: Floats) -> NDArray[np.float32]:
+        """(k, 4) Catmull-Rom interpolation at places in pixels from the first one's centre."""
+        (column, across), (row, down) = (
+            _neighbours(at, n, first)
+            for at, n, first in zip((x, y), self.size, self.corner, strict=True)
+        )
+        row *= self.width
+        if self.texels.dtype != np.float32:
+            total = np.zeros((len(x), 4), np.float32)
+            for i, j in np.ndindex(4, 4):
+                total += (down[i] * across[j])[:, None] * self.texels.take(row[i] + column[j], 0)
+            return total
+        weights = np.empty((len(x), 16), np.float32)
+        index = np.empty((len(x), 16), np.int32)
+        for i, j in np.ndindex(4, 4):
+            np.multiply(down[i], across[j], out=weights[:, 4 * i + j])
+            np.add(row[i], column[j], out=index[:, 4 * i + j])
+        starts = np.arange(0, 16 * len(x) + 1, 16, dtype=np.int32)
+        # A sparse matrix times the texels: the loop over neighbours is SciPy's, in C++.
+        entries = weights.ravel(), index.ravel(), starts
+        return scipy.sparse.csr_array(entries, shape=(len(x), len(self.texels))) @ self.texels
+
+
+def affine(positions: Floats, places: Floats, jacobian: Floats) -> Floats:
+    """(t, 6) for `placed`: the rows [a, b, c] of maps from (x, y) to (a x + b y + c, ...)."""
+    constant = places[:, 0] - _times(jacobian, positions[:, 0])
+    return np.concatenate([jacobian, constant[:, :, None]], axis=2).reshape(-1, 6)
+
+
+def placed(maps: Floats, triangle: NDArray[np.integer], x: Floats, y: Floats) -> Floats:
+    """(2, k) places of points of the output by the `affine` maps of their triangles."""
+    a = maps.take(triangle, axis=0)
+    return np.stack([a[:, 0] * x + a[:, 1] * y + a[:, 2], a[:, 3] * x + a[:, 4] * y + a[:, 5]])
 
 
 def _times(matrices: Floats, vectors: Floats) -> Floats:
     return matrices[:, :, 0] * vectors[:, :1] + matrices[:, :, 1] * vectors[:, 1:]
 
 
-def _bicubic(pixels: NDArray[np.uint16], at: Floats) -> NDArray[np.float32]:
-    """(k, 4) Catmull-Rom interpolation at places (k, 2) in pixels from the first one's centre."""
-    height, width, _ = pixels.shape
-    (column, across), (row, down) = _neighbours(at[:, 0], width), _neighbours(at[:, 1], height)
-    texels, total = pixels.reshape(-1, 4), np.zeros((len(at), 4), np.float32)
-    for i, j in np.ndindex(4, 4):
-        total += (down[i] * across[j])[:, None] * texels.take(row[i] * width + column[j], axis=0)
-    return total
-
-
-def _neighbours(t: Floats, n: int) -> tuple[Array, NDArray[np.float32]]:
-    """(4, k) the pixels of n around places t (k,), and their weights."""
+def _neighbours(t: Floats, n: int, first: int) -> tuple[NDArray[np.int32], NDArray[np.float32]]:
+    """(4, k) the pixels of n around places t (k,), counted from ``first``, and their weights."""
     middle = np.floor(t)
-    index = middle.astype(np.intp) + np.arange(-1, 3)[:, None]
-    powers = (t - middle) ** np.arange(4)[:, None]
-    return index.clip(0, n - 1), (_CATMULL_ROM @ powers).astype(np.float32)
+    index = middle.astype(np.int32) + _AROUND
+    np.clip(index, 0, n - 1, out=index)
+    index -= first
+    f = np.subtract(t, middle).astype(np.float32)
+    # Catmull and Rom's cubics of the place between the middle two, by Horner's scheme.
+    weights = np.empty((4, len(t)), np.float32)
+    weights[0] = ((1 - 0.5 * f) * f - 0.5) * f
+    weights[1] = (1.5 * f - 2.5) * f * f + 1
+    weights[2] = ((2 - 1.5 * f) * f + 0.5) * f
+    weights[3] = (0.5 * f - 0.5) * f * f
+    return index, weights

@@ -27,7 +27,7 @@ _REQUIRED = {
     "times": _json.check_list,
     "knots": _json.check_list,
 }
-_OPTIONAL = {"handles": _json.check_points, **_json.keys("notes")}
+_OPTIONAL = {"handles": _json.check_points, **_json.keys("notes", "image_size_px")}
 
 
 def texts(
@@ -44,7 +44,10 @@ def texts(
             for time, map in knots
         ],
     }
-    text = _json.json_text({"format": "glid_nb-motion", **shared, **settings})
+    told = {key: value for key, value in settings.items() if key != "image_size"}
+    if (size := settings.get("image_size")) is not None:
+        told["image_size_px"] = list(size)
+    text = _json.json_text({"format": "glid_nb-motion", **shared, **told})
     if len(knots) > _MOST_KNOTS or text.count(",") > _json.MOST_VALUES:
         raise MotionError(f"no file holds {len(knots):,} maps like these; raise the tolerance")
     if not proofs:
@@ -74,6 +77,8 @@ def read(path: str | Path) -> tuple[Maps, dict[str, Any], list[float], Maps]:
         if not (np.array_equal(back.phi, first.phi) and np.array_equal(back.psi, first.psi)):
             raise MotionError("the last knot of the loop is not its first keyframe")
     settings = {key: data[key] for key in ("times", *SETTINGS, "handles") if key in data}
+    if (size := data.get("image_size_px")) is not None:
+        settings["image_size"] = _json.picture_size(size, "image_size_px")
     return keyframes, settings, times, knots
 
 

@@ -11,6 +11,7 @@ from typing import Any, Self
 import numpy as np
 from numpy.typing import ArrayLike
 
+from glid_nb._arguments import plain
 from glid_nb._arrays import Array, Rebuilt, frozen, number_pairs
 from glid_nb._errors import about
 from glid_nb._files import same_file, write_atomically
@@ -74,6 +75,8 @@ class Motion(Rebuilt):
     """Whole turns that each interval adds to the short way round, counter-clockwise."""
     handles: Array | None = field(repr=False)
     """(h, 2) points of the domain that move on rigid paths for "solved"; by default even points."""
+    image_size: tuple[int, int] | None
+    """(w, h) pixels of the picture that moves, if it is known; exports then refuse other sizes."""
 
     def __init__(
         self,
@@ -86,6 +89,7 @@ class Motion(Rebuilt):
         tolerance: float = _TOLERANCE,
         turns: int | Sequence[int] = 0,
         handles: ArrayLike | None = None,
+        image_size: Sequence[int] | None = None,
     ) -> None:
         maps = settings.checked_keyframes(keyframes)
         all_times = settings.checked_times(times, len(maps), repeat == "loop")
@@ -93,6 +97,7 @@ class Motion(Rebuilt):
         if handles is not None:
             wanted = "handles must be a list of [x, y] pairs"
             handles = frozen(number_pairs(handles, wanted, MotionError))
+        size: Any = {"least": 1, "form": "the picture's (width, height) in whole pixels"}
         vars(self).update(
             keyframes=maps,
             times=all_times,
@@ -102,6 +107,7 @@ class Motion(Rebuilt):
             tolerance=checked("tolerance", float, tolerance, above=0),
             turns=settings.checked_each("turns", int, turns, count, least=-100, most=100),
             handles=handles,
+            image_size=checked("image_size", tuple[int, int] | None, plain(image_size), **size),
         )
         if between == "linear" and any(self.turns):
             raise MotionError(f"turns are {self.turns}; linear blending takes none, so give 0")
@@ -114,7 +120,9 @@ class Motion(Rebuilt):
     def settings(self) -> dict[str, Any]:
         """Plain values of the keywords that make this motion, with its keyframes and times."""
         known = {key: getattr(self, key) for key in file.SETTINGS}
-        return known if self.handles is None else {**known, "handles": self.handles.tolist()}
+        if self.handles is not None:
+            known["handles"] = self.handles.tolist()
+        return known if self.image_size is None else {**known, "image_size": list(self.image_size)}
 
     @property
     def domain(self) -> Domain:
@@ -275,11 +283,13 @@ class Motion(Rebuilt):
         for to, text in zip(paths, self.texts(proof is not None), strict=True):
             write_atomically(to, text)
 
-    def texts(self, proof: bool = True) -> tuple[str, ...]:
-        """What :meth:`save` writes; MotionError if there is no proof."""
+    def texts(self, proof: bool = True, image_size: Sequence[int] | None = None) -> tuple[str, ...]:
+        """What :meth:`save` writes; MotionError if there is no proof. ``image_size`` is the
+        picture's, where the motion itself does not know it."""
         if proof and not self.certificate.certified:
             raise MotionError(f"there is no proof to write: {self.certificate.reason}")
         known = {"times": self.times, **self.settings}
+        known.setdefault("image_size", image_size)
         return file.texts(self.pieces_forth, known, self._proved[1] if proof else ())
 
     @classmethod

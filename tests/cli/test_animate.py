@@ -166,3 +166,28 @@ def test_ctrl_c_leaves_nothing(
     outcome = run("animate", session, "--out", tmp_path / "walk.gif")
     assert outcome.code == 130
     assert not (tmp_path / "walk.gif").exists()
+
+
+def test_a_saved_motion_refuses_a_picture_of_another_size(run: Any, tmp_path: Path) -> None:
+    maps = [HarmonicMap.identity(shapes.domain()), shapes.bent()]
+    Motion(maps, image_size=shapes.SIZE).save(tmp_path / "motion.json")
+    other = tmp_path / "other.png"
+    Image.new("RGBA", (240, 200), (9, 9, 9, 255)).save(other)  # the cage would lie on it
+    words = ("animate", tmp_path / "motion.json", "--picture", other, *SMALL)
+    outcome = run(*words, "--out", tmp_path / "a.gif")
+    assert outcome.code == 1
+    assert "the picture has 240 x 200 pixels, but the motion is of 300 x 200" in outcome.err
+    assert not (tmp_path / "a.gif").exists()
+
+
+def test_an_exported_motion_knows_the_size_of_its_picture(
+    run: Any, session: Path, tmp_path: Path
+) -> None:
+    out = tmp_path / "walk.motion.json"
+    assert run("animate", session, "--out", out).code == 0
+    assert Motion.load(out).image_size == shapes.SIZE
+    Image.new("RGBA", (100, 100), (9, 9, 9, 255)).save(tmp_path / "other.png")
+    words = ("animate", out, "--picture", tmp_path / "other.png", *SMALL)
+    outcome = run(*words, "--out", tmp_path / "a.gif")
+    assert outcome.code == 1
+    assert "100 x 100 pixels, but the motion is of 300 x 200" in outcome.err

@@ -12,7 +12,8 @@ from typing import Any
 import pytest
 
 from glid_nb.cli import samples
-from glid_nb.cli.main import BAD_INPUT, main, one_line
+from glid_nb.cli.main import main
+from glid_nb.cli.output import BAD_INPUT, one_line
 from glid_nb.geometry import GeometryError
 
 

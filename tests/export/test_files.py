@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import base64
 import io
+import json
+import re
 import xml.etree.ElementTree as ElementTree
 from pathlib import Path
 from typing import Any
@@ -14,13 +17,25 @@ import trimesh
 from PIL import Image
 from trimesh.visual import TextureVisuals
 
+from glid_nb._errors import InputError
 from glid_nb.certificate import certify
-from glid_nb.export import cage_svg, mesh_glb, mesh_obj, picture_png, textured_mesh
+from glid_nb.export import (
+    animation_bytes,
+    cage_svg,
+    mesh_glb,
+    mesh_obj,
+    motion_glb,
+    page_html,
+    picture_png,
+    textured_mesh,
+)
 from glid_nb.geometry import GeometryError
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging import PixelFrame
+from glid_nb.imaging.bleed import bled
 from glid_nb.imaging.mesh import deformed_loops
 from glid_nb.imaging.render import render
+from glid_nb.motion import Motion
 
 from .shapes import SIZE, bent, domain, picture, pose
 
@@ -104,7 +119,55 @@ class TestMesh:
         assert isinstance(read, trimesh.Trimesh)
         self.check(read, 1e-7)
         texture = np.asarray(material_of(read).image.convert("RGBA"))
-        np.testing.assert_array_equal(texture, picture())
+        np.testing.assert_array_equal(texture, bled(picture()))
+        with Image.open(tmp_path / "frog-texture.png") as stored:
+            assert stored.info["srgb"] == 0
+
+    def test_a_viewer_with_straight_alpha_sees_no_fringe(self) -> None:
+        """A black disc on transparent white, exported, and interpolated between two texels."""
+        y, x = np.mgrid[: SIZE[1], : SIZE[0]] + 0.5
+        alpha = 255 * np.clip(80 - np.hypot(x - 150, y - 100), 0, 1)
+        disc = np.dstack([np.where(alpha > 0, 0, 255)] * 3 + [alpha]).astype(np.uint8)
+        made = textured_mesh(disc, bent(), 800)
+        moving = motion_glb(disc, Motion([HarmonicMap.identity(domain()), bent()]), None, 300)
+        page = page_html(disc, bent())
+        inside = re.search(r"data:image/png;base64,([A-Za-z0-9+/=]+)", page)
+        assert inside
+        shown = [
+            *mesh_obj(made, "a").values(),
+            mesh_glb(made),
+            moving,
+            base64.b64decode(inside[1]),
+        ]
+        textures = [data[data.index(b"\x89PNG") :] for data in shown if b"\x89PNG" in data]
+        assert len(textures) == 4
+        for data in textures:
+            texture = np.asarray(Image.open(io.BytesIO(data))).astype(float)
+            np.testing.assert_array_equal(texture[..., 3], disc[..., 3])
+            for between in (texture[1:] + texture[:-1], texture[:, 1:] + texture[:, :-1]):
+                assert not between[..., :3][between[..., 3] > 0].any()
+
+    def test_the_texture_is_not_repeated(self) -> None:
+        data = mesh_glb(textured_mesh(picture(), bent(), 300))
+        length = int.from_bytes(data[12:16], "little")
+        tree = json.loads(data[20 : 20 + length])
+        sampler = tree["samplers"][tree["textures"][0]["sampler"]]
+        assert (sampler["wrapS"], sampler["wrapT"]) == (33071, 33071)
+
+    def test_a_picture_of_other_proportions_is_refused_by_every_export(self) -> None:
+        wide = np.zeros((50, 300, 4), np.uint8)
+        moving = Motion([HarmonicMap.identity(domain()), bent()])
+        for export in (
+            lambda: textured_mesh(wide, bent()),
+            lambda: page_html(wide, bent()),
+            lambda: page_html(wide, moving),
+            lambda: motion_glb(wide, moving),
+            lambda: picture_png(wide, bent()),
+            lambda: animation_bytes(wide, [bent()]),
+            lambda: cage_svg(bent(), (300, 50)),
+        ):
+            with pytest.raises(InputError, match="take the picture that the cage was traced from"):
+                export()
 
     def test_glb(self) -> None:
         data = mesh_glb(textured_mesh(picture(), bent(), 800))
@@ -113,9 +176,9 @@ class TestMesh:
         (read,) = scene.geometry.values()
         self.check(read, 1e-5)
         material = material_of(read)
-        np.testing.assert_array_equal(
-            np.asarray(material.baseColorTexture.convert("RGBA")), picture()
-        )
+        texture = np.asarray(material.baseColorTexture.convert("RGBA"))
+        np.testing.assert_array_equal(texture, bled(picture()))
+        assert material.baseColorTexture.info["srgb"] == 0
         assert material.alphaMode == "BLEND"
         assert material.doubleSided
         colors = sampled(picture(), uv_of(read))

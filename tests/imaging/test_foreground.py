@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import re
 
 import numpy as np
 import pytest
@@ -74,6 +75,73 @@ class TestAlpha:
         found = find(np.dstack([np.zeros_like(disc()), 0.4 * disc()]), "alpha")
         with pytest.raises(TraceError, match=r"no foreground by alpha.*lower the threshold"):
             found.mask()
+
+
+def faint(color: tuple[float, float, float] = (0, 0, 0), most: float = 0.47):
+    """A disc whose alpha reaches ``most``, on a transparent ground."""
+    return np.dstack([np.full((SIZE, SIZE, 3), color), most * disc()])
+
+
+def half_seen():
+    """A black picture, transparent by parts only."""
+    image = np.zeros((SIZE, SIZE, 4))
+    image[..., 3] = 0.6 + 0.4 * disc()
+    return image
+
+
+class TestRemedies:
+    """What a refusal recommends works."""
+
+    @pytest.mark.parametrize(
+        ("image", "options"),
+        [
+            (faint(), {}),
+            (faint((1, 1, 1)), {}),
+            (faint((0.5, 0, 0), 0.02), {}),
+            (faint(), {"method": "alpha"}),
+            (faint(), {"threshold": 0.9}),
+            (faint(), {"invert": True, "threshold": 0.0}),
+            (half_seen(), {}),
+            (half_seen(), {"method": "alpha"}),
+            (half_seen(), {"method": "threshold"}),
+            *(
+                (0.3 + 0.5 * disc(), {"method": "threshold", "threshold": t, "invert": i})
+                for t in (0.0, 0.1, 0.95, 1.0)
+                for i in (True, False)
+            ),
+            (0.5 + 0.001 * disc(), {"method": "threshold", "threshold": 0.9}),
+            (blended([0, 0, 0.2], [0, 0, 0]), {"method": "color", "threshold": 0.5}),
+            (blended([1, 0, 0], [0.9, 0, 0]), {"method": "color", "threshold": 0.99}),
+        ],
+    )
+    def test_the_threshold_that_is_recommended_finds_the_disc(self, image, options) -> None:
+        with pytest.raises(TraceError) as caught:
+            trace(image, **options)
+        told = str(caught.value)
+        wanted = re.search(r"(?:threshold=|the threshold, to )([0-9.e-]+\d)", told)
+        assert wanted, told
+        changed = {**options, "threshold": float(wanted[1])}
+        if method := re.search("method='(.*?)'", told):
+            changed["method"] = method[1]
+        mask = trace(image, **changed).mask
+        assert agreement(mask) > 0.97 or agreement(~mask) > 0.97
+
+    def test_a_faint_drawing_is_told_by_its_alpha(self) -> None:
+        with pytest.raises(TraceError, match=r"has alpha up to 47 %; lower the threshold, to 0.2"):
+            trace(faint())
+        with pytest.raises(TraceError, match=r"has alpha up to 49\.9 %;"):
+            trace(faint(most=0.4991))
+
+    def test_colours_behind_no_alpha_at_all(self) -> None:
+        image = faint(most=0)
+        image[..., 0] = disc()
+        with pytest.raises(TraceError, match="fully transparent; remove its alpha channel"):
+            trace(image)
+        assert agreement(trace(image[..., :3]).mask) > 0.97
+
+    def test_an_even_veil_changes_nothing(self) -> None:
+        image = np.dstack([blended([0.9, 0.2, 0.1], [1, 1, 1]), np.full((SIZE, SIZE), 0.4)])
+        assert agreement(trace(image).mask) > 0.97
 
 
 class TestThreshold:

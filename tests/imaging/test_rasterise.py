@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from scipy.spatial import Delaunay
 
 from glid_nb.imaging import rasterise
-from glid_nb.imaging.rasterise import ScanConverter, outline_edges, render_mesh
+from glid_nb.imaging.rasterise import ScanConverter, Tile, outline_edges, render_mesh
 from glid_nb.imaging.texture import Texture
 
 QUAD = np.array([[0, 1, 2], [0, 2, 3]])
@@ -189,7 +189,9 @@ def test_every_sample_belongs_to_exactly_one_triangle(seed: int, resolved: bool)
     triangles = Delaunay(points).simplices
     points = 20 + (points - 20) @ [[1, turn], [-turn, 1]] * (1 + 1e-3)
     n = 8 if resolved else 1
-    samples = ScanConverter(points[triangles]).samples(2, np.ones((26, 40), dtype=bool), n)
+    samples = ScanConverter(points[triangles]).samples(
+        Tile(0, 2, 40, 26), np.ones(26 * 40, dtype=bool), n
+    )
     at = 2 * 40 + samples.place // n**2
     np.testing.assert_array_equal(np.floor(samples.y) * 40 + np.floor(samples.x), at)
     count = np.bincount(samples.place, minlength=26 * 40 * n**2).reshape(26, 40, -1)
@@ -295,7 +297,8 @@ def test_bands_change_nothing(monkeypatch: pytest.MonkeyPatch):
     points, triangles = irregular_mesh(60, 50, 100)
     positions = (points - 25) @ [[0.9, 0.5], [-0.4, 0.8]] + 40
     whole = render_mesh(image, points, positions, triangles, (90, 80))
-    monkeypatch.setattr(rasterise, "_BAND", 90 * 7)
+    monkeypatch.setattr(rasterise, "_TILE", 31 * 7)
+    monkeypatch.setattr(rasterise, "_TILE_WIDTH", 31)
     pieces = render_mesh(image, points, positions, triangles, (90, 80))
     np.testing.assert_array_equal(pieces, whole)
 

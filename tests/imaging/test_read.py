@@ -226,6 +226,27 @@ class TestFiles:
         np.testing.assert_array_equal(image[..., :3], values)
         assert (image[..., 3] == 65535).all()
 
+    @pytest.mark.parametrize("channels", [3, 4])
+    def test_a_compression_that_only_pillow_knows_keeps_16_bit(self, channels, monkeypatch):
+        """LZW needs a package beside tifffile."""
+        values = RNG.integers(0, 65536, (5, 7, channels), dtype=np.uint16)
+        buffer = io.BytesIO()
+        more = {"extrasamples": ["unassalpha"]} if channels == 4 else {}
+        tifffile.imwrite(buffer, values, photometric="rgb", compression="zlib", **more)
+
+        def refuse(*_):
+            raise ValueError("<COMPRESSION.LZW: 5> requires the 'imagecodecs' package")
+
+        monkeypatch.setattr("glid_nb.imaging.decode.tiff_pixels", refuse)
+        image = read_image(buffer.getvalue())
+        assert image.dtype == np.uint16
+        np.testing.assert_array_equal(image[..., :channels], values)
+
+    def test_16_bit_grey_under_lzw(self):
+        values = RNG.integers(0, 65536, (5, 7), dtype=np.uint16)
+        image = read_image(encoded(Image.fromarray(values), "TIFF", compression="tiff_lzw"))
+        np.testing.assert_array_equal(image[..., 0], values)
+
     def test_float_tiff(self):
         buffer = io.BytesIO()
         tifffile.imwrite(buffer, np.array([[0, 0.25, 1]], dtype=np.float32))

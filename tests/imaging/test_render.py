@@ -11,6 +11,7 @@ from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging.frame import PixelFrame
 from glid_nb.imaging.mesh import DeformedMesh, deformed_mesh
 from glid_nb.imaging.order import order_of
+from glid_nb.imaging.progress import Stopped
 from glid_nb.imaging.render import draw_mesh, frame_of, render, share_outside
 from glid_nb.imaging.texture import Texture
 
@@ -260,3 +261,111 @@ def test_what_lies_far_outside_the_picture_is_not_refined(bar: Domain) -> None:
     expected = draw_mesh(Texture.from_image(image), whole, frame)
     np.testing.assert_array_equal(render(image, moderate), expected)
     assert expected[..., 3].any()
+
+
+LABELS = (
+    7 * np.random.default_rng(3).integers(0, 11, (25, 20)).repeat(8, 0).repeat(8, 1)[:128, :160]
+)
+
+
+@pytest.mark.parametrize(
+    "dtype", ["u1", "i1", "u2", "i4", "i8", "f2", "f4", "f8", "?", "c16", ">i4"]
+)
+def test_nearest_invents_no_value(bar: Domain, dtype: str):
+    values = LABELS.astype(dtype)
+    result = render(values, bent(bar, 0.2), interpolation="nearest", view="fit")
+    assert (result.dtype, result.shape) == (values.dtype, values.shape)
+    assert set(np.unique(result)) <= {*np.unique(values), values.dtype.type(0)}
+    assert len(np.unique(result)) == len(np.unique(values))
+
+
+@pytest.mark.parametrize("channels", [1, 2, 3, 4, 5, 12])
+def test_nearest_keeps_channels_together(bar: Domain, channels: int):
+    values = np.stack([LABELS + 1000 * c for c in range(channels)], axis=2).astype(np.int32)
+    result = render(values, bent(bar, 0.2), size=(100, 90), interpolation="nearest", view="fit")
+    assert result.shape == (90, 100, channels)
+    seen = result.any(axis=2)
+    assert 0.02 < seen.mean() < 1
+    np.testing.assert_array_equal(
+        result[seen] - result[seen][:, :1], [np.arange(channels) * 1000] * seen.sum()
+    )
+
+
+def test_nearest_under_the_identity_is_the_picture(domain: Domain):
+    values = LABELS + 1
+    result = render(values, HarmonicMap.identity(domain), interpolation="nearest", fill=-5)
+    inside = covered(domain, 160, 128, 0.0)
+    np.testing.assert_array_equal(result[inside], values[inside])
+    assert (result[~covered(domain, 160, 128, -0.13)] == -5).any()
+    assert set(np.unique(result)) <= {*np.unique(values), -5}
+
+
+def test_nearest_shows_what_smooth_shows(bar: Domain):
+    image = coordinates_as_colours(400, 400)
+    map = bent(bar, 2 * np.pi / 15)  # it overlaps itself
+    smooth = render(image, map, view="fit").astype(int)
+    nearest = render(image, map, view="fit", interpolation="nearest")
+    both = (smooth[..., 3] == 255) & (nearest[..., 3] == 255)
+    assert both.sum() > 0.9 * (nearest[..., 3] == 255).sum()
+    assert np.quantile(np.abs(smooth - nearest)[both], 0.99) <= 2
+
+
+def test_what_is_fill_covers_nothing(bar: Domain):
+    map = bent(bar, 2 * np.pi / 15)
+    values = np.full((400, 400), 3, np.uint8)
+    values[:, :100] = 0
+    ends = render(values, map, view="fit", interpolation="nearest")
+    values[:, :100], values[:, 100:] = 3, 0
+    others = render(values, map, view="fit", interpolation="nearest")
+    whole = render(np.full((400, 400), 3, np.uint8), map, view="fit", interpolation="nearest")
+    np.testing.assert_array_equal((ends == 3) | (others == 3), whole == 3)
+
+
+def test_nearest_refuses_what_it_cannot_hold(domain: Domain):
+    identity, values = HarmonicMap.identity(domain), LABELS.astype(np.uint8)
+    for fill in (-1, 256, 0.5, "a", None):
+        with pytest.raises(ValueError, match=r"fill is .*image's type uint8 cannot hold"):
+            render(values, identity, interpolation="nearest", fill=fill)  # type: ignore[arg-type]
+    holed = render(values / 2, identity, interpolation="nearest", fill=np.nan)
+    assert 0.1 < np.isnan(holed).mean() < 0.9
+    with pytest.raises(
+        ValueError, match="unknown interpolation 'cubic'; choose one of smooth, near"
+    ):
+        render(values, identity, interpolation="cubic")  # type: ignore[arg-type]
+    for wrong in (np.zeros((3, 0)), np.zeros(4), np.array([["a"]]), [[1], [2, 3]]):
+        with pytest.raises(ValueError, match=r"the image (must be|is no array)"):
+            render(wrong, identity, interpolation="nearest")
+    with pytest.raises(ValueError, match="a Texture has been prepared"):
+        render(Texture.from_image(values), identity, interpolation="nearest")
+
+
+def test_a_large_picture_is_drawn_in_tiles_on_threads_as_in_one(domain, monkeypatch):
+    image = coordinates_as_colours(320, 256)
+    image[::3, ::5, 3] = 90
+    map = affine(domain, 0.9 * np.exp(0.4j), 0.3)
+    whole = render(image, map)
+    told: list[tuple[int, int]] = []
+    monkeypatch.setattr("glid_nb.imaging.rasterise._TILE", 64 * 32)
+    monkeypatch.setattr("glid_nb.imaging.rasterise._TILE_WIDTH", 64)
+    monkeypatch.setattr("os.cpu_count", lambda: 3)
+    pieces = render(image, map, progress=lambda *at: told.append(at))
+    np.testing.assert_array_equal(pieces, whole)
+    assert told == [(i, 40) for i in range(41)]
+
+
+@pytest.mark.parametrize("cores", [1, 3])
+@pytest.mark.parametrize("interpolation", ["smooth", "nearest"])
+def test_progress_ends_a_drawing(domain, monkeypatch, interpolation, cores):
+    monkeypatch.setattr("glid_nb.imaging.rasterise._TILE", 32 * 32)
+    monkeypatch.setattr("glid_nb.imaging.rasterise._TILE_WIDTH", 32)
+    monkeypatch.setattr("os.cpu_count", lambda: cores)
+    told: list[int] = []
+
+    def progress(done: int, total: int) -> bool:
+        told.append(done)
+        return done == 3 < total
+
+    image = coordinates_as_colours(320, 256)
+    with pytest.raises(Stopped):
+        render(image, affine(domain, 1, 0), interpolation=interpolation, progress=progress)
+    assert told == [0, 1, 2, 3]

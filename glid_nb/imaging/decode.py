@@ -1,0 +1,224 @@
+"""Pixels from opened pictures, with every bit and every kind of transparency that they hold.
+
+Pillow rounds 16-bit colours to 8 bit and compares the transparent colour of a PNG (its tRNS chunk)
+with pixels that it has scaled. So what PNG and TIFF hold beyond 8 bit is read here.
+"""
+
+import io
+import sys
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from PIL import Image, ImageOps, UnidentifiedImageError
+from PIL.PngImagePlugin import PngImageFile
+from PIL.TiffImagePlugin import TiffImageFile
+
+from glid_nb.imaging.frame import TraceError
+
+RGBA = NDArray[np.uint8] | NDArray[np.uint16]
+"""(h, w, 4) red, green, blue and alpha (not premultiplied), row 0 at the top."""
+
+MAX_SIDE = 8000  # longest side in pixels that is accepted
+
+# Pillow's others start programs (EPS), are no pictures, or have no signature to tell them by.
+FORMATS = (
+    *("PNG", "JPEG", "GIF", "TIFF", "WEBP", "BMP", "AVIF", "JPEG2000"),
+    *("ICO", "ICNS", "PPM", "PSD", "PCX", "QOI", "SGI"),
+)
+_TIFF_STARTS = (b"II*\0", b"MM\0*", b"II+\0", b"MM\0+")
+_BITS_PER_SAMPLE, _ORIENTATION, _PROFILE = 258, 274, 34675  # TIFF tags
+_GREY_BITS = {"1": 1, "L;2": 2, "L;4": 4, "L": 8}  # of grey PNGs, by Pillow's raw mode
+_ORIENTED = {  # by the EXIF orientation: how a picture is flipped, after it was transposed
+    **{2: (1, -1, False), 3: (-1, -1, False), 4: (-1, 1, False), 5: (1, 1, True)},
+    **{6: (1, -1, True), 7: (-1, -1, True), 8: (-1, 1, True)},
+}
+
+
+def opened(data: bytes, name: str) -> Image.Image | None:
+    """The picture of a file's bytes, not decoded yet; None for a TIFF that Pillow does not know."""
+    if not data:
+        raise TraceError(f"{name} is empty")
+    try:
+        return Image.open(io.BytesIO(data), formats=FORMATS)
+    except UnidentifiedImageError:
+        if data.startswith(_TIFF_STARTS):
+            return None
+        advice = "not in a picture format that can be read; save it as PNG or JPEG first"
+        if data.startswith(b"PK"):
+            advice = "a session or another zip file; open a session by its path"
+        raise TraceError(f"{name} is {advice}") from None
+
+
+def unread_file(picture: Image.Image) -> bytes | None:
+    """The file of a PNG or TIFF that was opened and not yet decoded; None of other pictures."""
+    file = getattr(picture, "fp", None)
+    fresh = isinstance(picture, PngImageFile | TiffImageFile) and picture.tile
+    if not fresh or file is None or picture.tell() != 0:
+        return None
+    place = file.tell()
+    file.seek(0)
+    data = file.read()
+    file.seek(place)
+    return data
+
+
+def picture_pixels(picture: Image.Image, data: bytes | None, name: str) -> NDArray[Any]:
+    """(h, w) or (h, w, c) pixels of an opened picture, upright; ``data`` is its file, if it is
+    known. RGBA unless the picture holds more than 8 bit."""
+    if 0 in picture.size:
+        raise TraceError(f"{name} is empty: it has {picture.width} x {picture.height} pixels")
+    check_size(*picture.size, name)  # before the pixels are decoded
+    if data is not None and isinstance(picture, PngImageFile) and picture.tile:
+        raw = str(picture.tile[0].args)
+        if raw.endswith(";16B"):
+            return _wide_png(picture, data, raw)
+        _correct_key(picture, raw)
+    if isinstance(picture, TiffImageFile) and picture.mode != "CMYK":
+        bits = max(picture.tag_v2.get(_BITS_PER_SAMPLE, (8,)))
+        if data is not None and bits > 8:
+            return _wide_tiff(picture, data, name)
+    picture = ImageOps.exif_transpose(picture)
+    if picture.mode == "F" or picture.mode.startswith("I"):
+        return np.asarray(picture)
+    # Pillow drops the alpha of La, and makes LAB transparent.
+    step = {"La": "LA", "LAB": "RGB", "HSV": "RGB"}.get(picture.mode)
+    if step == "LA":
+        return _straight_grey(picture)
+    return np.array((picture.convert(step) if step else picture).convert("RGBA"))
+
+
+def tiff_pixels(
+    data: bytes, name: str, as_stored: bool = False
+) -> tuple[NDArray[Any], bytes | None]:
+    """Pixels of a TIFF of any depth that tifffile decodes, upright, and the ICC profile; or all
+    samples as they are stored, whatever they mean."""
+    import tifffile  # noqa: PLC0415  (slow to import and seldom needed; scikit-image brings it)
+
+    with tifffile.TiffFile(io.BytesIO(data)) as file:
+        page: Any = file.pages.first
+        check_size(page.imagewidth, page.imagelength, name)
+        array = page.asarray()
+        if page.axes == "SYX":
+            array = np.moveaxis(array, 0, -1)
+        if not as_stored:
+            array = _as_colours(array, page, tifffile)
+        orientation = page.tags.valueof(_ORIENTATION, 1)
+        return _upright(array, orientation), page.tags.valueof(_PROFILE)
+
+
+def eight_bit(rgba: RGBA) -> NDArray[np.uint8]:
+    """Pixels rounded to 8 bit; themselves if they have that already."""
+    if rgba.dtype == np.uint8:
+        return rgba.view(np.uint8)
+    return (rgba // 257 + (rgba % 257 > 128)).astype(np.uint8)
+
+
+def check_size(width: int, height: int, name: str = "the image") -> None:
+    """Raise a TraceError about ``name`` if a side is longer than `MAX_SIDE`."""
+    if max(width, height) > MAX_SIDE:
+        most = f"a side may have at most {MAX_SIDE}: scale it down first"
+        raise TraceError(f"{name} is too large, {width} x {height} pixels; {most}")
+
+
+def _wide_png(picture: Image.Image, data: bytes, raw: str) -> NDArray[np.uint16]:
+    """A PNG of 16 bit, grey with alpha where one of its colours is transparent."""
+    if raw == "LA;16B":  # four bytes, as RGBA has
+        array = _decoded_as(data, "RGBA").view(">u2").astype(np.uint16)
+    elif raw == "I;16B":
+        array = np.asarray(ImageOps.exif_transpose(picture))[..., np.newaxis].astype(np.uint16)
+    else:
+        array = _both_bytes(data, raw)
+    key = picture.info.get("transparency")
+    if key is None or array.shape[2] not in (1, 3):
+        return array
+    opaque = (array != np.array(key, np.uint16)).any(axis=2)
+    return np.dstack([array, opaque.astype(np.uint16) * np.uint16(65535)])
+
+
+def _both_bytes(data: bytes, raw: str) -> NDArray[np.uint16]:
+    """The 16-bit colours of a file that Pillow decodes in a raw mode such as "RGB;16B": it keeps
+    the high byte of each, and the low one if it is told of the other byte order."""
+    mode, _, order = raw.partition(";16")
+    if order == "N":
+        order = sys.byteorder[0].upper()
+    high = _decoded_as(data, f"{mode};16{order}").astype(np.uint16)
+    high <<= 8
+    high |= _decoded_as(data, f"{mode};16{'L' if order == 'B' else 'B'}")
+    return high
+
+
+def _decoded_as(data: bytes, raw: str) -> NDArray[np.uint8]:
+    with Image.open(io.BytesIO(data), formats=FORMATS) as picture:
+        tiles = []
+        for tile in picture.tile:
+            told: Any = tile.args
+            args = raw if isinstance(told, str) else (raw, *told[1:])
+            tiles.append(tile._replace(args=args))
+        picture.tile = tiles
+        return np.array(ImageOps.exif_transpose(picture))
+
+
+def _correct_key(picture: Image.Image, raw: str) -> None:
+    """Scale the transparent colour of a grey PNG as Pillow scales its pixels."""
+    key = picture.info.get("transparency")
+    if isinstance(key, tuple):
+        picture.info["transparency"] = tuple(value & 255 for value in key)
+    elif isinstance(key, int) and (bits := _GREY_BITS.get(raw, 1)) > 1:
+        most = (1 << bits) - 1
+        picture.info["transparency"] = (key & most) * (255 // most)
+
+
+def _straight_grey(picture: Image.Image) -> NDArray[np.uint8]:
+    """(h, w, 2) grey and alpha of a picture with premultiplied grey."""
+    array = np.array(picture)
+    grey, alpha = array[..., 0].astype(np.uint32), array[..., 1].astype(np.uint32)
+    array[..., 0] = np.minimum((grey * 255 + alpha // 2) // np.maximum(alpha, 1), 255)
+    return array
+
+
+def _wide_tiff(picture: TiffImageFile, data: bytes, name: str) -> NDArray[Any]:
+    """A TIFF of more than 8 bit: by tifffile, or by Pillow if only that knows the compression."""
+    try:
+        return tiff_pixels(data, name)[0]
+    except ValueError as error:
+        if "imagecodecs" not in str(error):
+            raise
+    args: Any = picture.tile[0].args
+    raw = args[0]
+    if raw.startswith(("RGB;16", "RGBA;16")):
+        return _both_bytes(data, raw)
+    upright = ImageOps.exif_transpose(picture)
+    return np.asarray(upright if upright.mode.startswith("I") else upright.convert("RGBA"))
+
+
+def _as_colours(array: NDArray[Any], page: Any, tifffile: Any) -> NDArray[Any]:
+    """Pixels of a page with white above black, and with straight alpha if any."""
+    if page.photometric == tifffile.PHOTOMETRIC.MINISWHITE and array.dtype.kind == "u":
+        colour = array if array.ndim == 2 else array[..., :1]
+        np.subtract(np.iinfo(array.dtype).max, colour, out=colour)
+    return _with_alpha(array, page, tifffile)
+
+
+def _with_alpha(array: NDArray[Any], page: Any, tifffile: Any) -> NDArray[Any]:
+    """Pixels of a page without samples that are no colours, and with straight alpha."""
+    if array.ndim != 3 or not page.extrasamples:
+        return array
+    colours = array.shape[2] - len(page.extrasamples)
+    kind = page.extrasamples[0]
+    if kind == tifffile.EXTRASAMPLE.UNSPECIFIED:
+        return array[..., :colours]
+    array = array[..., : colours + 1]
+    if kind == tifffile.EXTRASAMPLE.ASSOCALPHA:
+        full = np.iinfo(array.dtype).max if array.dtype.kind == "u" else 1
+        alpha = array[..., -1:].astype(np.float64)
+        straight = array[..., :-1] * (full / np.where(alpha > 0, alpha, full))
+        straight = np.minimum(np.rint(straight) if full > 1 else straight, full)
+        array = np.concatenate([straight.astype(array.dtype), array[..., -1:]], axis=2)
+    return array
+
+
+def _upright(array: NDArray[Any], orientation: int) -> NDArray[Any]:
+    down, across, transposed = _ORIENTED.get(orientation, (1, 1, False))
+    array = array.swapaxes(0, 1) if transposed else array
+    return array[::down, ::across]
