@@ -14,7 +14,7 @@ from glid_nb.imaging.read import ImageSource
 from glid_nb.session import autosave
 from glid_nb.session.autosave import OwnFiles
 from glid_nb.session.deformation import Deformation
-from glid_nb.session.document import AS_SEEN, Document, DocumentError
+from glid_nb.session.document import Document, DocumentError
 from glid_nb.session.document_file import load_document, save_document
 from glid_nb.session.edit_state import EditError, EditState
 from glid_nb.session.model import History, Observed
@@ -201,7 +201,13 @@ class EditorModel(Observed):
         )
 
     def save(self, path: str | Path) -> None:
-        """Write the document to a file; if that fails, what was there before stays."""
+        """Write the document to a file; if that fails, what was there before stays.
+
+        Poses that are not solved yet are solved first. Where that is not possible, as while the
+        solver is paused, the file says so, and they are solved once it is opened.
+        """
+        if self.has_shape:
+            self.deformation.finish()
         saving, path = self._autosave, Path(path)
         if saving is not None and saving.path.resolve() == path.resolve():
             saving.write(self.document)
@@ -310,9 +316,8 @@ class EditorModel(Observed):
     def _take(self, document: Document, name: str = "") -> None:
         self.tracing = TracingModel.from_document(document, name)
         domain = document.domain
-        poses = tuple(replace(pose, solution=AS_SEEN) for pose in document.poses)
         state = EditState.initial(domain)
-        if poses:
+        if poses := document.poses:
             timeline = document.timeline or Timeline.even(len(poses))
             state = EditState(domain, poses, document.active, timeline)
         self._shelf.clear()

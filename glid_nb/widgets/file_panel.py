@@ -315,6 +315,7 @@ class FilePanel(Asking, ipywidgets.VBox):
     def _copy(self, sure: bool) -> str:
         script = session_path(self.path.value).with_suffix(".py")
         picture = exporting.files_of(script)[1]
+        self.model.deformation.finish()
         lines = python_code(self.model.document, str(picture))
         needed = ""
         if "glid.read_image" in lines:  # not where the cage was edited by hand

@@ -374,7 +374,7 @@ NAN, INFINITY = float("nan"), float("inf")
 BAD: list[tuple[str, Callable[[Data], Any], str]] = [
     ("a list", lambda d: [d], "object"),
     ("another format", changed(format="glid_nb-map"), "format"),
-    ("a newer version", changed(version=5), "version 5 .*newer"),
+    ("a newer version", changed(version=6), "version 6 .*newer"),
     ("a version as text", changed(version="1"), "version '1'"),
     *[
         (f"no {key}", without(key), key)
