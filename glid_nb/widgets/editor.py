@@ -23,7 +23,7 @@ from glid_nb.motion import Motion
 from glid_nb.session.deformation import Deformation
 from glid_nb.session.document import Document, DocumentError, NamedPose
 from glid_nb.session.edit_state import EditError
-from glid_nb.session.editor_model import EditorModel, find_document
+from glid_nb.session.editor_model import EditorModel, KeptWorkError, find_document
 from glid_nb.session.status_line import StatusLine
 from glid_nb.solvers import Method, Pose
 from glid_nb.widgets import exporting
@@ -376,7 +376,8 @@ class Editor(ClosingWidget, ipywidgets.VBox):
     def _show_saving(self) -> None:
         error, left, path = self.model.save_error, self.model.left_path, self.model.autosave_path
         if error is not None:
-            text = html.escape(_NOT_SAVED.format(error=error))
+            kept = isinstance(error, KeptWorkError)
+            text = html.escape(str(error) if kept else _NOT_SAVED.format(error=error))
             self.unsaved.value = f'<p class="glid-unsaved">{text}</p>'
         self.unsaved.layout.display = "none" if error is None else "block"
         if left is None or path is None or path == self._told_path:

@@ -1,7 +1,5 @@
 """Exports of an editor, chosen by the file's suffix; those of its motion in the background."""
 
-import contextlib
-import json
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -9,8 +7,9 @@ from typing import Any
 import ipywidgets
 
 from glid_nb import export as to
-from glid_nb._files import write_atomically
-from glid_nb._json import json_text
+from glid_nb._errors import InputError
+from glid_nb._files import read_file, write_atomically
+from glid_nb._json import json_text, parse_json
 from glid_nb._runtime import data_directory
 from glid_nb.certificate import certificate_of
 from glid_nb.certificate.certify import proof_text
@@ -26,6 +25,7 @@ from glid_nb.session.worker import LatestWins, weakly
 from glid_nb.widgets.closing import ClosingWidget
 from glid_nb.widgets.controls import REFUSED, button
 
+_MOST_CHOICES = 10_000  # bytes of those of an export
 _NUMBER = {"width": "70px", "flex": "0 0 auto"}
 
 # A name, and what takes the files and says where they are.
@@ -143,18 +143,18 @@ def _motion_files(model: EditorModel, motion: Motion, name: str, **how: Any) -> 
 def last_export() -> dict[str, Any]:
     """What `remember_export` wrote last; empty where nothing can be read."""
     try:
-        known = json.loads(_last_export().read_bytes())
-    except (OSError, ValueError):  # none yet, or damaged
+        data = read_file(_last_export(), most=_MOST_CHOICES)
+        known = parse_json(data, "last-export.json", nan=False)
+    except (OSError, InputError):  # none yet, or damaged
         return {}
     return known if isinstance(known, dict) else {}
 
 
 def remember_export(choices: Mapping[str, Any]) -> None:
-    """Keep the choices of an export in the user's data folder, if that can be written."""
+    """Keep the choices of an export in the user's data folder; an OSError if that fails."""
     path = _last_export()
-    with contextlib.suppress(OSError):  # the export itself needs no such folder
-        path.parent.mkdir(parents=True, exist_ok=True)
-        write_atomically(path, json_text(choices))
+    path.parent.mkdir(parents=True, exist_ok=True)
+    write_atomically(path, json_text(choices))
 
 
 def _last_export() -> Path:

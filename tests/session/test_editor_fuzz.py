@@ -105,7 +105,7 @@ class Session(RuleBasedStateMachine):
 
     @rule()
     def toggle_hole(self) -> None:
-        if self.model.tracing.domain is not None and self.model.tracing.outline_holes:
+        if self.model.tracing.holes:
             self.model.tracing.toggle_hole(0)
             self.model.apply_tracing()
 
@@ -173,6 +173,5 @@ class Session(RuleBasedStateMachine):
         assert self.deformation.status.level != "error", self.deformation.status.text
 
 
-TestSession = Session.TestCase
-TestSession.settings = settings(max_examples=6, stateful_step_count=25, deadline=None)
-TestSession = pytest.mark.slow(pytest.mark.timeout(900)(TestSession))
+Session.TestCase.settings = settings(max_examples=8, stateful_step_count=25, deadline=None)
+TestSession = pytest.mark.slow(Session.TestCase)

@@ -97,7 +97,7 @@ def test_a_finer_cage_is_not_shown_the_motion_of_the_coarser(panel: TimelinePane
     act(panel, "keep", time=0)
     model.drag(0, (-6, 1.5))
     assert panel.animation.wait(TIMEOUT)
-    fine = Domain.from_cage(coarse.cage.subdivided(coarse.cage.longer_side / 20))
+    fine = Domain.from_cage(trace(PICTURE, max_edge=1.0).cage)
     assert fine.n_coefficients > coarse.n_coefficients
     model.set_domain(fine)
     assert {span.map.domain for span in panel.animation.spans} == {fine}
