@@ -1,8 +1,8 @@
 """Put pictures of the documentation into the notebooks that show them.
 
-A cell shows ``![...](attachment:NAME.png)``, which is ``docs/NAME.png`` once this was run. A picture
-by its path would be missing wherever only the notebook is: in a copy, on Colab, and where a server's
-folder is the notebook's own. Run ``python tools/attach_pictures.py`` after pictures were drawn anew.
+A cell shows ``![...](attachment:NAME.png)``, which is ``docs/NAME.png`` once this was run. A path
+would lead nowhere in a copy, on Colab, and on a server whose folder is the notebook's own. Run
+``python tools/attach_pictures.py`` after pictures were drawn anew.
 """
 
 from __future__ import annotations
@@ -30,7 +30,8 @@ def attach(cell: nbformat.NotebookNode) -> bool:
 def main() -> None:
     for path in sorted((ROOT / "notebooks").glob("*.ipynb")):
         book = nbformat.read(path, as_version=4)
-        if any([attach(cell) for cell in book.cells if cell.cell_type == "markdown"]):
+        attached = [attach(cell) for cell in book.cells if cell.cell_type == "markdown"]
+        if any(attached):
             nbformat.write(book, path)
 
 

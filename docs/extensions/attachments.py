@@ -12,7 +12,7 @@ from sphinx.application import Sphinx
 
 def write_attachments(app: Sphinx, name: str, source: list[str]) -> None:
     """Write a notebook's attachments below the doctrees, and name those files in its cells."""
-    if not app.env.doc2path(name).suffix == ".ipynb":
+    if app.env.doc2path(name).suffix != ".ipynb":
         return
     book = json.loads(source[0])
     folder = Path(app.doctreedir).resolve() / "attachments" / name

@@ -58,7 +58,11 @@ _POSE_KEYS = {
     "targets": _json.check_points,
 }
 # To poses, by versions.
-_ADDED = {3: ("depths",), 4: ("angles", "scales", "weights", "names", "stiffness"), 5: ("unsolved",)}
+_ADDED = {
+    3: ("depths",),
+    4: ("angles", "scales", "weights", "names", "stiffness"),
+    5: ("unsolved",),
+}
 _MOST_ITERATIONS = 200  # was written where max_iterations is None, the method's own limit
 _MASK = "mask"  # written instead of strokes; the pixels are in another member
 _NEVER = "never"  # TraceOptions.max_edge == inf, which JSON cannot say

@@ -286,7 +286,7 @@ class EditorModel(Observed):
             warnings.warn(text, RuntimeWarning, stacklevel=2)
 
     def not_kept(self, error: OSError) -> None:
-        """Tell, by ``save_error``, that the user's data folder failed; nothing else ends by that."""
+        """Tell, by ``save_error``, that the user's data folder failed, and go on without it."""
         self._saved(KeptWorkError(error))
 
     def _remove_kept(self, path: Path) -> None:

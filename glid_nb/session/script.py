@@ -27,9 +27,9 @@ def python_code(document: Document, picture: str = "picture.png", *, exact: bool
     or came from scribbles, is written out.
 
     ``exact`` writes the coefficients of the document's map, some kilobytes, instead of a solve,
-    where the pose is solved. A solve ends at the same energy to ten digits, unless a hard pose has several minima and the
-    editor reached another one than a solve from the identity does. Raises a DocumentError when
-    there is no pose, or the energy of one is a Python function.
+    where the pose is solved. A solve ends at the same energy to ten digits, unless a hard pose has
+    several minima and the editor reached another one than a solve from the identity does. Raises a
+    DocumentError when there is no pose, or the energy of one is a Python function.
     """
     check_type("document", document, Document, "such as that of an editor")
     if not document.poses:

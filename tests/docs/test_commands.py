@@ -36,10 +36,13 @@ COMMANDS = [command for path in PAGES for command in commands(path)]
 READY = "() => window.jupyterapp?.shell?.currentWidget?.context?.isReady"
 # Whether all of a page's Markdown pictures are there; None without any.
 PICTURES = """() => {
-  const all = [...document.querySelectorAll('.jp-RenderedMarkdown img, .jp-RenderedHTMLCommon img')];
+  const text = '.jp-RenderedMarkdown img, .jp-RenderedHTMLCommon img';
+  const all = [...document.querySelectorAll(text)];
   return all.length ? all.every((one) => one.complete && one.naturalWidth > 0) : null;
 }"""
-OPEN = """(path) => window.jupyterapp.commands.execute('docmanager:open', {path}).then(() => null)"""
+OPEN = (
+    """(path) => window.jupyterapp.commands.execute('docmanager:open', {path}).then(() => null)"""
+)
 
 
 @pytest.fixture(scope="module")

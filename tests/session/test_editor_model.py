@@ -441,7 +441,7 @@ class TestKeptWork:
         for width in range(60, 82, 4):  # of the oldest ones, too
             self.left((-4, 0), width=width)
 
-        def refused(path: Path, missing_ok: bool = False) -> None:
+        def refused(path: Path, **_: bool) -> None:
             if path.suffix == ".glid":
                 raise PermissionError(errno.EACCES, f"{path} cannot be deleted")
 

@@ -99,7 +99,7 @@ def test_what_is_exported_is_solved_first(model: EditorModel, tmp_path: Path) ->
 
 
 def test_while_the_solver_is_paused_a_file_says_what_is_not_solved(
-    model: EditorModel, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    model: EditorModel, tmp_path: Path
 ) -> None:
     path, deformation = tmp_path / "s.glid", model.deformation
     deformation.paused = True
@@ -109,7 +109,7 @@ def test_while_the_solver_is_paused_a_file_says_what_is_not_solved(
     for name in ("a.png", "a.glb", "a.proof.json", "a.svg", "a.html"):
         with pytest.raises(EditError, match="the pose 'a 1' is not solved, for the solver is pau"):
             exporting.export(model, tmp_path / name)
-    with pytest.raises(EditError, match="the pose 'a' is not solved.*; the pose 'a 1' is not"):
+    with pytest.raises(EditError, match=r"the pose 'a' is not solved.*; the pose 'a 1' is not"):
         exporting.export(model, tmp_path / "a.gif")
     # The command line solves it, and so does an editor that opens it.
     out = tmp_path / "walk.motion.json"
@@ -160,7 +160,7 @@ def as_older_versions_wrote(document: Document, path: Path) -> None:
 
 
 def test_a_file_with_the_fault_of_older_versions_is_repaired(
-    model: EditorModel, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    model: EditorModel, tmp_path: Path
 ) -> None:
     path = tmp_path / "s.glid"
     as_older_versions_wrote(model.document, path)
@@ -212,7 +212,7 @@ def test_a_pose_of_a_method_without_certified_maps_is_named(
     model.save(tmp_path / "s.glid")
     document = load_document(tmp_path / "s.glid")
     assert [pose.name for pose in document.unsolved] == ["a 1"]
-    with pytest.raises(glid.InputError, match="these poses are not solved.*'a 1'; open"):
+    with pytest.raises(glid.InputError, match=r"these poses are not solved.*'a 1'; open"):
         solved_document(document)
 
 
