@@ -25,6 +25,7 @@ extensions = [
     "sphinx.ext.napoleon",
     "sphinx_copybutton",
     # In docs/extensions.
+    "attachments",
     "course",
     "front_page",
     "mathml",

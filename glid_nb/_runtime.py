@@ -153,8 +153,14 @@ def cache_directory() -> Path:
 
 
 def data_directory() -> Path:
-    """The folder for kept work: ``$GLID_NB_DATA``, else the user's data directory."""
-    return _directory("GLID_NB_DATA", "XDG_DATA_HOME", ".local/share")
+    """The folder for kept work: ``$GLID_NB_DATA``, else the user's data directory.
+
+    A FileNotFoundError where neither is set and the user has no home.
+    """
+    try:
+        return _directory("GLID_NB_DATA", "XDG_DATA_HOME", ".local/share")
+    except RuntimeError as error:  # as in a container, by a number that is no user's
+        raise FileNotFoundError(f"There is no data folder: {error}") from None
 
 
 def _directory(own: str, common: str, usual: str) -> Path:

@@ -74,7 +74,8 @@ def session(
     domain = glid.Domain.from_cage(glid.trace(image).cage)
     rest, energy = glid.HarmonicMap.identity(domain), glid.SymmetricDirichlet()
     poses = [
-        glid.NamedPose(name, pose, energy, how, rest, method) for name, method in compared.items()
+        glid.NamedPose(name, pose, energy, how, rest, method, solution=None)
+        for name, method in compared.items()
     ]
     return glid.Document(image, domain.cage, domain, glid.TraceOptions(), None, tuple(poses), 0)
 

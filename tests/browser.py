@@ -1,8 +1,9 @@
 """A real browser on a real JupyterLab, for tests that assert on what a user meets.
 
 `JupyterServer` is a server of its own: a random port, temporary folders for notebooks, settings and
-workspaces, nothing of the user's. `LabNotebook` is one notebook open in it, in JupyterLab or in
-Notebook; `VoilaPage` is one that Voila shows. `SharedLab` is a page and a kernel that notebooks use
+workspaces, nothing of the user's. It is started by the command that the documentation shows, as
+Notebook and Voila are. `LabNotebook` is one notebook open in it, in JupyterLab or in Notebook;
+`VoilaPage` is one that Voila shows. `SharedLab` is a page and a kernel that notebooks use
 one after the other: loading the page and starting a kernel take longer than most tests.
 """
 
@@ -14,9 +15,10 @@ import contextlib
 import json
 import os
 import re
+import shlex
 import shutil
+import socket
 import subprocess
-import sys
 import threading
 import time
 import uuid
@@ -36,7 +38,8 @@ from playwright.sync_api import (
     sync_playwright,
 )
 
-REPOSITORY = Path(__file__).resolve().parent.parent
+from .documented import REPOSITORY, documented
+
 WINDOW: ViewportSize = {"width": 1366, "height": 768}
 ARTEFACTS = Path(os.environ.get("GLID_NB_ARTEFACTS", REPOSITORY / "artefacts"))
 
@@ -154,74 +157,59 @@ def launched_chromium() -> Iterator[Browser]:
         browser.close()
 
 
-class JupyterServer:
-    """JupyterLab in a process of its own, on a free port of this machine, without a token.
+class Host:
+    """A server that a documented command starts, on a free port of this machine, without a token.
 
     Parameters
     ----------
+    words
+        The command, as the page has it; everything else is said by files of settings.
     folder
-        Empty; notebooks go to ``folder/notebooks``, everything else beside it.
+        Where it is run.
+    own
+        A folder for settings, workspaces and what the server runs; nothing of the user's is used.
     """
 
-    def __init__(self, folder: Path) -> None:
-        self.notebooks = folder / "notebooks"
-        self.notebooks.mkdir(parents=True)
-        self.runtime = folder / "runtime"
-        settings = folder / "settings"
-        for name, values in _SETTINGS.items():
-            file = settings / "@jupyterlab" / f"{name}.jupyterlab-settings"
-            file.parent.mkdir(parents=True, exist_ok=True)
-            file.write_text(json.dumps(values))
+    def __init__(self, words: Sequence[str], folder: Path, own: Path) -> None:
+        self.runtime = own / "runtime"
+        port = _free_port()
+        _write_settings(own, port, self.runtime)
         environment = {
             **os.environ,
-            "JUPYTER_CONFIG_DIR": str(folder / "config"),
-            "JUPYTER_DATA_DIR": str(folder / "data"),
+            "JUPYTER_CONFIG_DIR": str(own / "config"),
+            "JUPYTER_DATA_DIR": str(own / "data"),
             "JUPYTER_RUNTIME_DIR": str(self.runtime),
-            "JUPYTERLAB_SETTINGS_DIR": str(settings),
-            "JUPYTERLAB_WORKSPACES_DIR": str(folder / "workspaces"),
-            "IPYTHONDIR": str(folder / "ipython"),
+            "JUPYTERLAB_SETTINGS_DIR": str(own / "settings"),
+            "JUPYTERLAB_WORKSPACES_DIR": str(own / "workspaces"),
+            "IPYTHONDIR": str(own / "ipython"),
             # The kernels import the package that is being tested.
             "PYTHONPATH": os.pathsep.join(
                 [str(REPOSITORY), *filter(None, [os.environ.get("PYTHONPATH")])]
             ),
         }
-        flags = (
-            "--no-browser",
-            "--allow-root",
-            "--ServerApp.ip=127.0.0.1",
-            "--ServerApp.port=0",
-            f"--ServerApp.root_dir={self.notebooks}",
-            "--IdentityProvider.token=",
-            "--ServerApp.password=",
-            "--ServerApp.terminals_enabled=False",
-            "--LabApp.expose_app_in_browser=True",
-            "--JupyterNotebookApp.expose_app_in_browser=True",
-            "--LabApp.extension_manager=readonly",
-            "--LabApp.check_for_updates_class=jupyterlab.NeverCheckForUpdate",
-        )
+        self.url = f"http://127.0.0.1:{port}"
         self._log: list[str] = []
         self._process = subprocess.Popen(
-            [sys.executable, "-m", "jupyterlab", *flags],
-            cwd=self.notebooks,
+            words,
+            cwd=folder,
             env=environment,
             stdin=subprocess.DEVNULL,
             stdout=subprocess.DEVNULL,
             stderr=subprocess.PIPE,
             text=True,
         )
-        self.url = self._first_url()
+        self._wait_until_it_serves(words)
         # The pipe must be emptied as long as the server writes into it.
         self._reader = threading.Thread(target=self._read, daemon=True)
         self._reader.start()
 
-    def _first_url(self) -> str:
+    def _wait_until_it_serves(self, words: Sequence[str]) -> None:
         assert self._process.stderr is not None
         for line in self._process.stderr:
             self._log.append(line)
-            found = re.search(r"(http://127\.0\.0\.1:\d+)/", line)
-            if found:
-                return found[1]
-        raise RuntimeError("JupyterLab did not start:\n" + "".join(self._log))
+            if self.url in line:
+                return
+        raise RuntimeError(f"{shlex.join(words)} did not start:\n" + "".join(self._log))
 
     def _read(self) -> None:
         assert self._process.stderr is not None
@@ -231,6 +219,12 @@ class JupyterServer:
     def log(self) -> str:
         """What the server wrote so far."""
         return "".join(self._log)
+
+    @property
+    def start_page(self) -> str:
+        """The page that a browser would have been opened on."""
+        (page, *_) = re.findall(rf"{self.url}/\S*", self.log)
+        return page
 
     def close(self) -> None:
         """End the server and its kernels."""
@@ -243,6 +237,58 @@ class JupyterServer:
         self._reader.join()
         assert self._process.stderr is not None
         self._process.stderr.close()
+
+
+def _free_port() -> int:
+    with socket.socket() as bound:
+        bound.bind(("127.0.0.1", 0))
+        return bound.getsockname()[1]
+
+
+def _write_settings(own: Path, port: int, runtime: Path) -> None:
+    """What would be flags of the command, as files."""
+    network = {"ip": "127.0.0.1", "port": port, "open_browser": False}
+    server = {
+        "ServerApp": {**network, "allow_root": True, "password": "", "terminals_enabled": False},
+        "IdentityProvider": {"token": ""},
+    }
+    app = {"expose_app_in_browser": True}
+    never = "jupyterlab.NeverCheckForUpdate"
+    lab = {**app, "extension_manager": "readonly", "check_for_updates_class": never}
+    voila = {**network, "connection_dir_root": str(runtime)}
+    files = {
+        "config/jupyter_server_config.json": server,
+        "config/jupyter_lab_config.json": {**server, "LabApp": lab},
+        "config/jupyter_notebook_config.json": {**server, "JupyterNotebookApp": app},
+        "config/voila.json": {"Voila": voila},
+    }
+    for name, values in _SETTINGS.items():
+        files[f"settings/@jupyterlab/{name}.jupyterlab-settings"] = values
+    for name, values in files.items():
+        (own / name).parent.mkdir(parents=True, exist_ok=True)
+        (own / name).write_text(json.dumps(values))
+    runtime.mkdir(exist_ok=True)
+
+
+class JupyterServer(Host):
+    """JupyterLab, started as the course's page says, and what else shows its notebooks.
+
+    Parameters
+    ----------
+    folder
+        Empty; notebooks go to ``folder/notebooks``, everything else beside it.
+    """
+
+    def __init__(self, folder: Path) -> None:
+        self.folder, self.notebooks = folder, folder / "notebooks"
+        self.notebooks.mkdir(parents=True)
+        super().__init__(documented("jupyter", "lab", "notebooks"), folder, folder / "lab")
+
+    def beside(self, name: str, *start: str) -> Host:
+        """A server of one of the notebooks, by the documented command that begins so."""
+        words = documented(*start)
+        words[-1] = f"notebooks/{name}.ipynb"
+        return Host(words, self.folder, self.folder / name)
 
 
 class Watch:
@@ -342,8 +388,12 @@ class LabNotebook(NotebookPage):
         lab: SharedLab | None = None,
     ) -> None:
         super().__init__(page, server, cells)
-        where = f"lab/workspaces/{self._name}/tree" if interface == "lab" else "notebooks"
-        self._url = f"{server.url}/{where}/{self._name}.ipynb"
+        self._own: Host | None = None
+        if interface == "lab":
+            self._url = f"{server.url}/lab/workspaces/{self._name}/tree/{self._name}.ipynb"
+        else:
+            self._own = server.beside(self._name, "jupyter", "notebook")
+            self._url = f"{self._own.url}/notebooks/{self._name}.ipynb"
         if lab is not None:
             lab.start_session(f"{self._name}.ipynb")
         if lab is not None and lab.page is page:
@@ -412,6 +462,8 @@ class LabNotebook(NotebookPage):
         self.page.evaluate(
             "() => window.jupyterapp.shell.currentWidget?.sessionContext?.shutdown()"
         )
+        if self._own is not None:
+            self._own.close()
 
 
 class SharedLab:
@@ -466,13 +518,13 @@ class VoilaPage(NotebookPage):
         super().__init__(page, server, cells)
         # Comes when all cells have run, on a busy machine with nothing compiled too; the test's own
         # time limit ends it.
-        page.goto(f"{server.url}/voila/render/{self._name}.ipynb", timeout=0)
+        self._host = server.beside(self._name, "voila")
+        page.goto(self._host.start_page, timeout=0)
         kernel = page.evaluate(
             "JSON.parse(document.getElementById('jupyter-config-data').textContent).kernelId"
         )
-        self._client = BlockingKernelClient(
-            connection_file=str(server.runtime / f"kernel-{kernel}.json")
-        )
+        (connection,) = self._host.runtime.rglob(f"kernel-{kernel}.json")
+        self._client = BlockingKernelClient(connection_file=str(connection))
         self._client.load_connection_file()
         self._client.start_channels()
 
@@ -491,3 +543,4 @@ class VoilaPage(NotebookPage):
     def shut_down(self) -> None:
         self._client.shutdown()
         self._client.stop_channels()
+        self._host.close()

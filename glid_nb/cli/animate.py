@@ -19,6 +19,7 @@ from glid_nb._errors import InputError, InputFileError
 from glid_nb.cli.many import refuse_standard_output
 from glid_nb.cli.output import check_files, check_folder, step
 from glid_nb.session.timeline import Timeline
+from glid_nb.session.unsolved import solved_document
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -63,6 +64,9 @@ def _read(chosen: argparse.Namespace) -> tuple[Any, glid_nb.Motion, list[glid_nb
             raise InputFileError(f"{chosen.source} holds {count} poses; a motion needs at least 2")
         if chosen.picture is not None:
             raise InputError("--picture is for saved motions; a session holds its picture")
+        if document.unsolved:  # it was saved while the solver was paused, or by an older version
+            with step("solving the poses that were saved unsolved") as detail:
+                document = solved_document(document, detail)
         timeline = document.timeline or replace(Timeline.even(count), repeat="loop")
         timeline = replace(timeline, repeat=chosen.loop or timeline.repeat)
         if chosen.seconds is not None:

@@ -15,9 +15,8 @@ from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging.order import Order
 from glid_nb.motion import Motion, MotionError, Piece, unlike_turns
 from glid_nb.session.deformation import Deformation
-from glid_nb.session.document import AS_SEEN, NamedPose, Solution
+from glid_nb.session.document import AS_SEEN, NamedPose
 from glid_nb.session.edit_state import EditError, EditState, Moment
-from glid_nb.session.live_solver import solve_edited
 from glid_nb.session.model import Observed
 from glid_nb.session.timeline import on_grid, thinned
 from glid_nb.session.worker import LatestWins, weakly
@@ -49,8 +48,7 @@ class Animation(Observed):
     def __init__(self, deformation: Deformation) -> None:
         super().__init__()
         self.deformation = deformation
-        self.spans: tuple[Span, ...] = ()
-        """From each keyframe to the next, and from the last to the first of a loop."""
+        self._spans: tuple[Span, ...] = ()
         self.recording = False  # whether the next drag, or the present one, is kept as keyframes
         self._task: EditState | None = None
         self._asked = False
@@ -62,9 +60,22 @@ class Animation(Observed):
         self._on_model("state")
 
     @property
+    def spans(self) -> tuple[Span, ...]:
+        """From each keyframe to the next, and from the last to the first of a loop.
+
+        They are always those of the present poses.
+        """
+        with self.deformation.locked(), self.locked():
+            state = self.deformation.state
+            return self._spans if _same_motion(state, self._task) else _spans(state)
+
+    @property
     def motion(self) -> Motion:
-        """The motion as a value, whether proved or not; MotionError where it cannot be made."""
-        return motion_of(self.deformation.state)
+        """The motion as a value, proved or not, once all poses are solved.
+
+        MotionError where it cannot be made, EditError where a pose cannot be solved.
+        """
+        return motion_of(self.deformation.solved_state())
 
     def at(self, time: float) -> HarmonicMap | None:
         """The proved map at a time, or the last proved one before it; None outside the motion."""
@@ -125,18 +136,16 @@ class Animation(Observed):
 
     def _follow(self, moment: Moment) -> None:
         """Ask for what is to be proved, once the pose that is edited has come to rest."""
-        task, settled = moment.state, moment.solved or moment.error is not None
+        task = moment.state
         if not _same_motion(task, self._task):
             self._worker.cancel()
             self._asked = False
             spans = _spans(task)
-            if [(*s[:2], "computing") for s in spans] != [(*s[:2], s.status) for s in self.spans]:
-                self.spans = spans
+            if [(*s[:2], "computing") for s in spans] != [(*s[:2], s.status) for s in self._spans]:
                 self.tell("motion")
+            self._spans = spans
         self._task = task
-        at_rest = not moment.dragged and (settled or (self.deformation.begun and not moment.busy))
-        left = not moment.paused and not self._worker.busy and _left(task) is not None
-        if at_rest and (left or not self._asked) and len(task.poses) > 1:
+        if not self._asked and len(task.poses) > 1 and self.deformation.settled():
             self._asked = True
             self._worker.submit(task)
 
@@ -173,10 +182,8 @@ class Animation(Observed):
 
     def _prove(self, task: EditState, worker: LatestWins[EditState]) -> None:
         spans, told = list(_spans(task)), time.monotonic()
-        if not self.deformation.paused and (left := _left(task)) is not None:
-            self._solve(task, left, worker)
-            return
-        for i, span in _proved(task, worker):
+        reasons = [self.deformation.why_unsolved(pose) for pose in task.poses]
+        for i, span in _proved(task, reasons, worker):
             spans[i] = span
             if time.monotonic() - told > _INTERVAL:
                 told = time.monotonic()
@@ -184,29 +191,11 @@ class Animation(Observed):
         if not worker.overtaken:
             self._publish(task, spans)
 
-    def _solve(self, task: EditState, pose: NamedPose, worker: LatestWins[EditState]) -> None:
-        """Solve a pose to its end; the model then reports that, and so asks for the proof again."""
-        try:
-            result = solve_edited(pose, lambda _: worker.overtaken)
-        except Exception as error:  # shown in the timeline
-            reason = f"{pose.name!r} could not be solved: {error}"
-            self._publish(task, [s._replace(status="refused", reason=reason) for s in _spans(task)])
-            return
-        if not worker.overtaken:
-            solution = Solution(result.status, result.message, result.history, (1,))
-            solved = replace(pose, map=result.map, solution=solution)
-            self.deformation.refine_pose(pose, solved)
-
     def _publish(self, task: EditState, spans: list[Span]) -> None:
         with self.locked():
             if _same_motion(task, self._task):
-                self.spans = tuple(spans)
+                self._spans = tuple(spans)
                 self.tell("motion")
-
-
-def _left(task: EditState) -> NamedPose | None:
-    others = (pose for pose in task.poses if pose is not task.current)
-    return next((p for p in others if p.solution is None and p.method.certified), None)
 
 
 def _same_motion(task: EditState, other: EditState | None) -> bool:
@@ -233,14 +222,23 @@ def motion_of(task: EditState, first: int = 0, last: int | None = None) -> Motio
     return Motion(chosen, times, easing=timeline.easing[first:last])
 
 
-def _proved(task: EditState, worker: LatestWins[EditState]) -> Iterator[tuple[int, Span]]:
-    """Interval after interval; where poses turn otherwise around holes, motions end and begin."""
+def _proved(
+    task: EditState, reasons: list[str | None], worker: LatestWins[EditState]
+) -> Iterator[tuple[int, Span]]:
+    """Interval after interval; where poses turn otherwise around holes, motions end and begin.
+
+    So they do where a pose is not solved, for one of the ``reasons``.
+    """
     spans = _spans(task)
     poses = [*task.poses, task.poses[0]][: len(spans) + 1]
     refused = {}
     for i, pair in enumerate(itertools.pairwise(poses)):
         if worker.overtaken:
             return
+        ends = (reasons[i], reasons[(i + 1) % len(reasons)])
+        if unsolved := next((reason for reason in ends if reason is not None), None):
+            refused[i] = spans[i]._replace(status="refused", reason=unsolved)
+            continue
         if reason := unlike_turns(*(certificate_of(pose.map) for pose in pair)):
             names = " and ".join(repr(pose.name) for pose in pair)
             refused[i] = spans[i]._replace(status="refused", reason=f"{names} {reason}")

@@ -1,7 +1,9 @@
 """Saving in the background, and which files an editor may replace unasked."""
 
+import contextlib
 import hashlib
 import itertools
+import os
 import threading
 import weakref
 from collections.abc import Callable, Iterable
@@ -10,7 +12,6 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from glid_nb._files import discard
 from glid_nb._runtime import data_directory
 from glid_nb.session.document import Document
 from glid_nb.session.document_file import save_document
@@ -53,6 +54,8 @@ class Autosave:
     What is pending is written when this is closed, when its ``owner`` goes and when the process
     ends. A file that another program has changed is left: later saves go to a new one beside it.
 
+    Where a save fails it goes to ``elsewhere()``, if that is given, from then on.
+
     After each save ``on_done`` is called, in the thread, with the exception if it failed, else with
     None. The file as it is now becomes one of the ``own`` files.
     """
@@ -64,8 +67,10 @@ class Autosave:
         on_done: Callable[[Exception | None], None] | None = None,
         own: OwnFiles | None = None,
         owner: object | None = None,
+        elsewhere: Callable[[], Path] | None = None,
     ) -> None:
         self.path, self.own, self._on_done = Path(path), own or OwnFiles(), on_done
+        self._elsewhere = elsewhere
         self.left: Path | None = None
         """The file that was given up because another program changed it."""
         self.error: Exception | None = None
@@ -104,13 +109,22 @@ class Autosave:
             try:
                 if self.own.strangers([self.path], self.path):
                     self.left, self.path = self.path, free_sibling(self.path)
-                self._write(document)
+                self._write_somewhere(document)
                 if self.own.session == self.left:
                     self.own.session = self.path
             except Exception as error:  # reported; the next submission tries again
                 self.error = error
         if self._on_done is not None:
             self._on_done(self.error)
+
+    def _write_somewhere(self, document: Document) -> None:
+        try:
+            self._write(document)
+        except OSError:
+            if self._elsewhere is None:
+                raise
+            self.path = self._elsewhere()
+            self._write(document)
 
     def _write(self, document: Document) -> None:
         with self._writing:
@@ -137,19 +151,30 @@ def free_sibling(path: Path) -> Path:
 
 
 def kept_files(image: NDArray[np.uint8] | None = None) -> list[Path]:
-    """Files of kept work that is in no other file, of one picture or of any; the newest first."""
-    versions = {path: _version_of(path) for path in _kept().glob("*.glid")}
+    """Files of kept work that is in no other file, of one picture or of any; the newest first.
+
+    There are none where the data folder, or a file in it, cannot be read.
+    """
+    try:
+        found = [path for path in _kept().glob("*.glid") if os.access(path, os.R_OK)]
+    except OSError:  # said when something is to be kept there
+        return []
+    versions = {path: _version_of(path) for path in found}
     paths = sorted(versions, key=lambda path: versions[path] or (), reverse=True)
     name = "" if image is None or not paths else _name_of(image)
     return [path for path in paths if path.name.startswith(name)]
 
 
 def new_kept_file(image: NDArray[np.uint8]) -> Path:
-    """Where to keep work on a picture from now on; its folder is made, the oldest files go."""
+    """Where to keep work on a picture from now on; its folder is made, the oldest files go.
+
+    Raises an OSError where there can be no such folder.
+    """
     path = _kept() / f"{_name_of(image)}.glid"
     path.parent.mkdir(parents=True, exist_ok=True)
     for old in kept_files()[MOST_KEPT - 1 :]:
-        discard(old)
+        with contextlib.suppress(OSError):  # another user's, say; one file more is no harm
+            old.unlink(missing_ok=True)
     return free_sibling(path) if path.exists() else path
 
 

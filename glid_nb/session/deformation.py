@@ -1,6 +1,8 @@
 """The model of the deformation editor: handles, drags, undo, and the solver's thread."""
 
 import functools
+import time
+import weakref
 from collections.abc import Callable, Iterable, Sequence
 from contextlib import AbstractContextManager
 from dataclasses import replace
@@ -18,12 +20,12 @@ from glid_nb.geometry import Domain
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging.order import Sheets
 from glid_nb.session import actions, pose_text
-from glid_nb.session.document import NamedPose
+from glid_nb.session.document import NamedPose, Solution
 from glid_nb.session.edit_state import EditError, EditState, Frame, Moment, Task
-from glid_nb.session.live_solver import LiveSolver
+from glid_nb.session.live_solver import LiveSolver, solve_edited
 from glid_nb.session.model import History, Undoable
 from glid_nb.session.status_line import StatusLine, describe
-from glid_nb.session.worker import LatestWins
+from glid_nb.session.worker import LatestWins, weakly
 from glid_nb.solvers import Options, Pose
 
 P = ParamSpec("P")
@@ -80,6 +82,10 @@ class Deformation(Undoable[EditState], AbstractContextManager["Deformation"]):
         self._prepared = 1.0
         solver = LiveSolver(self._accept, self._fail, self._prepare)
         self._worker = LatestWins(solver.solve, self, "live solver", waits=False)
+        others = weakly(self._solve_others)
+        self._others: LatestWins[None] = LatestWins(others, self, "other poses", waits=False)
+        # Why solves of poses that are not edited failed.
+        self._failures = weakref.WeakKeyDictionary[NamedPose, Exception]()
         self._closed = self._paused = False
         if begin:
             self.begin()
@@ -251,6 +257,7 @@ class Deformation(Undoable[EditState], AbstractContextManager["Deformation"]):
             self.end_drag()
             actions.nudge(self.state, indices, (0, 0))  # refuses what does not exist
             self.dragged = tuple(int(i) for i in indices)
+            self._others.cancel()  # the hand has the processor to itself
 
     def drag_to(self, targets: ArrayLike) -> None:
         """Move the targets of the dragged handles to (h, 2)."""
@@ -282,6 +289,7 @@ class Deformation(Undoable[EditState], AbstractContextManager["Deformation"]):
             if origin is not None and _asks_alike(origin.present.pose, self.pose):
                 self.history = origin.refined(self.state)  # the drag came back to its start
             self.history = self.history.ended()
+            self._go_on()
             self.tell("state")
 
     def cancel_drag(self) -> bool:
@@ -301,15 +309,6 @@ class Deformation(Undoable[EditState], AbstractContextManager["Deformation"]):
         with self.locked():
             self._check_open()
             self._go_to(self.history.refined(actions.record(self.state, first, poses, offsets)))
-
-    def refine_pose(self, pose: NamedPose, solved: NamedPose) -> None:
-        """Put its solved self in place of a pose that is not edited; no step for undo."""
-        with self.locked():
-            state = self.state
-            if pose is not state.current and not self._closed:
-                poses = tuple(solved if each is pose else each for each in state.poses)
-                self.history = self.history.refined(replace(state, poses=poses))
-                self.tell("state")
 
     # Undo
 
@@ -346,24 +345,70 @@ class Deformation(Undoable[EditState], AbstractContextManager["Deformation"]):
                 self.tell("status")
 
     def solve(self, timeout: float | None = None) -> bool:
-        """Wait until the present pose is solved; whether it is within ``timeout`` seconds.
+        """Wait until the present pose is solved, and then the others that are not.
 
-        An interrupt stops the solve and keeps the map that it has reached.
+        Others are left unsolved by a new cage, or by going to another pose too early. Returns
+        whether it took no more than ``timeout`` seconds. An interrupt stops the solve and keeps the
+        map that it has reached.
         """
         check_type("timeout", timeout, Real | None, "give seconds, or None to wait to the end")
         with self.locked():
             self._check_open()
             if not self.moment.solved and not self.busy:
                 self._submit()
-        try:
-            return self._worker.wait(timeout)
-        except KeyboardInterrupt:
-            self.stop()
-            raise
+        return self._wait(timeout)
+
+    def finish(self, timeout: float | None = None) -> bool:
+        """As `solve`, but what was stopped, recorded or opened stays as it is."""
+        with self.locked():
+            current = self.state.current
+            if current.unsolved and current.method.certified and not self.busy and not self._closed:
+                self._submit()
+        return self._wait(timeout)
+
+    def solved_state(self, *, only_current: bool = False) -> EditState:
+        """The state once its poses, or the one that is edited, are solved.
+
+        EditError names those that are not, and says why: the solver is paused, or has failed, or
+        the pose's method gives no certified map.
+        """
+        self.finish()
+        with self.locked():
+            state = self.state
+            wanted = (state.current,) if only_current else state.poses
+            reasons = [reason for pose in wanted if (reason := self.why_unsolved(pose)) is not None]
+        if reasons:
+            raise EditError("; ".join(reasons))
+        return state
+
+    def why_unsolved(self, pose: NamedPose) -> str | None:
+        """Why a pose is not solved, in words; None when it is."""
+        with self.locked():
+            name, error = f"the pose {pose.name!r}", self._failures.get(pose)
+            if not pose.unsolved:
+                return None
+            if not pose.method.certified:
+                what = f"is deformed by {pose.method.label}, which gives no certified map"
+                return f"{name} {what}; choose another method for it"
+            if error is None and pose is self.state.current:
+                error = self._error
+            if error is not None:
+                return f"{name} could not be solved: {error}"
+            if self._paused:
+                return f"{name} is not solved, for the solver is paused; let it go on"
+            if self._closed:
+                return f"{name} was not solved before it was closed; open it again"
+            return f"{name} is not solved yet; solve it first"
+
+    def settled(self) -> bool:
+        """Whether no pose is going to be solved without another change."""
+        with self.locked():
+            return self._at_rest() and self._next_other() is None
 
     def stop(self) -> None:
-        """Stop solving; the map stays as it is."""
+        """Stop solving; the maps stay as they are."""
         self._worker.cancel()
+        self._others.cancel()
 
     @property
     def paused(self) -> bool:
@@ -378,6 +423,7 @@ class Deformation(Undoable[EditState], AbstractContextManager["Deformation"]):
             self._paused = value
             if not self.moment.solved and (self.begun or not value):
                 self._submit()
+            self._go_on()
             self.tell("state", "status")
 
     def step(self) -> None:
@@ -391,6 +437,7 @@ class Deformation(Undoable[EditState], AbstractContextManager["Deformation"]):
             self._closed = True
             self._observers.clear()
         self._worker.close()
+        self._others.close()
 
     def __exit__(self, *_: object) -> None:
         self.close()
@@ -413,6 +460,7 @@ class Deformation(Undoable[EditState], AbstractContextManager["Deformation"]):
                 self._frame = None
         self.selection = _still_there(self.selection, old.pose, new.pose)
         self._submit()
+        self._go_on()
         self.tell("state", "frame", "selection", "status")
         return True
 
@@ -435,6 +483,7 @@ class Deformation(Undoable[EditState], AbstractContextManager["Deformation"]):
                 new = replace(current, map=frame.map, solution=frame.solution if latest else None)
                 self.history = self.history.refined(self.state.with_current(new))
             self._frame, self._error = frame, None
+            self._go_on(at_rest=frame.solution is not None)
             self.tell("frame", "status")
 
     def _prepare(self, share: float) -> None:
@@ -447,7 +496,72 @@ class Deformation(Undoable[EditState], AbstractContextManager["Deformation"]):
             self._error = error
             if self.moment.comparison is not None:
                 self._frame = None  # of an earlier problem
+            self._go_on(at_rest=True)
             self.tell("frame", "status")
+
+    # The poses that are not edited
+
+    def _wait(self, timeout: float | None) -> bool:
+        """Wait until the edited pose, then the others are solved or cannot be."""
+        until = None if timeout is None else time.monotonic() + timeout
+
+        def rest() -> float | None:
+            return None if until is None else max(until - time.monotonic(), 0.0)
+
+        try:
+            if not self._worker.wait(rest()):
+                return False
+            while self._go_on(at_rest=True):
+                if not self._others.wait(rest()):
+                    return False
+            return True
+        except KeyboardInterrupt:
+            self.stop()
+            raise
+
+    def _at_rest(self) -> bool:
+        solved = self.moment.solved or self._error is not None
+        return not self.dragged and (solved or (self.begun and not self._worker.busy))
+
+    def _next_other(self) -> NamedPose | None:
+        """The next pose to solve of those that are not edited."""
+        if self._paused or self._closed or self.dragged:
+            return None
+        state = self.state
+        others = (pose for pose in state.poses if pose is not state.current)
+        left = (p for p in others if p.unsolved and p.method.certified)
+        return next((pose for pose in left if pose not in self._failures), None)
+
+    def _go_on(self, at_rest: bool = False) -> bool:
+        """Solve other poses if this one is at rest, or stop that; whether any is left to solve."""
+        with self.locked():
+            left = (at_rest or self._at_rest()) and self._next_other() is not None
+            if not left:
+                self._others.cancel()
+            elif not self._others.busy:
+                self._others.submit(None)
+            return left
+
+    def _solve_others(self, _: None, worker: LatestWins[None]) -> None:
+        while not worker.overtaken and (pose := self._next_other()) is not None:
+            try:
+                result = solve_edited(pose, lambda _: worker.overtaken)
+            except Exception as error:  # shown in the timeline, and where the pose is needed
+                self._failures[pose] = error
+                self.tell("state")
+                continue
+            if not worker.overtaken:
+                solution = Solution(result.status, result.message, result.history, (1,))
+                self._refine(pose, replace(pose, map=result.map, solution=solution))
+
+    def _refine(self, pose: NamedPose, solved: NamedPose) -> None:
+        """Put its solved self in place of a pose that is not edited; no step for undo."""
+        with self.locked():
+            state = self.state
+            if pose is not state.current and not self._closed:
+                poses = tuple(solved if each is pose else each for each in state.poses)
+                self.history = self.history.refined(replace(state, poses=poses))
+                self.tell("state")
 
 
 def _asks_alike(a: Pose, b: Pose) -> bool:

@@ -1,5 +1,6 @@
 """A document: everything that the editor saves, as one value."""
 
+import functools
 from collections.abc import Sized
 from dataclasses import dataclass, field, replace
 from typing import Any, Self
@@ -41,7 +42,7 @@ class Solution:
 
 
 AS_SEEN = Solution(Status.STOPPED, "The map is as it was recorded or saved.", (), ())
-"""Of poses that are not to be solved before they are edited."""
+"""Of poses that stay as they are until they are edited."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -63,8 +64,8 @@ class NamedPose:
     """The result; certified."""
     method: Method = field(default_factory=Newton)
     """What solves it. The result of a method on a mesh is not kept."""
-    solution: Solution | None = None
-    """How the solve of all that ended with ``map``; not saved."""
+    solution: Solution | None = AS_SEEN
+    """How the solve of all that ended with ``map``; None if the pose has changed since."""
 
     def __post_init__(self) -> None:
         check_fields(self, DocumentError, lambda field: f"{field} of the pose {self.name!r:.60}")
@@ -78,6 +79,11 @@ class NamedPose:
     def solved(self) -> bool:
         """Whether a solve ended with ``map``; never for a method on a mesh."""
         return self.solution is not None and self.solution.ended
+
+    @functools.cached_property
+    def unsolved(self) -> bool:
+        """Whether ``map`` is not yet what the pose asks for, since that or the cage has changed."""
+        return self.solution is None and not (is_identity(self.map) and at_rest(self.pose))
 
     def changed(self, **changes: Any) -> Self:
         """A copy with another pose, energy, options, map or method; it is no longer solved."""
@@ -139,6 +145,11 @@ class Document:
             raise DocumentError(f"timeline has {len(self.timeline)} keyframes for {count} poses")
 
     @property
+    def unsolved(self) -> tuple[NamedPose, ...]:
+        """The poses that are not solved on this cage yet (`NamedPose.unsolved`)."""
+        return tuple(pose for pose in self.poses if pose.unsolved)
+
+    @property
     def active_pose(self) -> NamedPose | None:
         """The pose that is shown; None when there are none."""
         return self.poses[self.active] if self.poses else None
@@ -148,6 +159,18 @@ def check_room(poses: Sized) -> None:
     """Raise DocumentError for more poses than a document may hold."""
     if len(poses) > _MOST_POSES:
         raise DocumentError(f"poses: there are {len(poses)}; {_MOST_POSES} are allowed")
+
+
+def at_rest(pose: Pose) -> bool:
+    """Whether the identity meets all pins; no energy is lower anywhere."""
+    in_place = np.array_equal(pose.targets, pose.handles)
+    unturned = not (np.nan_to_num(pose.angles, nan=0.0)).any()
+    return in_place and unturned and bool((np.nan_to_num(pose.scales, nan=1.0) == 1).all())
+
+
+def is_identity(map: HarmonicMap) -> bool:
+    """Whether the map has the very coefficients of ``HarmonicMap.identity``."""
+    return not map.psi.any() and np.array_equal(map.phi, HarmonicMap.identity(map.domain).phi)
 
 
 def _check_kind(name: str, value: object, kind: type) -> None:

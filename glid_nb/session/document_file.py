@@ -24,7 +24,15 @@ from glid_nb.harmonic import HarmonicMap
 from glid_nb.harmonic.map import DOMAIN_KEYS, complex_from_pairs
 from glid_nb.imaging import Scribbles, TraceOptions
 from glid_nb.imaging.read import MAX_SIDE, picture_format, png
-from glid_nb.session.document import Document, DocumentError, NamedPose, check_room
+from glid_nb.session.document import (
+    AS_SEEN,
+    Document,
+    DocumentError,
+    NamedPose,
+    at_rest,
+    check_room,
+    is_identity,
+)
 from glid_nb.session.timeline import Timeline
 from glid_nb.solvers import Newton, Options, Pose
 
@@ -50,7 +58,11 @@ _POSE_KEYS = {
     "targets": _json.check_points,
 }
 # To poses, by versions.
-_ADDED = {3: ("depths",), 4: ("angles", "scales", "weights", "names", "stiffness")}
+_ADDED = {
+    3: ("depths",),
+    4: ("angles", "scales", "weights", "names", "stiffness"),
+    5: ("unsolved",),
+}
 _MOST_ITERATIONS = 200  # was written where max_iterations is None, the method's own limit
 _RELATIVE_WEIGHT = 5  # since that version p2p_weight is in units of the cage, before of the world
 _MASK = "mask"  # written instead of strokes; the pixels are in another member
@@ -76,6 +88,7 @@ def document_bytes(document: Document) -> bytes:
     given = document.trace_options
     options = {**vars(given), "scribbles": given.scribbles is not None}
     options |= {"max_edge": _NEVER} if given.max_edge == math.inf else {}
+    poses = [_pose_to_dict(i, pose) for i, pose in enumerate(document.poses)]
     data = {
         "format": FORMAT,
         "version": FORMAT_VERSION,
@@ -83,7 +96,7 @@ def document_bytes(document: Document) -> bytes:
         "domain": document.domain.to_dict(),
         "trace_options": options,
         "scribbles": scribbles,
-        "poses": [_pose_to_dict(i, pose) for i, pose in enumerate(document.poses)],
+        "poses": poses,
         "active": document.active,
         **timeline,
     }
@@ -200,6 +213,8 @@ def _pose_to_dict(index: int, pose: NamedPose) -> dict[str, Any]:
         "method": {"name": pose.method.name, "settings": pose.method.settings},
         "phi": as_points(pose.map.phi).tolist(),
         "psi": as_points(pose.map.psi).tolist(),
+        # Of the identity a reader sees it.
+        **({"unsolved": True} if pose.unsolved and not is_identity(pose.map) else {}),
     }
 
 
@@ -224,10 +239,22 @@ def _pose_from_dict(index: int, data: Any, domain: Domain, version: int) -> Name
             options = dataclasses.replace(options, p2p_weight=weight)
         if options.max_iterations == _MOST_ITERATIONS:
             options = dataclasses.replace(options, max_iterations=None)
-        map = HarmonicMap(domain, phi, psi)
-        pose = NamedPose(data["name"], Pose.from_dict(data), energy, options, map, method)
+        map, posed = HarmonicMap(domain, phi, psi), Pose.from_dict(data)
+        solution = None if _unsolved(data, posed, map) else AS_SEEN
+        pose = NamedPose(data["name"], posed, energy, options, map, method, solution)
         _check_certified(map)
     return pose
+
+
+def _unsolved(data: Any, pose: Pose, map: HarmonicMap) -> bool:
+    """Whether a pose was saved before it was solved.
+
+    So was one that is still the identity although its pins ask for another map: versions before 5
+    wrote such after a change of the cage, and said nothing.
+    """
+    if not isinstance(said := data.get("unsolved") or False, bool):
+        raise InputFileError("unsolved must be true or false")
+    return said or (is_identity(map) and not at_rest(pose))
 
 
 def _check_certified(map: HarmonicMap) -> None:

@@ -35,6 +35,7 @@ class EditState:
 
     def __post_init__(self) -> None:
         assert len(self.timeline) == len(self.poses)
+        assert all(pose.map.domain is self.domain for pose in self.poses)
 
     @classmethod
     def initial(
@@ -48,7 +49,8 @@ class EditState:
         pose = Pose([], []) if pose is None else pose
         pose.check_inside(domain)
         how = energy or SymmetricDirichlet(), options or LIVE_OPTIONS
-        return cls(domain, (NamedPose("Pose 1", pose, *how, HarmonicMap.identity(domain)),))
+        identity = HarmonicMap.identity(domain)
+        return cls(domain, (NamedPose("Pose 1", pose, *how, identity, solution=None),))
 
     @property
     def current(self) -> NamedPose:

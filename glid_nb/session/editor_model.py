@@ -8,13 +8,13 @@ from pathlib import Path
 from typing import Any
 
 from glid_nb._arrays import Array
-from glid_nb._files import discard, portable_name
+from glid_nb._files import portable_name
 from glid_nb.geometry import Domain
 from glid_nb.imaging.read import ImageSource
 from glid_nb.session import autosave
 from glid_nb.session.autosave import OwnFiles
 from glid_nb.session.deformation import Deformation
-from glid_nb.session.document import AS_SEEN, Document, DocumentError
+from glid_nb.session.document import Document, DocumentError
 from glid_nb.session.document_file import load_document, save_document
 from glid_nb.session.edit_state import EditError, EditState
 from glid_nb.session.model import History, Observed
@@ -27,7 +27,19 @@ _REPLACED = (
     "Another picture starts another session. The one before{place} comes back with {step} in the "
     "Trace tab."
 )
+_NOT_KEPT = (
+    "The editor's data folder cannot be used: {}. Work that is in no session file, and choices of "
+    "exports, are not kept for the next editor. Save the session, or name another folder in the "
+    "environment variable GLID_NB_DATA."
+)
 _NOT_VALID = "The outline in the Trace tab is not valid yet: this is the last one that was."
+
+
+class KeptWorkError(OSError):
+    """Something cannot be kept in the user's data folder; the editor goes on without."""
+
+    def __init__(self, error: Exception) -> None:
+        super().__init__(_NOT_KEPT.format(str(error).removesuffix(".")))
 
 
 @dataclass(frozen=True, eq=False)
@@ -81,7 +93,10 @@ class EditorModel(Observed):
         super().__init__()
         self._autosave: autosave.Autosave | None = None
         self.save_error: Exception | None = None
-        """Why the last save in the background failed; None when it did not."""
+        """Why the last save in the background failed; None when it did not.
+
+        A `KeptWorkError` where that was to the user's data folder.
+        """
         self.own_files = OwnFiles()  # the files that were saved, opened and exported
         self._session: _Session | None = None
         # Sessions of other pictures, which undo of the tracing may bring back.
@@ -201,7 +216,13 @@ class EditorModel(Observed):
         )
 
     def save(self, path: str | Path) -> None:
-        """Write the document to a file; if that fails, what was there before stays."""
+        """Write the document to a file; if that fails, what was there before stays.
+
+        Poses that are not solved yet are solved first. Where that is not possible, as while the
+        solver is paused, the file says so, and they are solved once it is opened.
+        """
+        if self.has_shape:
+            self.deformation.finish()
         saving, path = self._autosave, Path(path)
         if saving is not None and saving.path.resolve() == path.resolve():
             saving.write(self.document)
@@ -212,7 +233,7 @@ class EditorModel(Observed):
         self.own_files.note_session(path)
         with self.locked():
             if (kept := self._end_keeping()) is not None:
-                discard(kept)  # it is in a file now
+                self._remove_kept(kept)  # it is in a file now
 
     def load(self, path: str | Path) -> None:
         """Go on with the document in a file, which an autosave, if there is one, then saves to."""
@@ -232,7 +253,7 @@ class EditorModel(Observed):
                 try:
                     self._keep_in(autosave.new_kept_file(self.document.image))
                 except OSError as error:
-                    self._saved(error)
+                    self.not_kept(error)
             if self._autosave is not None and self.has_shape:
                 self._autosave.submit(self.document)
 
@@ -245,9 +266,10 @@ class EditorModel(Observed):
                 self.kept = None
 
     def discard_kept(self) -> None:
-        if self.kept is not None:
-            self.kept.unlink(missing_ok=True)
-            self.kept = None
+        """Delete what is kept, and offer it no more."""
+        kept, self.kept = self.kept, None
+        if kept is not None:
+            self._remove_kept(kept)
 
     def close(self) -> None:
         """Save what is pending, with a warning if that fails, and end all threads."""
@@ -256,15 +278,29 @@ class EditorModel(Observed):
             saving, self._autosave = self._autosave, None
         if saving is not None:
             saving.close()
-            if self.save_error is not None:
-                text = f"the session was not saved: {self.save_error}"
-                warnings.warn(text, RuntimeWarning, stacklevel=2)
         if self._session is not None:
             self._session.deformation.close()
+        if saving is not None and self.save_error is not None:  # at the end, for it may be raised
+            kept = isinstance(self.save_error, KeptWorkError)
+            text = f"{'' if kept else 'the session was not saved: '}{self.save_error}"
+            warnings.warn(text, RuntimeWarning, stacklevel=2)
+
+    def not_kept(self, error: OSError) -> None:
+        """Tell, by ``save_error``, that the user's data folder failed, and go on without it."""
+        self._saved(KeptWorkError(error))
+
+    def _remove_kept(self, path: Path) -> None:
+        try:
+            path.unlink(missing_ok=True)
+        except OSError as error:
+            self.not_kept(error)
 
     def _keep_in(self, path: Path, own: OwnFiles | None = None) -> None:
-        done = weakly(self._saved)
-        self._autosave = autosave.Autosave(path, on_done=done, own=own, owner=self)
+        """Save to a file from now on; where that is not the user's own, to another if it fails."""
+        image, done = self.document.image if own is None else None, weakly(self._saved)
+        elsewhere = None if image is None else functools.partial(autosave.new_kept_file, image)
+        known: Any = {"on_done": done, "own": own, "owner": self, "elsewhere": elsewhere}
+        self._autosave = autosave.Autosave(path, **known)
 
     def _end_keeping(self) -> Path | None:
         if self._named_path is not None or self._autosave is None:
@@ -310,9 +346,8 @@ class EditorModel(Observed):
     def _take(self, document: Document, name: str = "") -> None:
         self.tracing = TracingModel.from_document(document, name)
         domain = document.domain
-        poses = tuple(replace(pose, solution=AS_SEEN) for pose in document.poses)
         state = EditState.initial(domain)
-        if poses:
+        if poses := document.poses:
             timeline = document.timeline or Timeline.even(len(poses))
             state = EditState(domain, poses, document.active, timeline)
         self._shelf.clear()
@@ -351,7 +386,11 @@ class EditorModel(Observed):
 
     def _saved(self, error: Exception | None) -> None:
         keeps = self._named_path is None  # what no file can hold is said when it is saved
-        self.save_error = None if keeps and isinstance(error, DocumentError) else error
+        if keeps and isinstance(error, DocumentError):
+            error = None
+        elif keeps and isinstance(error, OSError) and not isinstance(error, KeptWorkError):
+            error = KeptWorkError(error)
+        self.save_error = error
         self._announce("saved")  # not by tell: a thread that waits for the save may hold the lock
 
 

@@ -26,10 +26,10 @@ def python_code(document: Document, picture: str = "picture.png", *, exact: bool
     the picture, a file's path, if the document's options give it; a cage that was edited by hand,
     or came from scribbles, is written out.
 
-    ``exact`` writes the coefficients of the document's map, some kilobytes, instead of a solve. A
-    solve ends at the same energy to ten digits, unless a hard pose has several minima and the
-    editor reached another one than a solve from the identity does. Raises a DocumentError when
-    there is no pose, or the energy of one is a Python function.
+    ``exact`` writes the coefficients of the document's map, some kilobytes, instead of a solve,
+    where the pose is solved. A solve ends at the same energy to ten digits, unless a hard pose has
+    several minima and the editor reached another one than a solve from the identity does. Raises a
+    DocumentError when there is no pose, or the energy of one is a Python function.
     """
     check_type("document", document, Document, "such as that of an editor")
     if not document.poses:
@@ -52,6 +52,7 @@ def _map_lines(pose: NamedPose, exact: bool) -> list[str]:
     if isinstance(pose.energy, CustomEnergy):
         why = "its energy is a Python function, which cannot be written down"
         raise DocumentError(f"the pose {pose.name!r}: {why}")
+    exact = exact and not pose.unsolved
     posed = _pose_lines(pose) if not exact or pose.pose.depths.any() else []
     if exact:
         phi, psi = pose.map.phi.tolist(), pose.map.psi.tolist()

@@ -23,7 +23,7 @@ from glid_nb.motion import Motion
 from glid_nb.session.deformation import Deformation
 from glid_nb.session.document import Document, DocumentError, NamedPose
 from glid_nb.session.edit_state import EditError
-from glid_nb.session.editor_model import EditorModel, find_document
+from glid_nb.session.editor_model import EditorModel, KeptWorkError, find_document
 from glid_nb.session.status_line import StatusLine
 from glid_nb.solvers import Method, Pose
 from glid_nb.widgets import exporting
@@ -208,9 +208,10 @@ class Editor(ClosingWidget, ipywidgets.VBox):
 
     @property
     def motion(self) -> Motion:
-        """The motion through all poses, as the timeline has it.
+        """The motion through all poses, as the timeline has it; they are solved first.
 
-        Raises MotionError where there is one pose only, or no motion joins two of them.
+        Raises MotionError where there is one pose only, or no motion joins two of them, EditError
+        where a pose cannot be solved, as while the solver is paused.
         """
         self.deformation  # noqa: B018 - EditError where there is no shape yet
         return self.timeline.animation.motion
@@ -251,7 +252,8 @@ class Editor(ClosingWidget, ipywidgets.VBox):
         self.deformation.set_method(method, **settings)
 
     def solve(self, timeout: float | None = None) -> bool:
-        """Wait until the shape has come to rest; whether it did within ``timeout`` seconds."""
+        """Wait until the shape has come to rest and all poses are solved, after a change of the
+        cage too; whether that is within ``timeout`` seconds."""
         return self.deformation.solve(timeout)
 
     def export(
@@ -262,13 +264,14 @@ class Editor(ClosingWidget, ipywidgets.VBox):
 
         ``size`` and ``view`` of a picture are as in `glid_nb.render`. Returns the written files:
         ``path``, then those that come with it, such as ``-texture.png`` with a mesh, or
-        ``.map.json`` with a proof (``glid-check x.map.json x.proof.json``). Raises ExportError for
-        another suffix, or if a file that comes with ``path`` would replace another.
+        ``.map.json`` with a proof (``glid-check x.map.json x.proof.json``). What is exported is
+        solved first. Raises EditError where that cannot be, as while the solver is paused,
+        ExportError for another suffix, or if a file that comes with ``path`` would replace another.
         """
         return exporting.export(self.model, path, size, view)
 
     def save(self, path: str | Path) -> None:
-        """Write a session file."""
+        """Write a session file; its poses are solved first, or opening it solves them."""
         self.model.save(path)
 
     def load(self, path: str | Path) -> None:
@@ -373,7 +376,8 @@ class Editor(ClosingWidget, ipywidgets.VBox):
     def _show_saving(self) -> None:
         error, left, path = self.model.save_error, self.model.left_path, self.model.autosave_path
         if error is not None:
-            text = html.escape(_NOT_SAVED.format(error=error))
+            kept = isinstance(error, KeptWorkError)
+            text = html.escape(str(error) if kept else _NOT_SAVED.format(error=error))
             self.unsaved.value = f'<p class="glid-unsaved">{text}</p>'
         self.unsaved.layout.display = "none" if error is None else "block"
         if left is None or path is None or path == self._told_path:

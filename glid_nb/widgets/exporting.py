@@ -1,7 +1,5 @@
 """Exports of an editor, chosen by the file's suffix; those of its motion in the background."""
 
-import contextlib
-import json
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -9,9 +7,11 @@ from typing import Any
 import ipywidgets
 
 from glid_nb import export as to
-from glid_nb._files import write_atomically
-from glid_nb._json import json_text
+from glid_nb._errors import InputError
+from glid_nb._files import read_file, write_atomically
+from glid_nb._json import json_text, parse_json
 from glid_nb._runtime import data_directory
+from glid_nb.certificate import certificate_of
 from glid_nb.certificate.certify import proof_text
 from glid_nb.export.formats import FORMATS, MOTION_FORMATS, ExportError, file_names, suffix_of
 from glid_nb.imaging.read import png
@@ -25,6 +25,7 @@ from glid_nb.session.worker import LatestWins, weakly
 from glid_nb.widgets.closing import ClosingWidget
 from glid_nb.widgets.controls import REFUSED, button
 
+_MOST_CHOICES = 10_000  # bytes of those of an export
 _NUMBER = {"width": "70px", "flex": "0 0 auto"}
 
 # A name, and what takes the files and says where they are.
@@ -67,7 +68,7 @@ def export(
     """Write `exported` files over those of an earlier export; an `OccupiedError` over others."""
     path = Path(path)
     if path.name.lower().endswith(tuple(MOTION_FORMATS.keys() - FORMATS.keys())):
-        motion = motion_of(model.deformation.state)
+        motion = motion_of(model.deformation.solved_state())
         files = _motion_files(model, motion, path.name, **({"size": max(size)} if size else {}))
     else:
         files = exported(model, path, size, view)
@@ -80,11 +81,21 @@ def export(
 def exported(
     model: EditorModel, path: Path, size: tuple[int, int] | None, view: View
 ) -> dict[str, bytes]:
-    """The contents of `files_of` the path by their names; arguments are as in `Editor.export`."""
-    document, state = model.document, model.deformation.state
+    """The contents of `files_of` the path by their names; arguments are as in `Editor.export`.
+
+    The pose that is edited is solved first, for sessions and scripts all poses; an EditError if a
+    picture, a mesh or a proof would show another map than the pose asks for.
+    """
+    deformation, suffix = model.deformation, suffix_of(path.name, FORMATS)
+    if suffix in (".glid", ".py"):
+        deformation.finish()
+        state = deformation.state
+    else:
+        state = deformation.solved_state(only_current=True)
+    document = model.document
     image, map_, pose = document.image, state.map, state.pose
     names = [file.name for file in files_of(path)]
-    match suffix_of(path.name, FORMATS):
+    match suffix:
         case ".png":
             contents = [to.picture_png(image, map_, size, view, pose)]
         case ".obj":
@@ -96,13 +107,13 @@ def exported(
             height, width = image.shape[:2]
             contents = [to.cage_svg(map_, (width, height), source=True, pose=pose).encode()]
         case ".html":
-            proof = model.deformation.certificate
+            proof = certificate_of(map_)
             contents = [to.page_html(image, map_, proof, path.stem, pose=pose).encode()]
         case ".glid":
             contents = [document_bytes(document)]
         case ".proof.json":
             depths = pose.to_dict() if pose.depths.any() else {}
-            proof = proof_text(model.deformation.certificate)
+            proof = proof_text(certificate_of(map_))
             contents = [proof.encode(), json_text({**map_.to_dict(), **depths}).encode()]
         case _:
             contents = [python_code(document, names[1]).encode(), png(image)]
@@ -132,18 +143,18 @@ def _motion_files(model: EditorModel, motion: Motion, name: str, **how: Any) -> 
 def last_export() -> dict[str, Any]:
     """What `remember_export` wrote last; empty where nothing can be read."""
     try:
-        known = json.loads(_last_export().read_bytes())
-    except (OSError, ValueError):  # none yet, or damaged
+        data = read_file(_last_export(), most=_MOST_CHOICES)
+        known = parse_json(data, "last-export.json", nan=False)
+    except (OSError, InputError):  # none yet, or damaged
         return {}
     return known if isinstance(known, dict) else {}
 
 
 def remember_export(choices: Mapping[str, Any]) -> None:
-    """Keep the choices of an export in the user's data folder, if that can be written."""
+    """Keep the choices of an export in the user's data folder; an OSError if that fails."""
     path = _last_export()
-    with contextlib.suppress(OSError):  # the export itself needs no such folder
-        path.parent.mkdir(parents=True, exist_ok=True)
-        write_atomically(path, json_text(choices))
+    path.parent.mkdir(parents=True, exist_ok=True)
+    write_atomically(path, json_text(choices))
 
 
 def _last_export() -> Path:
@@ -184,6 +195,9 @@ class MotionExport(ClosingWidget, ipywidgets.HBox):
             return worker.overtaken
 
         try:
+            while not self._animation.deformation.finish(timeout=0.2):
+                if worker.overtaken:
+                    return self._say("Stopped; nothing was written.", "")
             motion = self._animation.motion
             count = len(motion.times) - 1
             if any(report(i, count) or not motion.interval(i) for i in range(count)):

@@ -118,6 +118,10 @@ class KeptOffer(Asking, ipywidgets.HBox):
         super().__init__(layout={"display": "none", "align_items": "center"})
         if (path := model.kept) is None:
             return
+        try:
+            changed = datetime.fromtimestamp(path.stat().st_mtime)
+        except OSError:  # it has gone since
+            return
 
         def end(act: Callable[[], None], sure: bool = True) -> None:
             self._check_saved(path, sure)
@@ -125,7 +129,7 @@ class KeptOffer(Asking, ipywidgets.HBox):
             self.layout.display = "none"
 
         self.message = ipywidgets.HTML()
-        self._say(_KEPT.format(datetime.fromtimestamp(path.stat().st_mtime)))
+        self._say(_KEPT.format(changed))
         look = "Bring it back", "history", "Go on with it"
         back = self._button(*look, lambda sure: end(model.recover, sure))
         discard = self._button("Discard", "trash", "Delete it", lambda _: end(model.discard_kept))
@@ -305,7 +309,10 @@ class FilePanel(Asking, ipywidgets.VBox):
 
     def _made(self, deliver: Callable[[Mapping[str, bytes]], str]) -> str:
         """Make the files that are chosen, those of a motion in the background, and deliver them."""
-        exporting.remember_export({name: one.value for name, one in self._remembered.items()})
+        try:
+            exporting.remember_export({name: one.value for name, one in self._remembered.items()})
+        except OSError as error:  # the export itself needs no such folder
+            self.model.not_kept(error)
         path, moving = self._chosen
         if moving and self.motion is not None:
             return self.motion.start(path.name, deliver)
@@ -315,6 +322,7 @@ class FilePanel(Asking, ipywidgets.VBox):
     def _copy(self, sure: bool) -> str:
         script = session_path(self.path.value).with_suffix(".py")
         picture = exporting.files_of(script)[1]
+        self.model.deformation.finish()
         lines = python_code(self.model.document, str(picture))
         needed = ""
         if "glid.read_image" in lines:  # not where the cage was edited by hand

@@ -110,7 +110,10 @@ class TimelinePanel(Pad):
             if self._closed:
                 return
             if what == "motion":
-                self.motion = {"spans": [self._span(span) for span in self.animation.spans]}
+                # Of a new cage they are shown with its scene, whose materials are new.
+                domain = self.canvas.pane.scene.domain
+                spans = [span for span in self.animation.spans if span.map.domain is domain]
+                self.motion = {"spans": [self._span(span) for span in spans]}
             if what in ("state", "recording", "motion"):
                 self._show_state()
             moment = self.canvas.deformation.moment
@@ -145,6 +148,8 @@ class TimelinePanel(Pad):
 
     def _show_heights(self, state: EditState) -> None:
         scene, times = self.canvas.pane.scene, state.timeline.closed_times
+        if scene.domain is not state.domain:
+            return  # the canvas has not drawn the new cage yet
         orders = [state.orders[i % len(state.orders)] for i in range(len(times))]
         moves = scene.evaluated_in == "shader" and any(o is not orders[0] for o in orders)
         stacked = (scene, times, *orders) if moves else ()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import threading
 from collections.abc import Iterator
 from dataclasses import replace
@@ -46,7 +47,11 @@ def put(model: Deformation, *maps: HarmonicMap) -> None:
     for i, map in enumerate(maps):
         if i:
             model.save_pose()
-        model.apply(lambda state, map=map: state.changed(map=map))
+        model.apply(lambda state, map=map: state.with_current(as_seen(state.current, map)))
+
+
+def as_seen(pose: NamedPose, map: HarmonicMap) -> NamedPose:
+    return replace(pose, map=map, solution=AS_SEEN)
 
 
 def seen(state: EditState) -> NamedPose:
@@ -124,6 +129,10 @@ def test_poses_that_were_left_before_they_were_solved_are_solved_first() -> None
         model.go_to_pose(0)
         assert animation._worker.wait(TIMEOUT)
         assert misses(model)[1] > 0.1
+        assert statuses(animation) == ["refused"]
+        assert "'Pose 2' is not solved, for the solver is paused" in animation.spans[0].reason
+        with pytest.raises(EditError, match="the solver is paused"):
+            animation.motion  # noqa: B018
         model.paused = False
         assert animation.wait(TIMEOUT)
         assert max(misses(model)) < 1e-3
@@ -146,13 +155,19 @@ def test_what_cannot_be_solved_is_told(
     def fails(*_: Any) -> None:
         raise ValueError("it is too warm.")
 
-    monkeypatch.setattr("glid_nb.session.animation.solve_edited", fails)
-    model.save_pose()
+    monkeypatch.setattr("glid_nb.session.deformation.solve_edited", fails)
+    model.paused = True
     model.drag(0, (2.5, 0.5))
-    model.save_pose()
+    for _ in range(2):
+        model.save_pose()
+        model.reset()
+    model.paused = False
     assert animation.wait(TIMEOUT)
-    told = [f"'Pose {i}' could not be solved: it is too warm." for i in (1, 1)]
-    assert [span.reason for span in animation.spans] == told
+    told = "the pose 'Pose 1' could not be solved: it is too warm."
+    assert [span.reason for span in animation.spans] == [told, ""]
+    assert statuses(animation) == ["refused", "proved"]
+    with pytest.raises(EditError, match=re.escape(told)):
+        animation.motion  # noqa: B018
 
 
 def test_what_lies_between_is_kept_where_it_is_proved(

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import errno
 import gc
+import shutil
 import threading
 import weakref
 from collections.abc import Iterator
@@ -12,11 +14,14 @@ import numpy as np
 import pytest
 
 from glid_nb.energies import CustomEnergy
+from glid_nb.session import autosave
 from glid_nb.session.autosave import MOST_KEPT, flush, kept_files
-from glid_nb.session.document import DocumentError
+from glid_nb.session.document import Document, DocumentError
 from glid_nb.session.document_file import load_document
+from glid_nb.session.edit_state import EditError
 from glid_nb.session.editor_model import (
     EditorModel,
+    KeptWorkError,
     find_document,
     open_document,
 )
@@ -332,9 +337,141 @@ class TestKeptWork:
         folder.write_text("a file")
         model = EditorModel(picture())
         _pin(model, (-6, 0))
-        assert isinstance(model.save_error, OSError)
+        self.told(model)
         assert len(model.deformation.pose) == 1
         model.close()
+
+    @staticmethod
+    def told(model: EditorModel) -> None:
+        assert isinstance(model.save_error, KeptWorkError)
+        assert "cannot be used: " in str(model.save_error)
+        assert "GLID_NB_DATA" in str(model.save_error)
+
+    @staticmethod
+    def flushed(model: EditorModel) -> None:
+        assert model._autosave is not None
+        assert model._autosave.flush(60)
+
+    def test_a_user_without_a_home_is_told(self, monkeypatch: pytest.MonkeyPatch) -> None:
+        for name in ("GLID_NB_DATA", "XDG_DATA_HOME"):
+            monkeypatch.delenv(name, raising=False)
+
+        def none() -> Path:
+            raise RuntimeError("Could not determine home directory.")
+
+        monkeypatch.setattr("pathlib.Path.home", none)
+        model = EditorModel(picture())
+        assert model.kept is None
+        _pin(model, (-6, 0))
+        self.told(model)
+        assert "no data folder: Could not determine home directory." in str(model.save_error)
+        model.close()
+
+    def test_a_folder_that_vanishes_is_made_again(self, folder: Path) -> None:
+        model = EditorModel(picture())
+        _pin(model, (-6, 0))
+        self.flushed(model)
+        shutil.rmtree(folder)
+        _pin(model, (6, 0))
+        self.flushed(model)
+        assert model.save_error is None
+        (path,) = kept_files()
+        assert len(load_document(path).poses[0].pose) == 2
+        model.close()
+
+    def test_a_full_disk_is_said_and_the_next_change_tries_again(
+        self, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+    ) -> None:
+        def full(_: int) -> None:
+            raise OSError(errno.ENOSPC, "No space left on device")
+
+        model = EditorModel(picture())
+        with monkeypatch.context() as patch:
+            patch.setattr("glid_nb._files.os.fsync", full)
+            _pin(model, (-6, 0))
+            self.flushed(model)
+            self.told(model)
+            assert "No space left on device" in str(model.save_error)
+            assert kept_files() == []
+        _pin(model, (6, 0))
+        self.flushed(model)
+        assert model.save_error is None
+        assert len(kept_files()) == 1
+        model.save(tmp_path / "a.glid")
+        model.close()
+
+    def test_what_stays_unkept_is_warned_of_when_all_is_closed(self, folder: Path) -> None:
+        model = EditorModel(picture())
+        _pin(model, (-6, 0))
+        self.flushed(model)
+        shutil.rmtree(folder)
+        folder.write_text("a file")
+        _pin(model, (6, 0))
+        with pytest.warns(RuntimeWarning, match=r"^The editor's data folder.*GLID_NB_DATA"):
+            model.close()
+        with pytest.raises(EditError, match="closed"):
+            model.deformation.add_handle((0, 3.5))
+
+    def test_a_kept_file_of_another_user_is_left_and_another_one_is_kept(
+        self, monkeypatch: pytest.MonkeyPatch
+    ) -> None:
+        self.left((-6, 0), (6, 0))
+        again = EditorModel(picture())
+        theirs, save = again.kept, autosave.save_document
+        assert theirs is not None
+        before = theirs.read_bytes()
+
+        def refused(document: Document, path: Path) -> None:
+            if path == theirs:
+                raise PermissionError(errno.EACCES, f"{path} cannot be written")
+            save(document, path)
+
+        monkeypatch.setattr(autosave, "save_document", refused)
+        again.recover()
+        _pin(again, (0, 3.5))
+        again.close()
+        assert again.save_error is None
+        assert theirs.read_bytes() == before
+        (ours,) = set(kept_files()) - {theirs}
+        assert len(load_document(ours).poses[1].pose) == 3
+
+    def test_a_kept_file_that_cannot_be_deleted_ends_no_save(
+        self, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+    ) -> None:
+        for width in range(60, 82, 4):  # of the oldest ones, too
+            self.left((-4, 0), width=width)
+
+        def refused(path: Path, **_: bool) -> None:
+            if path.suffix == ".glid":
+                raise PermissionError(errno.EACCES, f"{path} cannot be deleted")
+
+        monkeypatch.setattr(Path, "unlink", refused)
+        model = EditorModel(picture())
+        _pin(model, (-6, 0))
+        self.flushed(model)
+        assert model.save_error is None
+        model.save(tmp_path / "a.glid")
+        assert len(load_document(tmp_path / "a.glid").poses[0].pose) == 1
+        self.told(model)
+        other = EditorModel(picture())
+        assert other.kept is not None
+        other.discard_kept()
+        assert other.kept is None
+        self.told(other)
+
+    @pytest.mark.parametrize("damage", [b"", b"PK\x03\x04 half", b"{}"])
+    def test_a_damaged_kept_file_is_refused_and_the_work_goes_on(self, damage: bytes) -> None:
+        self.left((-6, 0), (6, 0))
+        (path,) = kept_files()
+        path.write_bytes(damage)
+        again = EditorModel(picture())
+        _pin(again, (0, 3.5))
+        with pytest.raises(DocumentError, match=path.name):
+            again.recover()
+        assert len(again.deformation.pose) == 1
+        again.discard_kept()
+        again.close()
+        assert path not in kept_files()
 
 
 @pytest.mark.parametrize("named", [True, False])

@@ -384,6 +384,25 @@ def test_the_motion_is_exported_in_the_background(model: EditorModel, tmp_path: 
     animation.close()
 
 
+@pytest.mark.parametrize("below", [True, False], ids=["no folder", "no file"])
+def test_choices_that_cannot_be_kept_end_no_export(
+    model: EditorModel, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, below: bool
+) -> None:
+    folder = tmp_path / "data"
+    if below:
+        folder.write_text("a file")
+    else:
+        (folder / "last-export.json").mkdir(parents=True)
+    monkeypatch.setenv("GLID_NB_DATA", str(folder))
+    panel = FilePanel(model)
+    panel.format.value = ".svg"
+    panel.export_button.click()
+    assert Path("session.svg").is_file()
+    assert "Wrote session.svg" in panel.message.value
+    assert "GLID_NB_DATA" in str(model.save_error)
+    assert FilePanel(model).format.value == ".png"
+
+
 def test_the_last_export_is_chosen_again_in_the_next_session(model: EditorModel) -> None:
     first = FilePanel(model)
     assert (first.format.value, first.view.value) == (".png", "fit")
@@ -397,7 +416,8 @@ def test_the_last_export_is_chosen_again_in_the_next_session(model: EditorModel)
     again.download_button.click()
     assert FilePanel(model).format.value == ".obj"
     # What cannot be read, or chosen, counts for nothing.
-    for text in ('{"format": ".xyz", "view": "source", "more": 1}', "[1]", "{", ""):
+    values = ('{"format": ".xyz", "view": "source", "more": 1}', '{"format": Infinity}', "[1]")
+    for text in (*values, "{", "", "[" * 5000, "x" * 20_000):
         (last,) = Path(os.environ["GLID_NB_DATA"]).glob("last-export.json")
         last.write_text(text)
         assert FilePanel(model).format.value == ".png"

@@ -88,3 +88,24 @@ def test_the_page_is_given_what_is_proved_and_its_events_act(panel: TimelinePane
         act(panel, "undo")
     assert [k["name"] for k in panel.shown["keyframes"]] == ["Pose 1", "Pose 2"]
     assert "which this canvas cannot do" in str(act(panel, "close"))
+
+
+def test_a_finer_cage_is_not_shown_the_motion_of_the_coarser(panel: TimelinePanel) -> None:
+    """It failed with an IndexError in the shader's coefficients."""
+    model, coarse = panel.canvas.deformation, panel.canvas.deformation.state.domain
+    model.add_handle((-6, 0))
+    act(panel, "keep", time=0)
+    model.drag(0, (-6, 1.5))
+    assert panel.animation.wait(TIMEOUT)
+    fine = Domain.from_cage(trace(PICTURE, max_edge=1.0).cage)
+    assert fine.n_coefficients > coarse.n_coefficients
+    model.set_domain(fine)
+    assert {span.map.domain for span in panel.animation.spans} == {fine}
+    assert panel.animation.wait(TIMEOUT)
+    (span,) = panel.motion["spans"]
+    assert span["status"] == "proved"
+    shown = panel.animation.at(0.0)
+    assert shown is not None
+    np.testing.assert_allclose(shown([[-6, 0]]), [[-6, 0]], atol=1e-3)
+    model.undo()
+    assert {span.map.domain for span in panel.animation.spans} == {coarse}

@@ -1,0 +1,34 @@
+"""Poses of a document whose maps are not yet what they ask for."""
+
+from collections.abc import Callable
+from dataclasses import replace
+
+from glid_nb.session.document import Document, DocumentError, NamedPose, Solution
+from glid_nb.session.live_solver import solve_edited
+
+
+def solved_document(
+    document: Document, progress: Callable[[str], None] = lambda _: None
+) -> Document:
+    """The document with every pose solved on its cage; itself where that is so already.
+
+    ``progress`` is called with the name of each pose before it is solved. Raises a DocumentError,
+    which names the poses, if the method of some gives no certified map.
+    """
+    mesh = [repr(p.name) for p in document.unsolved if not p.method.certified]
+    if mesh:
+        what = "not solved, and their methods give no certified maps"
+        advice = "open the session and choose other methods"
+        raise DocumentError(f"these poses are {what}: {', '.join(mesh)}; {advice}")
+    poses = list(document.poses)
+    for i, pose in enumerate(poses):
+        if pose.unsolved:
+            progress(pose.name)
+            poses[i] = _solved(pose)
+    return replace(document, poses=tuple(poses)) if document.unsolved else document
+
+
+def _solved(pose: NamedPose) -> NamedPose:
+    result = solve_edited(pose, lambda _: False)
+    solution = Solution(result.status, result.message, result.history, (1,))
+    return replace(pose, map=result.map, solution=solution)

@@ -1,0 +1,228 @@
+"""Every command that a page shows is run as it stands there, in a copy of the checkout.
+
+What installs from the network is not run: what it names must be there. `KINDS` says how commands
+are tried; one of a page that none of them knows fails.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+import shlex
+import shutil
+import subprocess
+import sys
+import textwrap
+import venv
+from collections.abc import Callable, Iterator
+from importlib.metadata import metadata, version
+from pathlib import Path
+
+import numpy as np
+import pytest
+from packaging.requirements import Requirement
+from PIL import Image
+from playwright.sync_api import Page
+
+import glid_nb as glid
+
+from ..browser import Host, launched_chromium, watched_page
+from ..documented import PAGES, REPOSITORY, Command, checkout, commands, here, spoken
+
+pytestmark = pytest.mark.slow
+
+COMMANDS = [command for path in PAGES for command in commands(path)]
+READY = "() => window.jupyterapp?.shell?.currentWidget?.context?.isReady"
+# Whether all of a page's Markdown pictures are there; None without any.
+PICTURES = """() => {
+  const text = '.jp-RenderedMarkdown img, .jp-RenderedHTMLCommon img';
+  const all = [...document.querySelectorAll(text)];
+  return all.length ? all.every((one) => one.complete && one.naturalWidth > 0) : null;
+}"""
+OPEN = (
+    """(path) => window.jupyterapp.commands.execute('docmanager:open', {path}).then(() => null)"""
+)
+
+
+@pytest.fixture(scope="module")
+def clone(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return checkout(tmp_path_factory.mktemp("checkout"))
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Where somebody works who has a picture, a pose, a problem, sessions and a motion."""
+    folder = tmp_path_factory.mktemp("work")
+    image, pose = glid.samples.image("bar"), glid.samples.pose_path("bar", "gentle")
+    domain = glid.Domain.from_cage(glid.trace(image).cage)
+    result = glid.solve(domain, glid.load_pose(pose))
+    identity = glid.HarmonicMap.identity(domain)
+    for name in ("my-character.png", "gecko.png"):
+        Image.fromarray(image).save(folder / name)
+    shutil.copy(pose, folder / "pose.json")
+    cage = {"cage": domain.cage.exterior.tolist(), "holes": []}
+    (folder / "problem.json").write_text(json.dumps({**cage, **json.loads(pose.read_text())}))
+    result.map.save(folder / "map.json")
+    result.certificate.save(folder / "proof.json")
+    glid.Motion([identity, result.map]).save(folder / "motion.json")
+    how = glid.SymmetricDirichlet(), glid.Options()
+    bent = glid.NamedPose("bent", result.pose, *how, result.map)
+    rest = glid.NamedPose("rest", result.pose.with_targets(result.pose.handles), *how, identity)
+    session = domain.cage, domain, glid.TraceOptions(), None, (rest, bent), 0
+    for name in ("my-character.glid", "gecko.glid", "session.glid"):
+        glid.save_document(glid.Document(image, *session), folder / name)
+    y, x = np.mgrid[:700, :700]
+    light = np.where(np.hypot(x - 350, y - 350) < 300, 220, 40).astype(np.uint8)
+    Image.fromarray(light).convert("RGB").save(folder / "photograph.jpg")
+    strokes = {"foreground": [[[300, 300], [400, 400]]], "background": [[[20, 20], [20, 680]]]}
+    (folder / "strokes.json").write_text(json.dumps(strokes))
+    return folder
+
+
+def is_there(words: list[str], _: Path) -> None:
+    """What an installation names exists: this package's extras, and packages that tests have."""
+    named = [word for word in words[words.index("install") + 1 :] if not word.startswith("-")]
+    assert named
+    for name in named:
+        wanted = Requirement(re.sub(r"^\.(?=\[|$)", "glid-nb", name))
+        assert wanted.extras <= set(metadata(wanted.name).get_all("Provides-Extra") or ())
+        assert wanted.specifier.contains(version(wanted.name))
+
+
+def has_target(words: list[str], clone: Path) -> None:
+    subprocess.run([*words, "--dry-run"], cwd=clone, check=True, capture_output=True)
+
+
+def runs(words: list[str], folder: Path) -> None:
+    done = subprocess.run(here(words), cwd=folder, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    for flag in ("--out", "--report", "--proof"):
+        if flag in words:
+            assert (folder / words[words.index(flag) + 1]).exists()
+
+
+def makes_environment(words: list[str], folder: Path) -> None:
+    runs(words, folder)
+    assert (folder / words[-1] / "pyvenv.cfg").is_file()
+
+
+def collects(words: list[str], clone: Path) -> None:
+    """The tests, which this is one of, are found."""
+    assert words[1:] == ["-m", "pytest"]
+    more = ["--collect-only", "-q", "tests/geometry"]
+    subprocess.run([*here(words), *more], cwd=clone, check=True, capture_output=True)
+
+
+def is_served(words: list[str], clone: Path) -> None:
+    """What it serves opens in a browser, with all its pictures and, run, the editor."""
+    own = clone.parent / f"{clone.name}-{abs(hash(tuple(words))):x}"
+    host = Host(here(words), clone, own)
+    try:
+        with launched_chromium() as browser, watched_page(browser) as page:
+            page.set_default_timeout(120_000)
+            page.goto(host.start_page, timeout=0)
+            if Path(words[0]).name != "voila":
+                run_notebook(page, words)
+            page.locator(".glid-editor .glid-pad").first.wait_for(state="attached")
+            page.wait_for_function(f"({PICTURES})() === true")
+    finally:
+        host.close()
+
+
+def run_notebook(page: Page, words: list[str]) -> None:
+    page.wait_for_function("() => window.jupyterapp?.restored.then(() => true)")
+    if (REPOSITORY / words[-1]).is_dir():
+        page.evaluate(OPEN, "02_editor.ipynb")
+    page.wait_for_function(READY)
+    page.evaluate("() => window.jupyterapp.commands.execute('notebook:run-all-cells')")
+
+
+KINDS: dict[str, tuple[Callable[[list[str], Path], None], str]] = {
+    r"(\S*pip|\S*python -m pip) install .*": (is_there, "clone"),
+    r"make \w+": (has_target, "clone"),
+    r"python3 -m venv \S+": (makes_environment, "folder"),
+    r"python -m pytest": (collects, "clone"),
+    r"(voila|jupyter lab|jupyter notebook) \S+|glid-nb lab": (is_served, "clone"),
+    r"python docs/\S+\.py": (runs, "clone"),
+    r"(glid-nb (samples|demo|trace|solve|render|animate)|glid-check|python -c).*": (runs, "folder"),
+}
+
+
+def kind(command: Command) -> tuple[Callable[[list[str], Path], None], str]:
+    text = shlex.join(spoken(command.words))
+    found = [how for pattern, how in KINDS.items() if re.fullmatch(pattern, text)]
+    assert len(found) == 1, f"{command}: no test knows how to try it; add it to KINDS"
+    return found[0]
+
+
+def test_a_command_that_no_test_knows_is_a_fault() -> None:
+    with pytest.raises(AssertionError, match="no test knows how to try it"):
+        kind(Command("docs/howto/hosts.md", "docker run glid-nb"))
+
+
+def test_the_pages_show_every_host_that_they_promise() -> None:
+    shown = {" ".join(spoken(command.words)[:2]) for command in COMMANDS}
+    assert {"jupyter lab", "jupyter notebook", "glid-nb lab", "glid-nb animate"} <= shown
+    assert "voila notebooks/02_editor.ipynb" in shown
+
+
+@pytest.mark.parametrize(
+    "command",
+    [
+        pytest.param(c, marks=pytest.mark.browser if kind(c)[0] is is_served else ())
+        for c in COMMANDS
+    ],
+    ids=str,
+)
+def test_a_documented_command_works(command: Command, request: pytest.FixtureRequest) -> None:
+    how, where = kind(command)
+    how(command.words, request.getfixturevalue(where))
+
+
+def test_the_cell_for_colab_runs() -> None:
+    """In IPython, with stand-ins for the installation and for Colab's own module."""
+    page = (REPOSITORY / "docs" / "howto" / "hosts.md").read_text(encoding="utf-8")
+    (cell,) = re.findall(r"^```python\n(%pip.*?)^```", page, re.DOTALL | re.MULTILINE)
+    code = textwrap.dedent(f"""
+        import sys
+        from types import SimpleNamespace
+        from IPython.core.interactiveshell import InteractiveShell
+        done = []
+        output = SimpleNamespace(enable_custom_widget_manager=lambda: done.append("widgets"))
+        sys.modules["google.colab"] = SimpleNamespace(output=output)
+        shell = InteractiveShell()
+        shell.register_magic_function(done.append, magic_name="pip")
+        shell.run_cell({cell!r}).raise_error()
+        print(*done, sep="\\n")
+    """)
+    ran = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    install, widgets = ran.stdout.splitlines()
+    is_there(["pip", *install.split()], REPOSITORY)
+    assert widgets == "widgets"
+
+
+@pytest.fixture
+def binder(clone: Path, tmp_path: Path) -> Iterator[Host]:
+    """The server as on Binder, in an environment that postBuild has filled."""
+    venv.create(tmp_path / "env")
+    python = tmp_path / "env" / "bin" / "python"
+    (site,) = (tmp_path / "env").glob("lib/python*/site-packages")
+    (site / "tests.pth").write_text(os.pathsep.join(p for p in sys.path if "site-packages" in p))
+    (site / "pip.py").write_text("")  # what it would install is here
+    environment = {**os.environ, "PATH": f"{python.parent}{os.pathsep}{os.environ['PATH']}"}
+    script = ["bash", "binder/postBuild"]
+    subprocess.run(script, cwd=clone, env=environment, check=True, capture_output=True)
+    host = Host([str(python), "-m", "jupyterlab"], clone, tmp_path / "own")
+    yield host
+    host.close()
+
+
+@pytest.mark.browser
+def test_binder_opens_the_editor(binder: Host) -> None:
+    assert binder.start_page.endswith("/lab/tree/notebooks/02_editor.ipynb")
+    with launched_chromium() as browser, watched_page(browser) as page:
+        page.set_default_timeout(120_000)
+        page.goto(binder.start_page)
+        page.wait_for_function(READY)
+        page.wait_for_function(f"({PICTURES})() === true")
