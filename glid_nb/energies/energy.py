@@ -165,7 +165,7 @@ class CustomEnergy(Energy):
             with jax.ensure_compile_time_eval(), enable_x64():
                 start = jnp.ones(1), jnp.zeros(1)
                 values = {"value": self.density(*start), **self.differentials(*start)._asdict()}
-        except TypeError as error:
+        except (TypeError, ValueError) as error:  # which of them differs between versions of JAX
             wanted = "a function E(x, y) of two numbers that returns one, differentiable by JAX"
             raise EnergyError(f"the custom energy must be {wanted}; it gave: {error}") from error
         for name, value in values.items():

@@ -4,6 +4,7 @@ Pillow rounds 16-bit colours to 8 bit and compares the transparent colour of a P
 with pixels that it has scaled. So what PNG and TIFF hold beyond 8 bit is read here.
 """
 
+import functools
 import io
 import sys
 from typing import Any
@@ -22,7 +23,7 @@ RGBA = NDArray[np.uint8] | NDArray[np.uint16]
 MAX_SIDE = 8000  # longest side in pixels that is accepted
 
 # Pillow's others start programs (EPS), are no pictures, or have no signature to tell them by.
-FORMATS = (
+_FORMATS = (
     *("PNG", "JPEG", "GIF", "TIFF", "WEBP", "BMP", "AVIF", "JPEG2000"),
     *("ICO", "ICNS", "PPM", "PSD", "PCX", "QOI", "SGI"),
 )
@@ -35,12 +36,19 @@ _ORIENTED = {  # by the EXIF orientation: how a picture is flipped, after it was
 }
 
 
+@functools.cache
+def formats() -> tuple[str, ...]:
+    """Names of the formats that are read and that this Pillow knows (AVIF: from 11.3 on)."""
+    Image.init()
+    return tuple(name for name in _FORMATS if name in Image.OPEN)
+
+
 def opened(data: bytes, name: str) -> Image.Image | None:
     """The picture of a file's bytes, not decoded yet; None for a TIFF that Pillow does not know."""
     if not data:
         raise TraceError(f"{name} is empty")
     try:
-        return Image.open(io.BytesIO(data), formats=FORMATS)
+        return Image.open(io.BytesIO(data), formats=formats())
     except UnidentifiedImageError:
         if data.startswith(_TIFF_STARTS):
             return None
@@ -149,7 +157,7 @@ def _both_bytes(data: bytes, raw: str) -> NDArray[np.uint16]:
 
 
 def _decoded_as(data: bytes, raw: str) -> NDArray[np.uint8]:
-    with Image.open(io.BytesIO(data), formats=FORMATS) as picture:
+    with Image.open(io.BytesIO(data), formats=formats()) as picture:
         tiles = []
         for tile in picture.tile:
             told: Any = tile.args

@@ -15,11 +15,11 @@ from glid_nb._errors import InputFileError, about
 from glid_nb._files import read_file
 from glid_nb.imaging.color import ColorSpace, cmyk_in_srgb, in_srgb
 from glid_nb.imaging.decode import (
-    FORMATS,
     MAX_SIDE,
     RGBA,
     check_size,
     eight_bit,
+    formats,
     opened,
     picture_pixels,
     tiff_pixels,
@@ -173,7 +173,7 @@ def _decode(data: bytes, name: str) -> RGBA:
 def picture_format(data: bytes) -> str | None:
     """Pillow's name for the format of a picture's file, such as "JPEG"; None for no picture."""
     try:
-        with Image.open(io.BytesIO(data), formats=FORMATS) as picture:
+        with Image.open(io.BytesIO(data), formats=formats()) as picture:
             return picture.format
     except Exception:  # a damaged picture is none either
         return None
