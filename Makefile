@@ -86,23 +86,23 @@ browser:
 	tools/chromium.sh
 
 # The stamps say what the environment holds; pyproject.toml newer than a stamp installs again.
-$(VENV)/.demo: pyproject.toml tools/environment.sh tools/pythons.sh
+$(VENV)/.demo: pyproject.toml checker/pyproject.toml tools/environment.sh tools/pythons.sh
 	tools/environment.sh
 	touch $@
 
-$(VENV)/.studies: pyproject.toml tools/environment.sh tools/pythons.sh
+$(VENV)/.studies: pyproject.toml checker/pyproject.toml tools/environment.sh tools/pythons.sh
 	tools/environment.sh studies
 	touch $@ $(VENV)/.demo
 
-$(VENV)/.test: pyproject.toml tools/environment.sh tools/pythons.sh
+$(VENV)/.test: pyproject.toml checker/pyproject.toml tools/environment.sh tools/pythons.sh
 	tools/environment.sh test
 	touch $@ $(VENV)/.studies $(VENV)/.demo
 
-$(VENV)/.docs: pyproject.toml tools/environment.sh tools/pythons.sh
+$(VENV)/.docs: pyproject.toml checker/pyproject.toml tools/environment.sh tools/pythons.sh
 	tools/environment.sh docs
 	touch $@ $(VENV)/.demo
 
-$(VENV)/.dev: pyproject.toml tools/environment.sh tools/pythons.sh
+$(VENV)/.dev: pyproject.toml checker/pyproject.toml tools/environment.sh tools/pythons.sh
 	tools/environment.sh dev
 	touch $@ $(VENV)/.test $(VENV)/.docs $(VENV)/.studies $(VENV)/.demo
 
