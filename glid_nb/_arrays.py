@@ -22,7 +22,7 @@ def real_array(value: Any) -> NDArray[np.float64]:
     if _holds_truth_value(value):
         raise TypeError("true and false are not numbers")
     if isinstance(value, np.ma.MaskedArray) and value.dtype.kind in "iuf":
-        return value.astype(np.float64).filled(np.nan)
+        return np.ma.filled(value.astype(np.float64), np.nan)
     array = np.asarray(value)
     if array.dtype.kind in "iuf":
         return array.astype(np.float64, order="C")

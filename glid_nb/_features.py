@@ -44,25 +44,15 @@ def enable_x64(enabled: bool = True) -> AbstractContextManager[None]:
 
 @functools.cache
 def _enable_x64() -> Any:
-    return _first_of(("jax", "enable_x64"), ("jax.experimental", "enable_x64"))
-
-
-def typeof(value: Any) -> Any:
-    """``jax.typeof``, the shape and type of an argument; JAX before 0.6 has ``get_aval`` for it."""
-    return _typeof()(value)
-
-
-@functools.cache
-def _typeof() -> Any:
-    return _first_of(("jax", "typeof"), ("jax.core", "get_aval"))
-
-
-def _first_of(*places: tuple[str, str]) -> Any:
-    for module, name in places:
-        found = getattr(import_jax(module), name, None)
-        if found is not None:
+    for module in ("jax", "jax.experimental"):
+        if (found := getattr(import_jax(module), "enable_x64", None)) is not None:
             return found
-    raise incompatible(f"needs {'.'.join(places[0])}")
+    raise incompatible("needs jax.enable_x64")
+
+
+def is_traced(value: Any) -> bool:
+    """Whether JAX traces a value, which then has no numbers yet."""
+    return isinstance(value, import_jax("jax.core").Tracer)
 
 
 @functools.cache

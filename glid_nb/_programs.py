@@ -17,7 +17,7 @@ from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
-from glid_nb._features import compiler_options, processor, typeof
+from glid_nb._features import compiler_options, processor
 from glid_nb._jax import jax
 from glid_nb._kept_programs import KeptPrograms
 from glid_nb._runtime import default_device, jax_option, stage
@@ -42,7 +42,7 @@ class Program:
 
     def __call__(self, *arguments: Any) -> Any:
         leaves, tree = jax.tree.flatten(arguments)
-        key = (default_device(), tree, *map(typeof, leaves))
+        key = (default_device(), tree, *map(jax.typeof, leaves))
         if (ready := self._ready.get(key)) is None:
             with self._locks[key]:  # a second thread waits for what the first compiles
                 if (ready := self._ready.get(key)) is None:

@@ -22,7 +22,6 @@ def asked_anew() -> Iterator[None]:
         _features.lapack_in_place,
         _features.executables,
         _features._enable_x64,
-        _features._typeof,
     )
     for question in asked:
         question.cache_clear()
@@ -77,8 +76,8 @@ def test_what_no_version_may_lack_is_named_with_the_versions(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     monkeypatch.setattr(_features, "import_jax", lambda _: types.SimpleNamespace())
-    with pytest.raises(InputError, match=r"needs jax\.typeof\. Installed are jax \d+\.\d+"):
-        _features.typeof(1)
+    with pytest.raises(InputError, match=r"needs jax\.enable_x64\. Installed are jax \d+\.\d+"):
+        _features.enable_x64()
 
 
 def test_an_attribute_that_jax_lacks_is_named_with_the_versions() -> None:

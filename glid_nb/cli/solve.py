@@ -10,7 +10,6 @@ the others. One of them may be `-`, standard output.
 import argparse
 import itertools
 from pathlib import Path
-from typing import Any
 
 import glid_nb
 from glid_nb._errors import InputFileError, about
@@ -46,8 +45,12 @@ def run(chosen: argparse.Namespace) -> None:
         raise InputFileError(f"{both} would share standard output; name a file for one of them")
     results = [planned(problems, flag, to, ".json") for flag, to in flags.items()]
     check_files(itertools.chain(*results), [*problems, chosen.start])
-    each: list[Any] = list(zip(*results, strict=True))
-    for_each(problems, lambda i: _solve(problems[i], *each[i], chosen), chosen.debug)
+    outs, proofs, reports = results
+    for_each(
+        problems,
+        lambda i: _solve(problems[i], outs[i], proofs[i], reports[i], chosen),
+        chosen.debug,
+    )
 
 
 def _solve(

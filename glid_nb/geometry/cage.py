@@ -179,8 +179,10 @@ def _depth(value: Any) -> int:
     """How deep lists or arrays are nested, by their first elements: 2 for a loop of vertices."""
     if isinstance(value, np.ndarray):
         return value.ndim
-    listed = isinstance(value, list | tuple) and len(value) > 0
-    return 1 + _depth(value[0]) if listed else 0
+    if not isinstance(value, list | tuple):
+        return 0
+    first: list[Any] = list(value[:1])
+    return 1 + _depth(first[0]) if first else 0
 
 
 def _checked_vertices(vertices: Any, name: str) -> Array:

@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike
 from glid_nb._arguments import check_count, check_type, unmet
 from glid_nb._arrays import Array, Rebuilt, frozen, number_pairs, real_array
 from glid_nb._errors import InputError, about
+from glid_nb._features import is_traced
 from glid_nb._jax import jax, jnp
 from glid_nb._json import checked_version, read_json, write_json
 from glid_nb._runtime import in_chunks
@@ -246,7 +247,7 @@ def is_of_jax(points: Any) -> bool:
 
 def _known(points: Any) -> Array:
     """(..., 2) NumPy points of an array of JAX; a MapError while it is traced."""
-    if isinstance(points, jax.core.Tracer):
+    if is_traced(points):
         what = "outside='nan' needs points that are known, but JAX traces these"
         raise MapError(f"{what}; ask domain.cage.contains before, and use jax.numpy.where")
     known = np.asarray(points)

@@ -3,6 +3,7 @@
 import functools
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 import shapely
@@ -106,6 +107,8 @@ class Boundary:
     def _gap(self, fz: Array, nu: Array) -> tuple[Array, Array]:
         """(2 N,) what periods lack, and (2 N, m) its derivative by `holomorphic` functions."""
         a, b = self.periods * fz, self.periods * (nu * fz)
+        gap: Any
+        change: Any
         gap = a.sum(axis=1) - np.conj(b.sum(axis=1))
         change = a @ self.holomorphic - np.conj(b @ self.holomorphic)
         return np.concatenate([gap.real, gap.imag]), np.concatenate([change.real, change.imag])

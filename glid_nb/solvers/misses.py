@@ -76,7 +76,7 @@ def conflict(pose: Pose, missing: Array, worst: int) -> str:
 def _left(z: Array, w: Array) -> float:
     """The share of the targets' spread that the similarity closest to them leaves out."""
     z, w = z - z.mean(), w - w.mean()
-    spread = np.vdot(z, z).real * np.vdot(w, w).real
+    spread = np.sum(np.abs(z) ** 2) * np.sum(np.abs(w) ** 2)
     return float(1 - abs(np.vdot(z, w)) ** 2 / spread) if spread > 0 else 0.0
 
 

@@ -156,7 +156,7 @@ def rigid_motion(z: Array, targets: Array) -> tuple[complex, complex, complex]:
     middle, aim = z.mean(), targets.mean()
     correlation = np.vdot(z - middle, targets - aim)
     turn = correlation / abs(correlation) if abs(correlation) > 0 else 1.0
-    return turn, middle, aim
+    return complex(turn), complex(middle), complex(aim)
 
 
 @functools.lru_cache(maxsize=32)

@@ -171,7 +171,7 @@ def map_from(domain: Domain, coefficients: Any) -> HarmonicMap:
     return HarmonicMap(domain, re_phi + 1j * im_phi, re_psi + 1j * im_psi)
 
 
-def unknowns_of(basis: Basis, conformal: bool, whitening: Array | None = None) -> Unknowns:
+def unknowns_of(basis: Basis, conformal: bool, whitening: AnyArray | None = None) -> Unknowns:
     """Among all columns or the coordinates of a whitening (2, c, u); ``conformal`` drops psi."""
     n_holes = basis.n_hole_columns
     if whitening is None:

@@ -126,6 +126,7 @@ def bent_ring() -> HarmonicMap:
     targets = [[0.19, -1.14], [1.07, 3.42], [0.79, -2.45]]
     result = solve(Domain.from_cage(Cage(outer, [hole]), 0.1), Pose(handles, targets))
     assert result.status.ok
+    assert isinstance(result.map, HarmonicMap)
     return result.map
 
 

@@ -212,7 +212,7 @@ def bent_ring() -> tuple[Domain, np.ndarray, list[Turn], float]:
     """The rigid start, turned by 143 degrees, misleads."""
     handles = circle(6, 8)
     z = handles @ np.array([1, 1j])
-    turns = [([4], z[3:5].mean(), 112.51), ([0, 1, 5], z[1:3].mean(), -117.32)]
+    turns: list[Turn] = [([4], z[3:5].mean(), 112.51), ([0, 1, 5], z[1:3].mean(), -117.32)]
     return Domain.from_cage(Cage(circle(40, 10), [circle(30, 6)])), handles, turns, 4.6354
 
 
