@@ -145,7 +145,7 @@ KINDS: dict[str, tuple[Callable[[list[str], Path], None], str]] = {
     r"python -m pytest": (collects, "clone"),
     r"(voila|jupyter lab|jupyter notebook) \S+|glid-nb lab": (is_served, "clone"),
     r"python docs/\S+\.py": (runs, "clone"),
-    r"(glid-nb (samples|demo|trace|solve|render|animate)|glid-check|python -c).*": (runs, "folder"),
+    r"(glid-nb (samples|doctor|demo|trace|solve|render|animate)|glid-check|python -c).*": (runs, "folder"),
 }
 
 
