@@ -137,10 +137,12 @@ def in_chunks(
 
 
 def _joined(parts: Sequence[Any]) -> Any:
-    """Arrays, or tuples of them, one after the other; without JAX, which not all callers need."""
+    """Arrays, or tuples and dicts of them, put together; without JAX, which not all callers need."""
     first = parts[0]
     if first is None:
         return None
+    if isinstance(first, dict):
+        return {key: _joined([part[key] for part in parts]) for key in first}
     if isinstance(first, tuple):
         columns = [_joined(column) for column in zip(*parts, strict=True)]
         return type(first)(*columns) if hasattr(first, "_fields") else tuple(columns)
@@ -153,14 +155,8 @@ def cache_directory() -> Path:
 
 
 def data_directory() -> Path:
-    """The folder for kept work: ``$GLID_NB_DATA``, else the user's data directory.
-
-    A FileNotFoundError where neither is set and the user has no home.
-    """
-    try:
-        return _directory("GLID_NB_DATA", "XDG_DATA_HOME", ".local/share")
-    except RuntimeError as error:  # as in a container, by a number that is no user's
-        raise FileNotFoundError(f"There is no data folder: {error}") from None
+    """The folder for kept work: ``$GLID_NB_DATA``, else the user's data directory."""
+    return _directory("GLID_NB_DATA", "XDG_DATA_HOME", ".local/share")
 
 
 def _directory(own: str, common: str, usual: str) -> Path:
@@ -169,7 +165,7 @@ def _directory(own: str, common: str, usual: str) -> Path:
     if not (base := os.environ.get(common)):
         try:
             base = Path.home() / usual
-        except RuntimeError:  # a user without a name, as in containers
+        except RuntimeError:  # a user without a name and a home, as in containers
             return Path(tempfile.gettempdir()) / f"glid_nb-{os.getuid()}"
     return Path(base) / "glid_nb"
 

@@ -62,6 +62,7 @@ def printed_by(arguments: Sequence[str], given: Any, limit: float, **environment
             stderr=errors,
             env=_variables(environment),
             text=True,
+            encoding="utf-8",
             start_new_session=True,
         )
         assert process.stdin is not None

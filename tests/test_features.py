@@ -56,7 +56,7 @@ def test_lapack_is_not_called_in_place_where_jax_calls_it_otherwise(
 ) -> None:
     assert _features.lapack_in_place()
     _features.lapack_in_place.cache_clear()
-    monkeypatch.setattr(_features, "_KNOWN_CALLS", ("@lapack_dpotrf_of_tomorrow(",))
+    monkeypatch.setattr(_features, "_KNOWN_CALLS", ("@lapack_dpotrf_of_tomorrow",))
     assert not _features.lapack_in_place()
 
 

@@ -210,9 +210,14 @@ def test_an_output_folder_that_is_a_file(run, picture: Path) -> None:
     assert_refused(outcome, picture, "is a file; name a folder")
 
 
-def test_an_output_file_that_is_a_folder(run, problem: Path, tmp_path: Path) -> None:
+def test_an_output_folder_in_which_the_result_would_replace_the_input(
+    run, problem: Path, tmp_path: Path
+) -> None:
+    """In a folder a result has the input's name."""
+    before = problem.read_bytes()
     outcome = run("solve", problem, "--out", tmp_path)
-    assert_refused(outcome, tmp_path, "is a folder; name a file")
+    assert_refused(outcome, problem, "would be overwritten, but it is read too")
+    assert problem.read_bytes() == before
 
 
 def test_what_was_there_stays_when_the_run_fails(

@@ -352,7 +352,9 @@ class TestKeptWork:
         assert model._autosave is not None
         assert model._autosave.flush(60)
 
-    def test_a_user_without_a_home_is_told(self, monkeypatch: pytest.MonkeyPatch) -> None:
+    def test_the_work_of_a_user_without_a_home_is_kept_among_temporary_files(
+        self, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+    ) -> None:
         for name in ("GLID_NB_DATA", "XDG_DATA_HOME"):
             monkeypatch.delenv(name, raising=False)
 
@@ -360,11 +362,12 @@ class TestKeptWork:
             raise RuntimeError("Could not determine home directory.")
 
         monkeypatch.setattr("pathlib.Path.home", none)
+        monkeypatch.setattr("tempfile.gettempdir", lambda: str(tmp_path))
         model = EditorModel(picture())
-        assert model.kept is None
         _pin(model, (-6, 0))
-        self.told(model)
-        assert "no data folder: Could not determine home directory." in str(model.save_error)
+        self.flushed(model)
+        assert model.save_error is None
+        assert list(tmp_path.rglob("*.glid"))
         model.close()
 
     def test_a_folder_that_vanishes_is_made_again(self, folder: Path) -> None:
