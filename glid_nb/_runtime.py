@@ -137,7 +137,7 @@ def in_chunks(
 
 
 def _joined(parts: Sequence[Any]) -> Any:
-    """Arrays, or tuples and dicts of them, put together; without JAX, which not all callers need."""
+    """Arrays, or tuples and dicts of them, put together; without importing JAX."""
     first = parts[0]
     if first is None:
         return None

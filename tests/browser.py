@@ -17,6 +17,7 @@ import os
 import re
 import shlex
 import shutil
+import signal
 import socket
 import subprocess
 import threading
@@ -61,6 +62,8 @@ CHROMIUM_FLAGS = (
 
 # What pages say that is no fault of ours; everything else of the kind "error" fails a test.
 _HARMLESS = (
+    # JupyterLab draws a picture's address before it has resolved the attachment.
+    re.compile(r"ERR_UNKNOWN_URL_SCHEME.*\(attachment:"),
     # JupyterLab asks for a workspace and settings that a fresh server does not have.
     re.compile(r"Failed to load resource.*404.*/(lab/api/|api/contents|favicon)"),
     # Notebook 7.6 asks its own settings for a plugin that it does not have.
@@ -80,7 +83,7 @@ _SETTINGS = {
     "notebook-extension/tracker": {"windowingMode": "none", "autoStartDefaultKernel": True},
 }
 
-_READY = """() => {
+READY = """() => {
   const panel = window.jupyterapp?.shell?.currentWidget;
   return panel?.context?.isReady && panel.sessionContext?.isReady &&
     panel.sessionContext.session?.kernel?.status === 'idle';
@@ -197,6 +200,7 @@ class Host:
             stdout=subprocess.DEVNULL,
             stderr=subprocess.PIPE,
             text=True,
+            start_new_session=True,
         )
         self._wait_until_it_serves(words)
         # The pipe must be emptied as long as the server writes into it.
@@ -222,17 +226,22 @@ class Host:
 
     @property
     def start_page(self) -> str:
-        """The page that a browser would have been opened on."""
+        """The page that the server names when it has started."""
         (page, *_) = re.findall(rf"{self.url}/\S*", self.log)
         return page
 
+    def page_of(self, notebook: str) -> str:
+        """The page on which JupyterLab or Notebook shows a notebook that the command names."""
+        notebook_7 = self.start_page.rstrip("/").endswith("/tree")
+        return f"{self.url}/{'notebooks' if notebook_7 else 'lab/tree'}/{notebook}"
+
     def close(self) -> None:
-        """End the server and its kernels."""
-        self._process.terminate()
+        """End the server, its kernels and what has started it."""
+        os.killpg(self._process.pid, signal.SIGTERM)
         try:
             self._process.wait(30)
         except subprocess.TimeoutExpired:
-            self._process.kill()
+            os.killpg(self._process.pid, signal.SIGKILL)
             self._process.wait()
         self._reader.join()
         assert self._process.stderr is not None
@@ -409,7 +418,7 @@ class LabNotebook(NotebookPage):
         self.run_all()
 
     def _wait_until_ready(self) -> None:
-        self.page.wait_for_function(_READY, timeout=90_000, polling=200)
+        self.page.wait_for_function(READY, timeout=90_000, polling=200)
 
     def run_all(self, timeout: float = 120.0) -> None:
         """Run all cells and wait for the last one; an exception in one fails the test."""

@@ -27,22 +27,18 @@ from playwright.sync_api import Page
 
 import glid_nb as glid
 
-from ..browser import Host, launched_chromium, watched_page
+from ..browser import READY, Host, launched_chromium, watched_page
 from ..documented import PAGES, REPOSITORY, Command, checkout, commands, here, spoken
 
 pytestmark = pytest.mark.slow
 
 COMMANDS = [command for path in PAGES for command in commands(path)]
-READY = "() => window.jupyterapp?.shell?.currentWidget?.context?.isReady"
 # Whether all of a page's Markdown pictures are there; None without any.
 PICTURES = """() => {
   const text = '.jp-RenderedMarkdown img, .jp-RenderedHTMLCommon img';
   const all = [...document.querySelectorAll(text)];
   return all.length ? all.every((one) => one.complete && one.naturalWidth > 0) : null;
 }"""
-OPEN = (
-    """(path) => window.jupyterapp.commands.execute('docmanager:open', {path}).then(() => null)"""
-)
 
 
 @pytest.fixture(scope="module")
@@ -121,21 +117,27 @@ def is_served(words: list[str], clone: Path) -> None:
     try:
         with launched_chromium() as browser, watched_page(browser) as page:
             page.set_default_timeout(120_000)
-            page.goto(host.start_page, timeout=0)
-            if Path(words[0]).name != "voila":
-                run_notebook(page, words)
+            if Path(words[0]).name == "voila":
+                page.goto(host.start_page, timeout=0)
+            else:
+                page.goto(host.page_of(notebook_of(words)))
+                run_all(page)
             page.locator(".glid-editor .glid-pad").first.wait_for(state="attached")
             page.wait_for_function(f"({PICTURES})() === true")
     finally:
         host.close()
 
 
-def run_notebook(page: Page, words: list[str]) -> None:
-    page.wait_for_function("() => window.jupyterapp?.restored.then(() => true)")
-    if (REPOSITORY / words[-1]).is_dir():
-        page.evaluate(OPEN, "02_editor.ipynb")
+def notebook_of(words: list[str]) -> str:
+    """The editor's notebook, as the command shows it: opened, or in the folder that is served."""
+    if words[-1].endswith(".ipynb"):
+        return words[-1]
+    return "editor.ipynb" if spoken(words) == ["glid-nb", "lab"] else "02_editor.ipynb"
+
+
+def run_all(page: Page) -> None:
     page.wait_for_function(READY)
-    page.evaluate("() => window.jupyterapp.commands.execute('notebook:run-all-cells')")
+    page.evaluate("() => void window.jupyterapp.commands.execute('notebook:run-all-cells')")
 
 
 KINDS: dict[str, tuple[Callable[[list[str], Path], None], str]] = {
@@ -145,7 +147,8 @@ KINDS: dict[str, tuple[Callable[[list[str], Path], None], str]] = {
     r"python -m pytest": (collects, "clone"),
     r"(voila|jupyter lab|jupyter notebook) \S+|glid-nb lab": (is_served, "clone"),
     r"python docs/\S+\.py": (runs, "clone"),
-    r"(glid-nb (samples|doctor|demo|trace|solve|render|animate)|glid-check|python -c).*": (runs, "folder"),
+    r"glid-nb (samples|doctor|demo|trace|solve|render|animate).*": (runs, "folder"),
+    r"(glid-check|python -c).*": (runs, "folder"),
 }
 
 

@@ -122,7 +122,7 @@ def test_a_file_called_like_the_first_word_of_a_message_is_named(
 def test_a_binary_file_is_refused(tmp_path: Path) -> None:
     path = tmp_path / "picture.png"
     path.write_bytes(b"\x89PNG\r\n\x1a\n\xff\xfe")
-    with pytest.raises(InputFileError, match="is not a JSON file: it is neither UTF-8 nor UTF-16 text"):
+    with pytest.raises(InputFileError, match="it is neither UTF-8 nor UTF-16 text"):
         Problem.load(path)
 
 
