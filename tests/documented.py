@@ -11,7 +11,7 @@ import shlex
 import subprocess
 import sys
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 REPOSITORY = Path(__file__).resolve().parent.parent
@@ -29,10 +29,11 @@ _SPAN = re.compile(rf"`((?:{PROGRAMS})\s[^`]+)`")
 
 @dataclass(frozen=True)
 class Command:
-    """A line of a shell that a page shows."""
+    """A line of a shell that a page shows, in a block or within a sentence."""
 
     page: str
     text: str
+    in_sentence: bool = field(default=False, compare=False)
 
     @property
     def words(self) -> list[str]:
@@ -49,7 +50,8 @@ def commands(path: Path) -> list[Command]:
     page = path.relative_to(REPOSITORY).as_posix()
     lines = [line for block in _BLOCK.findall(text) for line in block.splitlines()]
     spans = [" ".join(span.split()) for span in _SPAN.findall(_FENCED.sub("", text))]
-    found = [Command(page, line.strip()) for line in (*lines, *spans)]
+    found = [Command(page, line.strip()) for line in lines]
+    found += [Command(page, span, in_sentence=True) for span in spans]
     return [command for command in dict.fromkeys(found) if command.words]
 
 

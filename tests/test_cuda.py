@@ -25,7 +25,7 @@ from glid_nb._programs import Program, can_keep_for
 from glid_nb._runtime import double_precision
 from glid_nb.energies import ENERGIES, as_energy
 from glid_nb.methods.subspace import descent
-from glid_nb.solvers import batch, cholesky, step, subspace
+from glid_nb.solvers import batch, cholesky, newton, step, subspace
 from glid_nb.solvers.method import Inputs
 from glid_nb.solvers.newton import Newton, NewtonDescent
 
@@ -168,6 +168,7 @@ def evaluate_a_start(inputs: Inputs) -> None:
     """As where the start has no proof."""
     start = NewtonDescent(Newton(), inputs)
     subspace._evaluated(start.problem, start.coefficients)
+    newton._gradient(start.problem, start.point)
 
 
 def test_every_program_of_the_code_is_lowered(lowered: Lowered) -> None:

@@ -210,14 +210,15 @@ def _check_loops(loops: list[Array]) -> None:
     corners = np.concatenate(loops)
     resolution = _RESOLUTION * float(max(np.ptp(corners, axis=0).max(), np.abs(corners).max()))
     for i, loop in enumerate(loops):
-        _check_distinct(loop, i, resolution)
+        check_distinct(loop, i, resolution)
         _check_not_flat(loop, i, resolution)
         _check_fold_back(loop, i, resolution)
     _check_crossings(loops, resolution)
     _check_nesting(loops)
 
 
-def _check_distinct(loop: Array, number: int, resolution: float) -> None:
+def check_distinct(loop: Array, number: int, resolution: float) -> None:
+    """Raise where two vertices of a loop are closer than ``resolution``; 0 is the exterior."""
     name, plain = loop_name(number), plain_name(number)
     # Two of the copies are enough; thousands in one place would make millions of pairs.
     first = np.unique(loop, axis=0, return_index=True)[1]

@@ -71,14 +71,19 @@ class Foreground:
                 plain = f"{varies}, so choose Alpha and the threshold {middle}"
                 return TraceError(f"{problem}, but {remedy}", f"{problem}, but {plain}")
             return TraceError(f"{problem}; choose another method, or paint over the shape")
-        seen = f"{measured} is {high:.2g} at most" if threshold >= high else ""
-        seen = seen or f"{measured} is {low:.2g} at least"
+        above = threshold >= high
+        seen = f"{measured} is {high:.2g} at most" if above else f"{measured} is {low:.2g} at least"
+        told = f"{measured} is {high:.0%} at most" if above else f"{measured} is {low:.0%} at least"
         if self.method == "alpha" and threshold >= high:
             percent = f"{100 * high:.0f}" if round(high, 2) < threshold else f"{100 * high:.3g}"
-            seen = f"the picture has alpha up to {percent} %"
+            seen = told = f"the picture has alpha up to {percent} %"
         change = "lower" if threshold > working else "raise"
         remedy = f"{change} the threshold, to {working:.9g} for example"
-        return TraceError(f"{problem}: {seen}; {remedy}, or paint over the shape with Scribbles")
+        paint = "or paint over the shape with Scribbles"
+        return TraceError(
+            f"{problem}: {seen}; {remedy}, {paint}",
+            plain=f"{problem}: {told}; {change} the threshold, {paint}",
+        )
 
     def _working_threshold(self, low: float, high: float) -> float | None:
         """A threshold, in few digits, between the least and the greatest of what is measured, that

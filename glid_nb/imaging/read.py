@@ -59,7 +59,9 @@ def read_image(source: ImageSource, name: str | None = None) -> RGBA:
     try:
         if isinstance(source, Image.Image):
             if (data := unread_file(source)) is not None:
-                return _decode(data, name)
+                pixels = _decode(data, name)
+                source.load()  # as whatever uses a picture does; that closes its file
+                return pixels
             return _from_pillow(source, None, name)
         if isinstance(source, (bytes, bytearray, memoryview)):
             return _decode(bytes(source), name)

@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from glid_nb._arrays import number_pairs, read_only
 from glid_nb.geometry import Cage, Domain, GeometryError
+from glid_nb.geometry.cage import check_distinct
 from glid_nb.imaging import Hole, PixelFrame, Scribbles, TraceError, TraceOptions, Tracer, Tracing
 from glid_nb.imaging.options import Point
 from glid_nb.imaging.read import ImageSource, as_rgba8, read_image
@@ -334,7 +335,7 @@ class TracingModel(Undoable[TracingState]):
             elif _vertices(loops).isdisjoint(_vertices(tracing.cage.loops)):
                 tracing = None
         try:
-            cage = Cage(loops[0], loops[1:]) if cage is None else cage
+            cage = _cage_of(loops) if cage is None else cage
             if domain is None or not cage.equals(domain.cage):
                 domain = Domain.from_cage(cage)
         except GeometryError as error:
@@ -362,6 +363,13 @@ class TracingModel(Undoable[TracingState]):
         if (frame := self.frame) is None:
             raise TraceError("there is no picture yet; open one first")
         return frame
+
+
+def _cage_of(loops: AnyLoops) -> Cage:
+    """The cage of drawn loops; a last vertex on the first one is a mistake, as any other pair."""
+    for number, loop in enumerate(loops):
+        check_distinct(np.asarray(loop), number, 0.0)
+    return Cage(loops[0], loops[1:])
 
 
 def _vertices(loops: AnyLoops) -> set[tuple[float, ...]]:

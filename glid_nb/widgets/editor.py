@@ -302,11 +302,18 @@ class Editor(ClosingWidget, ipywidgets.VBox):
     def _fill(self, *names: str) -> None:
         """Make these parts, by default all, where they are still missing."""
         with self.model.locked():
-            if not self._closed:
-                for name in names or self._boxes:
-                    self._part(name)
+            for name in names or self._boxes:
+                if self._closed:  # perhaps since the part before
+                    return
+                self._made(name)
 
     def _part(self, name: str) -> Any:
+        """A part, made if it is missing; a RuntimeError once the editor is closed."""
+        if self._closed and name not in self._parts:
+            raise RuntimeError("the editor is closed; this part of it was never made")
+        return self._made(name)
+
+    def _made(self, name: str) -> Any:
         makers: dict[str, Callable[[], ipywidgets.Widget]] = {
             "tracer": lambda: CageTracer(model=self.model.tracing, height=self._asked["height"]),
             "pins": self._bars,
@@ -315,8 +322,6 @@ class Editor(ClosingWidget, ipywidgets.VBox):
         }
         with self.model.locked():
             if name not in self._parts:
-                if self._closed:
-                    raise RuntimeError("the editor is closed; this part of it was never made")
                 try:
                     part = self._parts[name] = makers[name]()
                 except Exception as error:  # logged by the kernel, where nobody looks

@@ -14,6 +14,7 @@ import shutil
 import subprocess
 import sys
 import textwrap
+import tomllib
 import venv
 from collections.abc import Callable, Iterator
 from importlib.metadata import metadata, version
@@ -47,8 +48,8 @@ def clone(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.fixture(scope="module")
-def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Where somebody works who has a picture, a pose, a problem, sessions and a motion."""
+def work(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Where somebody works who has pictures, a pose, problems, maps, sessions and a motion."""
     folder = tmp_path_factory.mktemp("work")
     image, pose = glid.samples.image("bar"), glid.samples.pose_path("bar", "gentle")
     domain = glid.Domain.from_cage(glid.trace(image).cage)
@@ -58,8 +59,16 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
         Image.fromarray(image).save(folder / name)
     shutil.copy(pose, folder / "pose.json")
     cage = {"cage": domain.cage.exterior.tolist(), "holes": []}
-    (folder / "problem.json").write_text(json.dumps({**cage, **json.loads(pose.read_text())}))
-    result.map.save(folder / "map.json")
+    (folder / "problems").mkdir()
+    (folder / "maps").mkdir()
+    for name in ("problem.json", "problems/first.json", "problems/second.json"):
+        (folder / name).write_text(json.dumps({**cage, **json.loads(pose.read_text())}))
+    for name in ("map.json", "maps/first.json", "maps/second.json"):
+        result.map.save(folder / name)
+    right = np.arange(image.shape[1]) >= image.shape[1] / 2
+    labels = np.where(image[..., 3] > 127, np.where(right, 200, 100), 0)
+    Image.fromarray(labels.astype(np.uint8)).save(folder / "labels.png")
+    np.save(folder / "values.npy", labels / 7)
     result.certificate.save(folder / "proof.json")
     glid.Motion([identity, result.map]).save(folder / "motion.json")
     how = glid.SymmetricDirichlet(), glid.Options()
@@ -76,42 +85,90 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder
 
 
-def is_there(words: list[str], _: Path) -> None:
+@pytest.fixture
+def folder(work: Path, tmp_path: Path) -> Path:
+    """A copy of `work`, in which no other command has left what a glob would find."""
+    return shutil.copytree(work, tmp_path / "work")
+
+
+def requirement(name: str, clone: Path) -> Requirement:
+    """What pip is asked for: a package, or by a path, ``.`` or ``./checker``, a project there."""
+    path, *extras = re.split(r"(?=\[)", name, maxsplit=1)
+    if path.startswith("."):
+        about = tomllib.loads((clone / path / "pyproject.toml").read_text(encoding="utf-8"))
+        return Requirement("".join([about["project"]["name"], *extras]))
+    return Requirement(name)
+
+
+def is_there(command: Command, clone: Path) -> None:
     """What an installation names exists: this package's extras, and packages that tests have."""
+    words = command.words
     named = [word for word in words[words.index("install") + 1 :] if not word.startswith("-")]
     assert named
     for name in named:
-        wanted = Requirement(re.sub(r"^\.(?=\[|$)", "glid-nb", name))
+        wanted = requirement(name, clone)
         assert wanted.extras <= set(metadata(wanted.name).get_all("Provides-Extra") or ())
         assert wanted.specifier.contains(version(wanted.name))
 
 
-def has_target(words: list[str], clone: Path) -> None:
-    subprocess.run([*words, "--dry-run"], cwd=clone, check=True, capture_output=True)
+def has_target(command: Command, clone: Path) -> None:
+    subprocess.run([*command.words, "--dry-run"], cwd=clone, check=True, capture_output=True)
 
 
-def runs(words: list[str], folder: Path) -> None:
-    done = subprocess.run(here(words), cwd=folder, capture_output=True, text=True)
+def in_shell(text: str, folder: Path) -> str:
+    """What a line prints, run by a shell in which this environment is active."""
+    program, space, rest = text.partition(" ")
+    path = f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"
+    line = "".join([Path(program).name, space, rest])
+    how = {"cwd": folder, "env": {**os.environ, "PATH": path}}
+    done = subprocess.run(line, shell=True, capture_output=True, text=True, **how)
     assert done.returncode == 0, done.stderr
+    return done.stdout
+
+
+def runs(command: Command, folder: Path) -> None:
+    text, *filters = command.text.split(" | ")
+    printed = in_shell(text, folder)
+    words = shlex.split(text, comments=True)
     for flag in ("--out", "--report", "--proof"):
         if flag in words:
-            assert (folder / words[words.index(flag) + 1]).exists()
+            is_written(words[words.index(flag) + 1], printed, folder)
+    for one in filters:
+        jq, key = shlex.split(one)  # jq itself need not be there
+        assert jq == "jq"
+        assert json.loads(printed)[key.removeprefix(".")]
 
 
-def makes_environment(words: list[str], folder: Path) -> None:
-    runs(words, folder)
-    assert (folder / words[-1] / "pyvenv.cfg").is_file()
+def is_written(out: str, printed: str, folder: Path) -> None:
+    if out == "-":
+        assert json.loads(printed)
+    else:
+        assert (folder / out).exists()
+        assert not out.endswith("/") or any((folder / out).iterdir())
 
 
-def collects(words: list[str], clone: Path) -> None:
+def names_a_command(command: Command, folder: Path) -> None:
+    """A sentence speaks of a command that needs arguments, by its mere name."""
+    assert command.in_sentence, f"{command}: the arguments are missing"
+    assert "usage:" in in_shell(f"{command.text} --help", folder)
+
+
+def makes_environment(command: Command, folder: Path) -> None:
+    runs(command, folder)
+    assert (folder / command.words[-1] / "pyvenv.cfg").is_file()
+
+
+def collects(command: Command, clone: Path) -> None:
     """The tests, which this is one of, are found."""
-    assert words[1:] == ["-m", "pytest"]
+    assert command.words[1:] == ["-m", "pytest"]
     more = ["--collect-only", "-q", "tests/geometry"]
-    subprocess.run([*here(words), *more], cwd=clone, check=True, capture_output=True)
+    line = [*here(command.words), *more]
+    subprocess.run(line, cwd=clone, check=True, capture_output=True)
 
 
-def is_served(words: list[str], clone: Path) -> None:
+def is_served(command: Command, clone: Path) -> None:
     """What it serves opens in a browser, with all its pictures and, run, the editor."""
+    words = command.words
     own = clone.parent / f"{clone.name}-{abs(hash(tuple(words))):x}"
     host = Host(here(words), clone, own)
     try:
@@ -140,19 +197,21 @@ def run_all(page: Page) -> None:
     page.evaluate("() => void window.jupyterapp.commands.execute('notebook:run-all-cells')")
 
 
-KINDS: dict[str, tuple[Callable[[list[str], Path], None], str]] = {
+KINDS: dict[str, tuple[Callable[[Command, Path], None], str]] = {
     r"(\S*pip|\S*python -m pip) install .*": (is_there, "clone"),
     r"make \w+": (has_target, "clone"),
     r"python3 -m venv \S+": (makes_environment, "folder"),
     r"python -m pytest": (collects, "clone"),
     r"(voila|jupyter lab|jupyter notebook) \S+|glid-nb lab": (is_served, "clone"),
     r"python docs/\S+\.py": (runs, "clone"),
-    r"glid-nb (samples|doctor|demo|trace|solve|render|animate).*": (runs, "folder"),
+    r"glid-nb (samples|doctor|demo)( .*)?": (runs, "folder"),
+    r"glid-nb (trace|solve|render|animate) .*": (runs, "folder"),
+    r"glid-nb (trace|solve|render|animate)": (names_a_command, "folder"),
     r"(glid-check|python -c).*": (runs, "folder"),
 }
 
 
-def kind(command: Command) -> tuple[Callable[[list[str], Path], None], str]:
+def kind(command: Command) -> tuple[Callable[[Command, Path], None], str]:
     text = shlex.join(spoken(command.words))
     found = [how for pattern, how in KINDS.items() if re.fullmatch(pattern, text)]
     assert len(found) == 1, f"{command}: no test knows how to try it; add it to KINDS"
@@ -180,7 +239,7 @@ def test_the_pages_show_every_host_that_they_promise() -> None:
 )
 def test_a_documented_command_works(command: Command, request: pytest.FixtureRequest) -> None:
     how, where = kind(command)
-    how(command.words, request.getfixturevalue(where))
+    how(command, request.getfixturevalue(where))
 
 
 def test_the_cell_for_colab_runs() -> None:
@@ -201,7 +260,7 @@ def test_the_cell_for_colab_runs() -> None:
     """)
     ran = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     install, widgets = ran.stdout.splitlines()
-    is_there(["pip", *install.split()], REPOSITORY)
+    is_there(Command("docs/howto/hosts.md", f"pip {install}"), REPOSITORY)
     assert widgets == "widgets"
 
 

@@ -32,9 +32,10 @@ def run(method: str, name: str, energy: Energy | None = None, **settings: object
     return run_method(method, domain, pose, energy, **settings)
 
 
-def started(method: SubspaceMethod, name: str, **options: Any) -> DirectedDescent:
+def started(method: SubspaceMethod, name: str, p2p_weight: float = 1e5) -> DirectedDescent:
+    """``p2p_weight`` is lambda in the shape's own units."""
     domain, pose = problem(name)
-    given = Options(align=False, **options)
+    given = Options(align=False, p2p_weight=p2p_weight * domain.cage.unit**2)
     return method.started(
         Inputs(domain=domain, pose=pose, energy=SymmetricDirichlet(), options=given)
     )
@@ -77,7 +78,7 @@ def test_newton_eigen_raises_or_mirrors_negative_eigenvalues() -> None:
     values, vectors = np.linalg.eigh(h)
     assert values[0] < -1e-3
     # Along each eigenvector, the gradient over the eigenvalue's replacement.
-    for absolute, least in ((False, FLOOR), (True, -values[0])):
+    for absolute, least in ((False, FLOOR / at.unit**2), (True, -values[0])):
         moved = NewtonEigen(absolute=absolute).direction(at)
         along = vectors.T @ moved
         slope = vectors.T @ at.gradient
@@ -166,7 +167,7 @@ def test_lbfgs_direction_is_that_of_dense_bfgs() -> None:
     The textbook's inverse loses digits to a heavy weight, so that this one is light.
     """
     at = started(LBFGS(memory=5), "ring", p2p_weight=1e3)
-    inverse = np.linalg.inv(at.p2p_hessian + np.diag(np.where(at.free > 0, 2e-4, 1.0)))
+    inverse = np.linalg.inv(at.p2p_hessian + np.diag(np.where(at.free > 0, 2e-4 / at.unit**2, 1.0)))
     last = None
     for _ in range(5):
         x, gradient = np.asarray(at.point.coefficients) * at.free, at.gradient

@@ -81,7 +81,8 @@ def test_what_comes_with_an_export_replaces_only_its_own(model: EditorModel) -> 
     export(model, "e.obj")
     Path("e.obj").unlink()
     export(model, "e.obj")  # written by this editor
-    Path("e-source.png").write_bytes(Path("e-texture.png").read_bytes())
+    export(model, "own.py")
+    Path("e-source.png").write_bytes(Path("own-source.png").read_bytes())
     other = EditorModel(bar()[:, ::-1].copy())
     export(other, "e.obj")  # what lies beside an OBJ file came with it
     export(model, "e.py")  # the very picture
