@@ -42,7 +42,7 @@ pythons:
 	tools/other_pythons.sh
 
 chapter: $(VENV)/.test
-	$(PYTEST) --nbval --nbval-current-env --no-skip notebooks/01_quickstart.ipynb
+	$(PYTEST) --nbval --nbval-current-env notebooks/01_quickstart.ipynb
 
 install-tests: $(VENV)/.test
 	$(PYTEST) -p no:nbval --no-skip --install -m install tests/packaging

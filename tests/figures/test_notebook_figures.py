@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+from dataclasses import replace
 from types import SimpleNamespace
 from typing import Any
 
@@ -23,7 +24,7 @@ from glid_nb.energies import AMIPS
 from glid_nb.figures.style import VERMILION
 from glid_nb.geometry import MeshMap, triangulate
 from glid_nb.harmonic import HarmonicMap
-from glid_nb.solvers import Pose
+from glid_nb.solvers import Iteration, Options, Pose, solve
 
 from ..domains import domain
 
@@ -173,8 +174,11 @@ def test_a_short_logarithmic_axis_has_more_labels_than_its_powers_of_ten() -> No
 def test_level_sets_and_convergence_are_labelled() -> None:
     labels = set(texts(figures.energy_levels("iso", AMIPS())).split("\n"))
     assert {"Symmetric Dirichlet", "2.2", "4", "20"} <= labels
-    steps = [SimpleNamespace(iteration=i, energy=2 + 0.1**i, time=0.1) for i in range(4)]
-    result: Any = SimpleNamespace(initial=steps[0], history=tuple(steps[1:]))
+    steps = [
+        Iteration(iteration=i, energy_iso=2 + 0.1**i, energy_p2p=0.0, time=0.1) for i in range(4)
+    ]
+    solved = solve(domain("ring"), POSE, options=Options(max_iterations=0, restarts=0))
+    result = replace(solved, initial=steps[0], history=tuple(steps[1:]))
     for against in ("iterations", "seconds"):
         figure = figures.convergence({"ours": result}, against, gap_to=2.0)
         assert {"ours", against} <= set(texts(figure).split("\n"))
