@@ -58,8 +58,10 @@ def test_first_order_methods_reach_the_minimum_where_targets_are_soft(method: st
     """A heavy weight makes the energy too stiff for the negative gradient."""
     settings = {"p2p_weight": 1.0, "max_iterations": 2000}
     result, ours = run(method, "ell", **settings), run("newton", "ell", **settings)
-    assert result.status is Status.CONVERGED, result.message
-    assert result.energy == pytest.approx(ours.energy, rel=1e-6)
+    # L-BFGS may end where double precision shows no lower energy, before its tolerance.
+    assert result.status.ok, result.message
+    closeness = 1e-6 if result.status is Status.CONVERGED else 1e-11
+    assert result.energy == pytest.approx(ours.energy, rel=closeness)
 
 
 @pytest.mark.parametrize("method", ["newton-eigen", "newton-shift"])
