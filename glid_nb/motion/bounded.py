@@ -23,6 +23,9 @@ EXCESS = 0.01
 _LEAST = np.array([1e-9, 0.01])  # sigma_2 and k that such a share is taken of
 _SHORTER = 0.8
 _MOST_STEPS, _ALONE = 12, 3  # after so many steps both tangents of a keyframe are shortened
+# Periods are closed where that changes `|f_z|` halfway by less than this, in its logarithm: else it
+# would lower sigma_2 between keyframes, which maps solved on the way mend in vain.
+_CLOSES = 0.3
 _PROBES = np.linspace(0, 1, 18)[1:-1]
 
 Coefficients = tuple[Array, Array]  # phi and psi
@@ -47,6 +50,7 @@ class Bounded:
     tangents: Array  # (k, 2 s + 2) slopes of the rows
     turns: tuple[int, ...]
     worse: Array  # (k - 1, 2) what maps of each piece are measured by, as by `Boundary.worst`
+    closes: tuple[bool, ...]  # on which pieces periods are closed, see `Boundary.closed`
 
     @classmethod
     def through(
@@ -68,7 +72,8 @@ class Bounded:
         ends = np.array([boundary.worst(map.phi, map.psi) for map in maps])
         worse = worse if len(worse) else np.maximum(ends[:-1], ends[1:])
         known = tuple(maps), tuple(times), rows, np.stack(lost), rough, tuple(turns), worse
-        curve = cls(boundary, *known)
+        closes = tuple(_closes(boundary, row) for row in (rows[:-1, :-2] + rows[1:, :-2]) / 2)
+        curve = cls(boundary, *known, closes)
         return curve if len(maps) == 2 else curve._shortened(closed)
 
     def __call__(self, piece: int, s: float) -> Coefficients:
@@ -78,7 +83,7 @@ class Bounded:
             return at.phi, at.psi
         row = self._row(piece, s)
         first, last = self.lost[piece : piece + 2]
-        phi, psi = _fitted(self.boundary, row[:-2]) + first + s * (last - first)
+        phi, psi = _fitted(self.boundary, row[:-2], self.closes[piece]) + first + s * (last - first)
         turn = np.exp(1j * row[-2].real)
         return self.boundary.translated(turn * phi, row[-1]), psi / turn
 
@@ -144,14 +149,21 @@ def _freed(
     wanted = float(boundary.mean @ np.imag(before[0][: len(log)])) if before else 0.0
     log += 1j * (_nearest(middle, wanted) - middle)
     fields = np.concatenate([log, fzb_conj / fz])
-    lost = np.stack([phi, psi]) - _fitted(boundary, fields)
+    lost = np.stack([phi, psi]) - _fitted(boundary, fields, closes=False)
     return np.concatenate([fields, [angle, mean]]), lost
 
 
-def _fitted(boundary: Boundary, fields: Array) -> Array:
+def _closes(boundary: Boundary, fields: Array) -> bool:
+    """Whether closing the periods of fields scales them little."""
+    log, nu = np.split(fields, 2)
+    change = np.log(np.abs(boundary.closed(log, nu))) - log.real
+    return bool(np.abs(change).max() < _CLOSES)
+
+
+def _fitted(boundary: Boundary, fields: Array, closes: bool) -> Array:
     """(2, n) phi and psi of the map nearest to given fields, with the mean image 0."""
     log, nu = np.split(fields, 2)
-    fz = boundary.closed(log, nu)
+    fz = boundary.closed(log, nu) if closes else np.exp(log)
     phi, psi = boundary.fitted(fz, nu * fz)
     return np.stack([boundary.translated(phi, -boundary.images(phi, psi).mean()), psi])
 
