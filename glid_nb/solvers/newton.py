@@ -36,8 +36,9 @@ _STALLED, _STALL_GAIN = 4, 1e-10
 _CREEPING = 1e-6
 _WORK_PER_CALL = 10**10  # products of a Hessian: some seconds, after which a callback may stop it
 # Steep coordinates are put back until the others together would gain less than this share of the
-# energy. They are first asked at a decrement that promises the second share.
-_GAIN, _ROUGH = 1e-7, 1e-3
+# energy. They are first asked at a decrement that promises the second share. One that needs larger
+# coefficients than the shape, by the third factor, stays out.
+_GAIN, _ROUGH, _GROWTH = 1e-7, 1e-3, 1.0
 _ROUNDING = 1e-8  # a decrease promised by the Newton decrement that rounding of the energy can hide
 
 
@@ -241,8 +242,14 @@ def _promised(problem: SubspaceProblem, point: Point, columns: Array, conformal:
     curvatures = [
         weights.sum() / (weights[weights > 0] / mean[weights > 0]).sum() for mean in means
     ]
-    gains = slopes / (2 * np.array(curvatures)[:, None])
-    return gains[0] if conformal else gains.sum(axis=0)
+    curvature = np.array(curvatures)[:, None]
+    gains, changes = slopes / (2 * curvature), np.sqrt(slopes) / curvature
+    if conformal:
+        gains, changes = gains[:1], changes[:1]
+    # Where the coefficients would outgrow the shape, double precision loses the map's digits.
+    size = np.abs(problem.matrices.chord).sum(axis=1).max() / 2
+    allowed = changes.max(axis=0) * np.abs(columns).max(axis=0) <= _GROWTH * size
+    return np.where(allowed, gains.sum(axis=0), 0.0)
 
 
 _latest: tuple[list[Any], Any] | None = None
