@@ -156,7 +156,7 @@ def _freed(
 def _closes(boundary: Boundary, fields: Array) -> bool:
     """Whether closing the periods of fields scales them little."""
     log, nu = np.split(fields, 2)
-    change = np.log(np.abs(boundary.closed(log, nu))) - log.real
+    change = np.log(np.abs(boundary.closed(log, nu))) - np.real(log)
     return bool(np.abs(change).max() < _CLOSES)
 
 

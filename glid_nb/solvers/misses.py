@@ -1,6 +1,7 @@
 """By how much handles miss their targets, and what of the targets may be why."""
 
 import itertools
+from typing import Any
 
 import numpy as np
 from scipy.spatial import Delaunay, QhullError
@@ -80,7 +81,7 @@ def _left(z: Array, w: Array) -> float:
     return float(1 - abs(np.vdot(z, w)) ** 2 / spread) if spread > 0 else 0.0
 
 
-def _turned_over(z: Array, w: Array, worst: int) -> str:
+def _turned_over(z: Any, w: Any, worst: int) -> str:
     """A triangle of neighbouring handles, with the worst one, that its targets turn over."""
     if len(z) < 3:
         return ""
