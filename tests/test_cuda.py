@@ -167,8 +167,8 @@ def use_every_program() -> None:
 def evaluate_a_start(inputs: Inputs) -> None:
     """As where the start has no proof."""
     start = NewtonDescent(Newton(), inputs)
-    subspace._evaluated(start.problem, start.coefficients)
-    newton._gradient(start.problem, start.point)
+    point = subspace._evaluated(start.problem, start.coefficients)
+    newton._gradient(start.problem, point)
 
 
 def test_every_program_of_the_code_is_lowered(lowered: Lowered) -> None:
