@@ -188,7 +188,7 @@ def is_served(command: Command, clone: Path) -> None:
 def notebook_of(words: list[str]) -> str:
     """The editor's notebook, as the command shows it: opened, or in the folder that is served."""
     if words[-1].endswith(".ipynb"):
-        return words[-1]
+        return Path(words[-1]).name  # the server's root is the folder of a named notebook
     return "editor.ipynb" if spoken(words) == ["glid-nb", "lab"] else "02_editor.ipynb"
 
 
