@@ -172,8 +172,8 @@ def _correct_key(picture: Image.Image, raw: str) -> None:
     key = picture.info.get("transparency")
     if isinstance(key, tuple):
         picture.info["transparency"] = tuple(value & 255 for value in key)
-    elif isinstance(key, int) and (bits := _GREY_BITS.get(raw, 1)) > 1:
-        most = (1 << bits) - 1
+    elif isinstance(key, int) and raw in _GREY_BITS:
+        most = (1 << _GREY_BITS[raw]) - 1  # of one bit newer versions of Pillow say 255 for 1
         picture.info["transparency"] = (key & most) * (255 // most)
 
 

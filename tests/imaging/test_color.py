@@ -15,6 +15,7 @@ from skimage.color import lab2rgb
 from glid_nb.imaging import as_rgba8, png, read_image
 from glid_nb.imaging.color import ColorWarning
 
+from .formats import written
 from .pngs import GREY, GREY_ALPHA, PALETTE, RGB, RGBA, chunk, png_file
 from .profiles import ADOBE_RGB, DISPLAY_P3, cmyk_profile, grey_profile, matrix_profile
 
@@ -59,7 +60,7 @@ class TestProfiles:
         assert np.abs(image[0, 0, :3].astype(int) - (200, 30, 40)).max() >= 15
         assert (image[..., 3] == 255).all()
 
-    @pytest.mark.parametrize("kind", ["PNG", "JPEG", "TIFF", "WEBP", "AVIF", "JPEG2000"])
+    @pytest.mark.parametrize("kind", written("PNG", "JPEG", "TIFF", "WEBP", "AVIF", "JPEG2000"))
     def test_formats_that_embed_profiles(self, kind: str) -> None:
         flat = Image.new("RGB", (32, 32), (200, 60, 70))
         lossless = {"WEBP": {"lossless": True}, "JPEG": {"quality": 100, "subsampling": 0}}

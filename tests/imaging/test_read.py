@@ -13,6 +13,8 @@ from PIL import Image
 from glid_nb.imaging import TraceError, as_rgba, as_rgba8, read_image
 from glid_nb.imaging.read import MAX_SIDE
 
+from .formats import written
+
 RNG = np.random.default_rng(7)
 
 
@@ -79,7 +81,7 @@ class TestArrays:
 
 class TestFormats:
     @pytest.mark.parametrize(
-        "kind", ["png", "jpeg", "gif", "tiff", "webp", "bmp", "ppm", "jpeg2000", "avif"]
+        "kind", written("png", "jpeg", "gif", "tiff", "webp", "bmp", "ppm", "jpeg2000", "avif")
     )
     def test_formats_of_pixels_are_read(self, kind):
         data = encoded(Image.new("RGB", (7, 5), (250, 0, 0)), kind)

@@ -12,6 +12,7 @@ from PIL import Image
 
 from glid_nb.imaging import as_rgba8, read_image, trace
 
+from .formats import written
 from .pngs import CHANNELS, GREY, GREY_ALPHA, PALETTE, RGB, RGBA, chunk, png_file
 
 RNG = np.random.default_rng(11)
@@ -180,7 +181,7 @@ class TestOthers:
         assert image[1, 2, 3] == 0
         assert (image[..., 3] == 255).sum() == 11
 
-    @pytest.mark.parametrize("kind", ["WEBP", "AVIF", "ICO", "JPEG2000", "TIFF", "QOI"])
+    @pytest.mark.parametrize("kind", written("WEBP", "AVIF", "ICO", "JPEG2000", "TIFF", "QOI"))
     def test_alpha_of_other_formats(self, kind: str) -> None:
         alpha = np.zeros((32, 32), np.uint8)
         alpha[8:24, 8:24] = 255
