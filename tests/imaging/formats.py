@@ -1,4 +1,4 @@
-"""The picture formats that the installed Pillow writes: the oldest allowed has no AVIF and no QOI."""
+"""The picture formats that the installed Pillow writes: the oldest allowed lacks AVIF and QOI."""
 
 from __future__ import annotations
 
