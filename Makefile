@@ -8,8 +8,8 @@
 # make install-tests  builds the distributions, installs them and the course, and runs them; needs the package index
 # make dev    the development environment with everything
 # make compare  the paper's comparisons measured anew (half an hour); ARGUMENTS=--help tells more
-# make bench  the solver's speed on this machine (a quarter of an hour); ARGUMENTS=--help likewise
-# make gpu    the solver on this machine's GPU (8 minutes), with the machine's own Python and JAX
+# make bench  the solver's speed on this machine (2 to 15 minutes); ARGUMENTS=--help likewise
+# make gpu    the solver on this machine's GPU (at most 8 minutes), with the machine's own Python and JAX
 # make docs   the site in site/, checked: pages, links, and each page in Chromium
 # make notebooks  all chapters, run in place and saved; ARGUMENTS="03 07" runs these two
 # make browser  Chromium for the browser tests, by apt

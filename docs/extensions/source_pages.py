@@ -3,6 +3,8 @@
 - A link to a Python file, or its path in code type (`glid_nb/certificate/paper.py`), leads to a
   page with that source, at the first name in the link's text that the file defines.
 - A link to a folder leads to a list of its files, to be downloaded.
+- A name of a module below the package's parts (`glid_nb.certificate.paper.turning`) leads to its
+  source likewise.
 - A public name in code type (`glid.solve`, `HarmonicMap.sigma1`) leads to the reference.
 
 A path of a Python file that does not exist is a warning, so that no page outlives the code.
@@ -35,6 +37,19 @@ _CLASSES = "|".join(name for name in dir(glid_nb) if name[0].isupper())
 _NAME = re.compile(
     rf"(?:(?:glid|glid_nb)\.(?=\w)|(?=(?:{_CLASSES})\b))([\w.]+)(?:\(.*\))?", re.DOTALL
 )
+
+
+def source_of(dotted: str, root: Path) -> tuple[str, str] | None:
+    """The file of a dotted name such as ``glid_nb.certificate.paper.turning``, and the name in it.
+
+    None for shorter names: those of parts of the package are public, and the reference has them.
+    """
+    parts = dotted.split(".")
+    for length in (3, 4) if parts[0] == "glid_nb" else ():
+        path = "/".join(parts[:length]) + ".py"
+        if len(parts) >= length and (root / path).is_file():
+            return path, ".".join(parts[length:])
+    return None
 
 
 def definition(source: str, name: str) -> int | None:
@@ -98,6 +113,9 @@ class RepositoryLinks(SphinxTransform):
                 node.replace_self(self._reference(found[1], [found[2] or ""], [node.deepcopy()]))
             else:
                 logger.warning("there is no file %s", found[1], location=node)
+        elif place := source_of(text, self.root):
+            path, name = place
+            node.replace_self(self._reference(path, [name], [node.deepcopy()]))
         elif found := _NAME.fullmatch(text):
             target = f"glid_nb.{found[1]}"
             node.replace_self(

@@ -44,10 +44,10 @@ class PanelCertificate(Panels):
 
 @dataclass(frozen=True, eq=False)
 class Certificate:
-    """The outcome of :func:`certify` (Theorem 4.2).
+    """The outcome of :func:`certify`, with the bounds (4b), (4c) and (4d) of Theorem 4.2.
 
-    Bounds hold on the whole domain when ``certified``, otherwise on the boundary only. What is made
-    or changed by anything but a proof is not certified.
+    If ``certified``, the bounds hold on the whole domain, otherwise on the boundary only. Only
+    :func:`certify` and the solver set ``certified=True``.
     """
 
     certified: bool
@@ -84,7 +84,7 @@ class Certificate:
 
     @property
     def winding(self) -> int:
-        """Number of zeros of ``f_z`` in the domain: the sum of (30) over ``2 pi``."""
+        """Number of zeros of ``f_z`` in the domain (B.2): the sum (30) over ``2 pi``."""
         return sum(self.windings)
 
     @property
@@ -147,7 +147,7 @@ def certify(
     refine: bool = True,
     tightness: float = 0.02,
 ) -> Certificate:
-    """Prove a map locally injective and bound its distortion, or say where that fails.
+    """Prove a map locally injective and bound its distortion (Theorem 4.2), or say what fails.
 
     The kind is "hermite", cubic interpolants with Bernstein coefficients, "lipschitz", the paper's
     Lipschitz constants (26)-(27), or "bdhm", the larger ones of bounded distortion harmonic

@@ -28,6 +28,8 @@ class EndValues(NamedTuple):
 
 
 class PanelBounds(NamedTuple):
+    """What is proved on each panel; the turning as in Theorem 8.1."""
+
     sigma2_lower: PerPanel
     sigma1_upper: PerPanel
     k_upper: PerPanel
@@ -36,7 +38,7 @@ class PanelBounds(NamedTuple):
 
     @property
     def injective(self) -> Bool[Array, " p"]:
-        """Where ``|f_z| > |f_zbar|`` is proved and the turning is known (Conditions 4a, 5)."""
+        """Where ``|f_z| > |f_zbar|`` (5) is proved, and the turning of ``f_z``, which (4a) sums."""
         return (self.sigma2_lower > 0) & self.turning_known
 
 

@@ -26,7 +26,7 @@ Weights = Float[Array, "p n"]
 def segment_bounds(
     fz: EndValues, fzb_conj: EndValues, variation: Float[Array, "2 p"] | list[Array]
 ) -> PanelBounds:
-    """Bounds on each segment by (26) and (27), with ``variation`` = ``L_fz l`` and ``L_fzbar l``.
+    """Bounds on each segment (Section 8), with ``variation`` = ``L_fz l`` and ``L_fzbar l``.
 
     ``|f_z|_min   = (|f_z(v_i)| + |f_z(v_{i+1})|) / 2 - L_fz l / 2``,
     ``|f_zbar|_max = (|f_zbar(v_i)| + |f_zbar(v_{i+1})|) / 2 + L_fzbar l / 2``.
@@ -73,14 +73,17 @@ class Lipschitz(NamedTuple):
 
 
 def variation(f: EndValues, remainder: PerPanel) -> PerPanel:
-    """``L l``, with the paper's Lipschitz constant of ``f_z`` or ``f_zbar`` on each segment. ``L_fz
-    = (|f_z'(v_i)| + |f_z'(v_{i+1})|) / 2 + l/2 (sum_j L_j |s_j - s_{j+1}| + sum_j L_j^h |phi_j|)``;
-    ``remainder`` is the second term times ``l``."""
+    """``L l``, with the Lipschitz constant of ``f_z`` or ``f_zbar`` per segment (Section 8, (H.1)).
+
+    ``L_fz = (|f_z'(v_i)| + |f_z'(v_{i+1})|) / 2
+    + l/2 (sum_j L_j |s_j - s_{j+1}| + sum_j L_j^h |phi_j|)``; ``remainder`` is the second term
+    times ``l``.
+    """
     return (modulus(f.slope_start) + modulus(f.slope_end)) / 2 + remainder
 
 
 def jumps(coefficients: Rows, singularities: Singularities) -> Float[Array, "k n"]:
-    """``|s_j - s_{j+1}|``, and ``|phi_j|`` for the holes."""
+    """``|s_j - s_{j+1}|``, and ``|phi_j|`` for the holes (Appendix H)."""
     return modulus(slope_jumps(coefficients, singularities))
 
 
@@ -89,9 +92,10 @@ def derivative_bound_weights(
 ) -> Float[Array, "p n"]:
     """Weights ``w`` with ``l^order |d^order f_z / dz^order| <= w @ jumps`` on each segment.
 
-    For ``order`` 2 they are ``l^2`` times the paper's ``L_j = 1 / (2 pi d(z_j)^2)`` and
-    ``L_j^h = 2 / d(rho_k)^3``; in general ``(order-1)! / (2 pi) (l/d)^order`` and
-    ``order! (l/d)^order / d``. They also hold on the edge that the segment is a rounded part of.
+    For ``order`` 2 they are ``l^2`` times ``L_j = 1 / (2 pi d(z_j)^2)`` and ``L_j^h = 2 /
+    d(rho_k)^3`` of Appendix H, which Appendix G precomputes. In general they are
+    ``(order-1)! / (2 pi) (l/d)^order`` and ``order! (l/d)^order / d``. They also hold on the edge
+    that the segment is a rounded part of.
     """
     d, ratio = clearance(start, end, singularities)
     m, xp = singularities.vertices.shape[0], start.__array_namespace__()
@@ -148,14 +152,17 @@ def turning(fz_start: Ends, fz_end: Ends) -> PerPanel:
 
 
 def windings(turning: NDArray[np.float64], loop: NDArray[np.intp], n_loops: int) -> tuple[int, ...]:
-    """Turns of ``f_z`` along each loop, the inner sums of (30) over ``2 pi``."""
+    """Turns of ``f_z`` along each loop: the integrals of (4a), as the inner sums of (30)."""
     turns = np.bincount(loop, weights=turning, minlength=n_loops) / (2 * np.pi)
     return tuple(int(w) for w in np.round(np.nan_to_num(turns)))
 
 
 def fz_vanishes(turning: PerPanel) -> Bool[Array, ""]:
-    """Whether ``f_z`` has zeros in the domain: the sum (30) of all turnings, a multiple of ``2 pi``
-    up to rounding if all are known, is not 0 (Corollary 8.2)."""
+    """Whether ``f_z`` has zeros in the domain, so that (4a) fails (Corollary 8.2).
+
+    Then the sum (30) of all turnings is not 0. It is a multiple of ``2 pi`` up to rounding if all
+    are known.
+    """
     return abs(turning.sum()) > 1
 
 

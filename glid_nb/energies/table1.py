@@ -10,7 +10,7 @@ from glid_nb.energies.energy import Differentials, Energy, Scalars, register_ene
 @register_energy
 @dataclass(frozen=True)
 class SymmetricDirichlet(Energy):
-    """``E_iso = (sigma_1^2 + sigma_1^-2 + sigma_2^2 + sigma_2^-2) / 2`` (Equation (10a)).
+    """``E_iso = (sigma_1^2 + sigma_1^-2 + sigma_2^2 + sigma_2^-2) / 2`` (10a), (10b).
 
     In Wirtinger terms ``(x + y) (1 + (x - y)^-2)`` (Table 1, first row). It is 2 at an isometry
     and infinite where the map degenerates.

@@ -60,7 +60,11 @@ class Basis(NamedTuple):
 
 @functools.lru_cache(maxsize=64)
 def basis_of(domain: Domain) -> Basis:
-    """The basis of a domain, cached: Cauchy coordinates of the offset cage, a log per hole."""
+    """The basis of a domain, cached: Cauchy coordinates of the offset cage, logarithms of holes.
+
+    The null space is removed as in Section 5: two coefficients of each hole loop are 0, and one
+    ``psi`` of the exterior loop.
+    """
     loops, rho = domain.offset_cage.loops_complex, domain.hole_points_complex
     sizes, vertices = [len(loop) for loop in loops], np.concatenate(loops)
     m, n_holes = len(vertices), len(rho)

@@ -33,7 +33,7 @@ class Singularities(NamedTuple):
 
 
 def cauchy_coordinates(z: Points, singularities: Singularities) -> Matrix:
-    """``C_j(z)`` of Equation (8): (D.1) for vertices and ``ln|z - rho|`` for holes."""
+    """``C_j(z)`` of (6) and (8): (D.1) for vertices and ``ln|z - rho|`` for holes (7)."""
     xp = z.__array_namespace__()
     vertices, following, preceding, rho = singularities
     b = vertices - z[:, None]
@@ -44,7 +44,7 @@ def cauchy_coordinates(z: Points, singularities: Singularities) -> Matrix:
 
 
 def first_derivatives(z: Points, singularities: Singularities) -> Matrix:
-    """``D_j(z)`` of Equation (9): (D.2) for vertices and ``1 / (z - rho)`` for holes."""
+    """``D_j(z)`` of (9) and (B.1): (D.2) for vertices and ``1 / (z - rho)`` for holes."""
     vertices, _, preceding, rho = singularities
     log_over_a = log_over_edge(vertices - z[:, None], singularities)
     d = (log_over_a[:, preceding] - log_over_a) / _TWO_PI_I
@@ -70,7 +70,10 @@ def first_by_edges(z: Points, singularities: Singularities) -> Matrix:
 
 
 def second_by_edges(z: Points, singularities: Singularities) -> Matrix:
-    """The derivative of :func:`first_by_edges`: ``A_{j+1} / (2 pi i B_j B_{j+1})`` for edges."""
+    """The derivative of :func:`first_by_edges`; (D.4) summed by edges.
+
+    ``A_{j+1} / (2 pi i B_j B_{j+1})`` for the edge from vertex ``j``.
+    """
     vertices, following, _, rho = singularities
     b = vertices - z[:, None]
     edges = (vertices[following] - vertices) / (b * b[:, following]) / _TWO_PI_I
@@ -85,7 +88,7 @@ def edge_coefficients(coefficients: Rows, singularities: Singularities) -> Rows:
 
 
 def edge_slopes(coefficients: Values, singularities: Singularities) -> Values:
-    """``s_j = (phi_j - phi_{j-1}) / (z_j - z_{j-1})`` (Section 8), cyclic within each loop."""
+    """``s_j = (phi_j - phi_{j-1}) / (z_j - z_{j-1})`` (Section 8, Appendix H), within each loop."""
     vertices, _, preceding, _ = singularities
     return (coefficients - coefficients[..., preceding]) / (vertices - vertices[preceding])
 

@@ -39,19 +39,19 @@ class MapError(InputError):
 
 @dataclass(frozen=True, eq=False, init=False)
 class HarmonicMap(Rebuilt):
-    """A planar harmonic map on a multiply-connected domain (paper Equation (8)).
+    """A planar harmonic map on a multiply-connected domain (Theorem 4.1, (3), (8), (G.2)).
 
-    ``f(z) = sum_j C_j(z) phi_j + conj(sum_j C_j(z) psi_j)``, with the offset cage's vertices in
-    the order of its loops first, then one logarithm per hole.
+    ``f(z) = sum_j C_j(z) phi_j + conj(sum_j C_j(z) psi_j)``. The offset cage's vertices come
+    first, in the order of its loops, then one logarithm per hole.
 
     Points are (k, 2) world coordinates, or complex numbers x + iy. Nothing is certified outside the
-    cage, and beyond the offset cage values mean nothing. There ``outside="nan"`` gives NaN, and
-    "extend", the default, what the formula gives.
+    cage, and values beyond the offset cage mean nothing. ``outside="extend"``, the default,
+    evaluates the formula there; ``outside="nan"`` gives NaN.
 
-    The map and its derivatives are functions of JAX, too: for an array of JAX they return one, can
-    be differentiated, compiled and mapped, and take points of the shape (..., 2). They compute in
-    the array's precision, by default single; NumPy's arrays and lists always in double. There
-    ``outside="nan"`` needs points that are known, so not within ``jax.jit``.
+    The map and its derivatives also take arrays of JAX and return arrays of JAX: they can be
+    differentiated, compiled and mapped, and take points of the shape (..., 2). They compute in the
+    array's precision, by default single. NumPy's arrays and lists are computed in double precision.
+    ``outside="nan"`` needs known points, so it does not work within ``jax.jit``.
     """
 
     domain: Domain
@@ -103,7 +103,7 @@ class HarmonicMap(Rebuilt):
         return self._evaluated(_images, points, outside)
 
     def wirtinger(self, points: Any, *, outside: Outside = "extend") -> tuple[Any, Any]:
-        """Wirtinger derivatives ``f_z`` and ``f_zbar``, each (k,) complex (Equation (9))."""
+        """Wirtinger derivatives ``f_z`` and ``f_zbar``, each (k,) complex ((9), (G.1), (G.3))."""
         fz, fzb_conj = self._evaluated(_first, points, outside)
         return fz, fzb_conj.conj()
 
@@ -120,7 +120,7 @@ class HarmonicMap(Rebuilt):
         return abs(fz) + abs(fzb)
 
     def sigma2(self, points: Any, *, outside: Outside = "extend") -> Any:
-        """Signed small singular value ``|f_z| - |f_zbar|``, (k,); negative where it folds."""
+        """Small singular value ``|f_z| - |f_zbar|``, (k,) (2); negative where the map folds."""
         fz, fzb = self.wirtinger(points, outside=outside)
         return abs(fz) - abs(fzb)
 
@@ -130,7 +130,7 @@ class HarmonicMap(Rebuilt):
         return abs(fzb) / abs(fz)
 
     def det(self, points: Any, *, outside: Outside = "extend") -> Any:
-        """Determinant of the Jacobian, ``|f_z|^2 - |f_zbar|^2``, (k,)."""
+        """Determinant of the Jacobian, ``|f_z|^2 - |f_zbar|^2``, (k,) (Section 3.2)."""
         fz, fzb = self.wirtinger(points, outside=outside)
         return abs(fz) ** 2 - abs(fzb) ** 2
 
@@ -209,7 +209,8 @@ def rows_of(*maps: HarmonicMap) -> Array:
 
 
 def images_under(maps: Sequence[HarmonicMap], points: ArrayLike) -> Array:
-    """(k, 2 m) images x, y of (k, 2) points under m maps of one domain, its basis computed once."""
+    """(k, 2 m) images x, y of (k, 2) points under m maps of one domain (G.2); the basis is computed
+    once."""
     basis, columns = basis_of(maps[0].domain), np.ascontiguousarray(rows_of(*maps).T)
 
     def values(z: Any, columns: Any, singularities: Singularities) -> Array:

@@ -18,13 +18,14 @@ _L, _N, _T = np.frombuffer(b"LNT", np.uint8)  # LAPACK's letters
 
 
 def factorise(h: Float[Array, "n n"]) -> Float[Array, "n n"]:
-    """The factor of a matrix's upper half, for :func:`solve`; NaN last where it is indefinite."""
+    """The factor of a matrix's upper half, to solve (1) with; NaN last where it is indefinite."""
     return _by_platform(
         _lapack_factor, lambda h: lax.linalg.cholesky(h.T, symmetrize_input=False), h
     )
 
 
 def solve(factor: Float[Array, "n n"], b: Float[Array, " n"]) -> Float[Array, " n"]:
+    """The solution of a linear system such as (1) by the factor of its matrix."""
     return _by_platform(
         _lapack_solve, lambda factor, b: jax.scipy.linalg.cho_solve((factor, True), b), factor, b
     )

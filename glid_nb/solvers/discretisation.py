@@ -39,7 +39,7 @@ _MOST_PANELS = 20_000
 
 
 class Matrices(NamedTuple):
-    """What one Newton iteration reads; a JAX pytree, padded to buckets.
+    """What one Newton iteration reads (G.4); a JAX pytree, padded to buckets.
 
     ``c`` padded columns, ``u`` padded coordinates, ``p`` padded panels, ``q`` midpoints (``p``, or
     0 for the uniform sampling), ``h`` Hessian nodes. Padding panels have zero weight and are never
@@ -171,9 +171,11 @@ class Discretisation:
 def discretise(
     domain: Domain, sampling: Sampling = "graded", certificate: CertificateKind = "hermite"
 ) -> Discretisation:
-    """The discretisation that a solve on ``domain`` starts from; the last few are kept. ``graded``:
-    Simpson's rule on graded panels, for the Hessian the midpoint rule on pairs of them.
-    ``uniform``: the paper's samples with the plain mean (31), the Hessian on every tenth (33)."""
+    """The discretisation that a solve on ``domain`` starts from (Algorithm 1, line 1).
+
+    ``graded``: Simpson's rule on graded panels, for the Hessian the midpoint rule on pairs of them.
+    ``uniform``: the paper's samples with the plain mean (31), the Hessian on every tenth (33). The
+    last few are kept."""
     stage("basis")
     basis, graded = basis_of(domain), sampling == "graded"
     panels = graded_panels(domain) if graded else uniform_panels(domain.cage, UNIFORM_SAMPLES)
@@ -280,6 +282,7 @@ def _hessian_nodes(
 
 
 def real_columns(rows: np.ndarray) -> np.ndarray:
+    """``[Re D, -Im D]`` of the rows of ``D``, transposed: half of (15), (E.4) and (G.5)."""
     return np.ascontiguousarray(np.concatenate([np.real(rows), -np.imag(rows)], axis=1).T)
 
 

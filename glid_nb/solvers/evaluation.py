@@ -18,13 +18,15 @@ Values = Float[Array, "4 s"]
 
 
 class Samples(NamedTuple):
-    """``f_z`` and ``conj(f_zbar)`` as rows (Re, Im, Re, Im), and their derivatives."""
+    """``f_z`` and ``conj(f_zbar)`` as rows (Re, Im, Re, Im) (16), and their derivatives."""
 
     values: Float[Array, "4 p+q"]
     slopes: Float[Array, "4 p"]
 
 
 class Point(NamedTuple):
+    """A map and its energies, whose sum is (20)."""
+
     coefficients: Coefficients
     samples: Samples
     energy_iso: Number
@@ -44,18 +46,19 @@ class Line(NamedTuple):
 
 
 def evaluated(problem: SubspaceProblem, coefficients: Coefficients) -> Point:
-    """The point with these coefficients, its samples computed anew."""
+    """The point with these coefficients, its samples computed anew (Algorithm 1, line 3)."""
     samples = products(problem.matrices, coefficients - problem.anchor)
     return _point(problem, coefficients, samples, reach(problem, coefficients))
 
 
 def line_along(problem: SubspaceProblem, direction: Coefficients, slope: Number) -> Line:
-    """The line in a direction, along which the energy changes by ``slope`` at first."""
+    """The line in a direction, along which the energy changes by ``slope`` at first (G.11)."""
     return Line(direction, products(problem.matrices, direction), -slope)
 
 
 def moved(problem: SubspaceProblem, point: Point, line: Line, step: Number) -> Point:
-    """The point ``step`` along a line; its samples are carried along (G.11)."""
+    """The point ``step`` along a line; its samples are carried along (Algorithm 1, line 16, by
+    (G.11))."""
     samples = Samples(*(a + step * b for a, b in zip(point.samples, line.change, strict=True)))
     reached = point.coefficients + step * line.direction
     largest = jnp.maximum(point.largest, reach(problem, reached))
@@ -72,7 +75,8 @@ def _point(
 def isometric_energy(
     values: Float[Array, "4 *t s"], matrices: Matrices, energy: Energy
 ) -> Float[Array, "*t"]:
-    """Equation (31) less what stiff areas add to an isometry's; infinite at inverted samples."""
+    """(12) as the sum (31), less what stiff areas add to an isometry's; infinite at inverted
+    samples."""
     weights = matrices.weights
     x, y = squares(values)
     valid = x > y
@@ -85,7 +89,7 @@ def isometric_energy(
 
 
 def gradient(problem: SubspaceProblem, point: Point) -> Coefficients:
-    """Of the total energy, with respect to all coefficients."""
+    """Of the total energy, with respect to all coefficients (Algorithm 1, line 4)."""
     values = point.samples.values
     d = problem.energy.differentials(*squares(values))
     isometric = energy_gradient(problem.matrices, values, d)
@@ -93,7 +97,11 @@ def gradient(problem: SubspaceProblem, point: Point) -> Coefficients:
 
 
 def energy_gradient(matrices: Matrices, values: Values, d: Differentials) -> Coefficients:
-    """Gradient of the isometric energy, (G.7) with the last block's sign corrected."""
+    """Gradient of the isometric energy: (13) as the sum (32) of (17), by one product (G.7).
+
+    It is (G.8) with the last block's sign corrected. Each sample's part is that of Appendix E:
+    (E.2), (E.6) and (E.7).
+    """
     w1, w2 = 2 * matrices.weights * d.alpha1, 2 * matrices.weights * d.alpha2
     m = matrices.nodes @ (values * jnp.stack([w1, w1, w2, w2])).T
     c = m.shape[0] // 2
@@ -139,14 +147,14 @@ def fz_turning(matrices: Matrices, values: Values) -> Float[Array, " p"]:
 
 
 def products(matrices: Matrices, coefficients: Coefficients) -> Samples:
-    """``f_z``, ``conj(f_zbar)`` and their derivatives on the panels (G.6), one product each."""
+    """``f_z``, ``conj(f_zbar)`` (E.5) and their derivatives on the panels (G.6), a product each."""
     re, im = jnp.moveaxis(coefficients.reshape(2, 2, -1), 1, 0)
     rows = jnp.stack([jnp.hstack([re, im]), jnp.hstack([im, -re])], axis=1).reshape(4, -1)
     return Samples(rows @ matrices.nodes, rows @ matrices.slopes)
 
 
 def squares(values: Float[Array, "4 *t s"]) -> tuple[Array, Array]:
-    """``|f_z|^2`` and ``|f_zbar|^2``."""
+    """``|f_z|^2`` and ``|f_zbar|^2``, which the energies take for the singular values (11)."""
     return values[0] ** 2 + values[1] ** 2, values[2] ** 2 + values[3] ** 2
 
 

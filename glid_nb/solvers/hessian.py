@@ -45,7 +45,7 @@ def local_hessian(d: Differentials, x: PerNode, y: PerNode) -> LocalHessian:
 
 
 def positive_part(k: LocalHessian) -> LocalHessian:
-    """``K+``, the closest positive semidefinite matrix to ``K`` (Section 7.1)."""
+    """``K+`` of (21), the closest positive semidefinite matrix to ``K``, by (23) and (24)."""
     mean = (k.along_ff + k.along_gg) / 2
     half = (k.along_ff - k.along_gg) / 2
     # Scaled, for the squares of an exponential energy's entries can overflow.
@@ -100,8 +100,10 @@ def assemble(
     g: tuple[PerNode, PerNode],
     k: LocalHessian,
 ) -> Float[Array, "4u 4u"]:
-    """Upper triangle of ``sum_i w_i B_i^T K_i B_i`` over ``[Re phi, Im phi, Re psi, Im psi]``; zero
-    below the diagonal blocks, which a Cholesky factorisation does not read.
+    """Upper triangle of ``sum_i w_i B_i^T K_i B_i`` over ``[Re phi, Im phi, Re psi, Im psi]``.
+
+    That is (14) as a sum of (18), in the blocks of Appendix E, (E.8) and (E.10), by products other
+    than (G.10). Below the diagonal blocks it is zero: a Cholesky factorisation does not read that.
 
     ``nodes`` is ``D`` as ``[Re D, -Im D]``, transposed; ``f`` and ``g`` are unit vectors (Re, Im)
     along ``f_z`` and ``conj(f_zbar)``, any where a derivative vanishes. ``K``'s diagonal block for
@@ -133,7 +135,8 @@ def assemble(
 def assemble_across_f(
     nodes: Float[Array, "2u h"], weights: PerNode, f: tuple[PerNode, PerNode], across: PerNode
 ) -> Float[Array, "2u 2u"]:
-    """The part of :func:`assemble` that ``across_f`` alone contributes, the block of ``phi``."""
+    """The part of :func:`assemble` that ``across_f`` alone contributes, the block of ``phi``: added
+    to the exact Hessian, ``-lambda_1`` makes (25) of it."""
     columns = nodes.shape[0] // 2
     u, v = _rotated(nodes[:columns], -nodes[columns:], f)
     # The component across f has the row [v, u].

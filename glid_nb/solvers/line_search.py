@@ -53,7 +53,8 @@ def _difference_of_squares(a: Values, b: Values) -> Float[Array, " s"]:
 
 
 def search(problem: SubspaceProblem, point: Point, line: Line) -> Search:
-    """Energies along the line in batches of candidates, each batch shorter, until one decreases."""
+    """Energies along the line in batches of candidates, each batch shorter, until one decreases
+    (Algorithm 1, lines 13 to 17 and 21 to 23)."""
     values, change, positional = point.samples.values, line.change.values, problem.positional
     residual = positional.residual(point.coefficients)
     residual_change = positional.matrix @ line.direction
@@ -100,7 +101,8 @@ def backtrack(
     found: Search,
     once: Bool[AnyArray, ""] | bool,
 ) -> Backtracking:
-    """Go from the best candidate to shorter ones until one is certified; ``once``: try one only.
+    """Go from the best candidate to shorter ones until one is certified (Algorithm 1, lines 18 to
+    20); ``once``: try one only.
     Where Condition (30) fails and no panel refuses, the step jumps over a map with a zero of
     ``f_z`` on the boundary: on the panels along which ``f_z`` turned most."""
     real, count = problem.matrices.real, found.steps.shape[0]

@@ -66,6 +66,8 @@ def descend(inputs: Inputs, method: Method | None = None) -> Result:
 
 
 class NewtonDescent(SubspaceDescent):
+    """Algorithm 1 at work. The Hessian is singular without two handles (Proposition I.1)."""
+
     shows_start = False
 
     def __init__(self, method: Method, inputs: Inputs) -> None:
@@ -256,7 +258,8 @@ _latest: tuple[list[Any], Any] | None = None
 
 
 def _p2p_hessian(problem: SubspaceProblem) -> Any:
-    """The positional energy's Hessian, else the identity; the latest is kept on the device."""
+    """The positional energy's Hessian (F.6), the sum of (F.3), else the identity; the latest is
+    kept on the device."""
     global _latest
     positional, unknowns = problem.positional, problem.unknowns
     inputs = [positional.matrix, positional.weights, unknowns.free, problem.matrices.whitening]

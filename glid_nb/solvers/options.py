@@ -93,10 +93,11 @@ class Options:
 
     @classmethod
     def paper(cls, **changes: Any) -> Options:
-        """The paper's own settings: uniform samples, Lipschitz certificate, projected Hessian.
+        """The paper's settings (Section 10).
 
-        They start at the identity itself and try no other way. The paper gives ``lambda = 1e5`` in
-        its cages' own units. For exactly that, pass ``p2p_weight=1e5 * cage.unit**2``.
+        They are uniform samples, the Lipschitz certificate and the projected Hessian. They start at
+        the identity itself and try no other way. The paper gives ``lambda = 1e5`` in its cages' own
+        units. For exactly that, pass ``p2p_weight=1e5 * cage.unit**2``.
         """
         kinds = {"sampling": "uniform", "certificate": "lipschitz", "hessian": "projected"}
         settings: dict[str, Any] = {**kinds, "align": False, "restarts": 0, "corrections": 0}

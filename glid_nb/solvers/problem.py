@@ -53,7 +53,10 @@ class SubspaceProblem(NamedTuple):
 
 
 class Positional(NamedTuple):
-    """The positional energy ``1/2 |A y - b|^2`` with weights (20), as (F.5) writes it."""
+    """The energy of the handles (Section 6.1, (F.1)), ``1/2 |A y - b|^2`` with weights (20).
+
+    ``A`` is the matrix (F.5), ``b`` the targets (F.8).
+    """
 
     matrix: Float[AnyArray, "2h 4c"]  # all rows for the real parts, then for the imaginary
     aims: Float[AnyArray, " 2h"]
@@ -63,9 +66,11 @@ class Positional(NamedTuple):
         return self.matrix @ coefficients - self.aims
 
     def energy(self, coefficients: Float[Array, " 4c"]) -> Float[Array, ""]:
+        """The sum (F.2)."""
         return 0.5 * jnp.sum(self.weights * self.residual(coefficients) ** 2)
 
     def gradient(self, coefficients: Float[Array, " 4c"]) -> Float[AnyArray, " 4c"]:
+        """The gradient (F.7), the sum of (F.4); (G.9) repeats it."""
         return self.matrix.T @ (self.weights * self.residual(coefficients))
 
 
@@ -124,6 +129,7 @@ def _basis_at(domain: Domain, points: bytes, kernel: Any) -> NDArray[Any]:
 
 @functools.lru_cache(maxsize=32)
 def matrix_at(domain: Domain, handles: bytes, size: int) -> NDArray[Any]:
+    """The matrix (F.5) of the handles, padded to ``size`` rows for each of the two parts."""
     own = _basis_at(domain, handles, cauchy.cauchy_coordinates)
     rows = np.zeros((size, own.shape[1]), dtype=complex)
     rows[: len(own)] = own
@@ -150,7 +156,7 @@ def moved(map: HarmonicMap, turn: complex, by: complex) -> HarmonicMap:
 
 
 def real_coefficients(map: HarmonicMap) -> NDArray[Any]:
-    """Padded ``[Re phi, Im phi, Re psi, Im psi]`` of a map."""
+    """Padded ``[Re phi, Im phi, Re psi, Im psi]`` of a map (E.1)."""
     rows = rows_of(map)
     return np.stack([np.real(rows), np.imag(rows)], axis=1).ravel()
 
@@ -172,7 +178,8 @@ def map_from(domain: Domain, coefficients: Any) -> HarmonicMap:
 
 
 def unknowns_of(basis: Basis, conformal: bool, whitening: AnyArray | None = None) -> Unknowns:
-    """Among all columns or the coordinates of a whitening (2, c, u); ``conformal`` drops psi."""
+    """Among all columns or the coordinates of a whitening (2, c, u); ``conformal`` drops psi
+    (Section 6)."""
     n_holes = basis.n_hole_columns
     if whitening is None:
         phi, psi = np.array(basis.phi_free), np.array(basis.psi_free)
@@ -187,6 +194,7 @@ def unknowns_of(basis: Basis, conformal: bool, whitening: AnyArray | None = None
 
 
 def restrict_gradient(g: Vector, unknowns: Unknowns) -> Vector:
+    """Gradient with respect to the unknowns, 0 elsewhere (Algorithm 1, line 6)."""
     phi, psi, sign = _hole_slices(g.shape[0], unknowns)
     if phi is not None:
         g = g.at[phi].add(sign * g[psi])
@@ -208,7 +216,9 @@ def restrict_hessian(
     other: Square | None = None,
     ridge: Float[AnyArray, ""] | float = 0.0,
 ) -> Square:
-    """Hessian with respect to the unknowns plus ``other``, restricted already; else the identity.
+    """Hessian with respect to the unknowns plus ``other``, restricted already; else the identity
+    (Algorithm 1, line 6).
+
     Of ``h`` the columns of ``psi`` and the block of ``phi`` are read; below the diagonal blocks the
     result means nothing. The diagonal is raised by ``ridge`` times its mean."""
     phi, psi, sign = _hole_slices(h.shape[0], unknowns)

@@ -61,7 +61,8 @@ class State(NamedTuple):
 def iterations(
     problem: SubspaceProblem, coefficients: Coefficients, factor: Factor, settings: Settings
 ) -> State:
-    """Up to ``settings.iterations`` (at most `MOST_PER_CALL`) Newton iterations, to be compiled.
+    """Up to ``settings.iterations`` (at most `MOST_PER_CALL`) iterations of Algorithm 1, to be
+    compiled.
 
     An iteration is a step with a Hessian of its own and, close to the minimum, corrections: steps
     by the same factor from gradients of their own (Shamanskii's method). All are turns of one loop,
@@ -152,7 +153,9 @@ def _step(problem: SubspaceProblem, settings: Settings, state: State) -> State:
 
 def _factorised(problem: SubspaceProblem, settings: Settings, state: State) -> tuple[Factor, Array]:
     """Cholesky factor of the Hessian, NaN where that fails, and whether ``K`` was projected; or the
-    factor that the call was given. A loop, for its turns write into the same memory."""
+    factor that the call was given (Algorithm 1, line 5). Projected is (21), or (25) where it serves.
+
+    A loop, for its turns write into the same memory."""
     matrices, energy = problem.matrices, problem.energy
     first_step = jnp.logical_not(settings.reuse) | (state.iteration > 0)
     wanted = first_step & ~state.corrects
@@ -198,7 +201,8 @@ def _factorised(problem: SubspaceProblem, settings: Settings, state: State) -> t
 
 
 def _newton_line(problem: SubspaceProblem, point: Point, factor: Factor) -> Line:
-    """The line in the direction ``-H^-1 gradient``, computed in whitened coordinates."""
+    """The line in the direction ``-H^-1 gradient`` (1), computed in whitened coordinates
+    (Algorithm 1, line 7)."""
     unknowns, t = problem.unknowns, problem.matrices.whitening
     gradient = evaluation.gradient(problem, point)
     gradient = restrict_gradient(whitening.pulled_back(gradient, t), unknowns)

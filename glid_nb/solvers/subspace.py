@@ -25,7 +25,8 @@ _FAR, _DAMPING = 0.2, 3.0  # a measurement that far from the last one, radians, 
 
 
 class SubspaceDescent(Descent):
-    """A method on maps of the harmonic subspace; ``reduced``: in whitened coordinates."""
+    """A method on maps of the harmonic subspace, such as Algorithm 1; ``reduced``: in whitened
+    coordinates."""
 
     uses_lapack = True
     discretisation: Discretisation
