@@ -153,7 +153,7 @@ def _step(problem: SubspaceProblem, settings: Settings, state: State) -> State:
 
 def _factorised(problem: SubspaceProblem, settings: Settings, state: State) -> tuple[Factor, Array]:
     """Cholesky factor of the Hessian, NaN where that fails, and whether ``K`` was projected; or the
-    factor that the call was given (Algorithm 1, line 5). Projected is (21), or (25) where it serves.
+    factor that the call was given (Algorithm 1, line 5). Projected is (21), or (25) if enough.
 
     A loop, for its turns write into the same memory."""
     matrices, energy = problem.matrices, problem.energy
