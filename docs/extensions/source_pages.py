@@ -52,6 +52,12 @@ def source_of(dotted: str, root: Path) -> tuple[str, str] | None:
     return None
 
 
+def _breakable(dotted: str) -> nodes.raw:
+    """A dotted name in code type that may continue on the next line after each dot."""
+    parts = "<wbr>".join(escape(part) for part in re.split(r"(?<=\.)", dotted))
+    return nodes.raw("", f'<code class="docutils literal">{parts}</code>', format="html")
+
+
 def definition(source: str, name: str) -> int | None:
     """The line, from 1, on which a name is defined."""
     last = re.escape(name.split("(", maxsplit=1)[0].rsplit(".", maxsplit=1)[-1])
@@ -115,7 +121,7 @@ class RepositoryLinks(SphinxTransform):
                 logger.warning("there is no file %s", found[1], location=node)
         elif place := source_of(text, self.root):
             path, name = place
-            node.replace_self(self._reference(path, [name], [node.deepcopy()]))
+            node.replace_self(self._reference(path, [name], [_breakable(text)]))
         elif found := _NAME.fullmatch(text):
             target = f"glid_nb.{found[1]}"
             node.replace_self(

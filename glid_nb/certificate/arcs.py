@@ -1,4 +1,4 @@
-"""Enclosures of the images of panels: how far the image of a straight panel is from its chord."""
+"""Enclosures of the images of panels: bounds on how far an image is from its chord."""
 
 from typing import Any, NamedTuple, Self
 
@@ -17,8 +17,8 @@ _FINAL_ROUNDING = 1 + 1e-12
 class Jets(NamedTuple):
     """A map to second order at the starts of panels; every field is an array over the panels.
 
-    The image is relative to the first coefficients, so that a translation costs no accuracy. The
-    errors allow for any unit direction and for starts beside their edge; ``third`` bounds the third
+    Images are relative to the first coefficients, so a translation costs no accuracy. The errors
+    hold for every unit direction and for starts beside their edge. ``third`` bounds the third
     derivative along the panel, times its length squared.
     """
 
@@ -44,9 +44,11 @@ class Jets(NamedTuple):
 
 
 class Arcs(NamedTuple):
-    """Images of panels by the panel's arc length; every field is an array. The images of the ends
-    are accurate to ``error``, the tangents there to ``tangent_error``; ``bend`` bounds the second
-    derivative along the panel."""
+    """Images of panels, parametrised by the panel's arc length; every field is an array.
+
+    ``error`` bounds the error of the images of the ends, ``tangent_error`` that of the tangents
+    there. ``bend`` bounds the second derivative along the panel.
+    """
 
     start: Array
     end: Array
@@ -106,7 +108,7 @@ def _kernel(start: Any, end: Any, coefficients: Any, singularities: Singularitie
     slack: Any = rounding.slack_factor(coefficients.shape[1]) * modulus(local).max(axis=1).sum()
     third: Any = derivative_bound_weights(start, end, singularities, 2)
     third = third @ jumps(coefficients, singularities).sum(axis=0)
-    # What a start beside its edge changes, by Taylor's theorem.
+    # A start beside its edge changes these, by Taylor's theorem.
     off: Any = beside_by(singularities)
     bend, steep = (modulus(a).sum(axis=0) for a in (second, first))
     rest = third / (modulus(end - start) + 2 * off) ** 2 * off
@@ -125,8 +127,10 @@ def _kernel(start: Any, end: Any, coefficients: Any, singularities: Singularitie
 
 
 def _value_scale(z: Any, singularities: Singularities) -> Any:
-    """The sum of the moduli of all terms of ``C(z)``, like ``rounding.term_scale`` for ``D(z)``:
-    ``|Log(B_{j+1} / B_j)| <= |ln |B_{j+1} / B_j|| + pi``, and 4 roundoffs beside it."""
+    """The sum of the moduli of all terms of ``C(z)``, as ``rounding.term_scale`` is for ``D(z)``.
+
+    It uses ``|Log(B_{j+1} / B_j)| <= |ln |B_{j+1} / B_j|| + pi``, and adds 4 roundoffs.
+    """
     vertices, following, _, rho = singularities
     b = modulus(vertices - z[:, None])
     edge = modulus(vertices[following] - vertices)

@@ -1,4 +1,4 @@
-"""Proving any harmonic map locally injective (paper Section 8, Theorem 4.2)."""
+"""Prove any harmonic map locally injective (Section 8, Theorem 4.2)."""
 
 import functools
 from collections.abc import Callable
@@ -66,17 +66,17 @@ class Certificate:
     """The map that this is the certificate of."""
 
     def __post_init__(self) -> None:
-        if self.certified:  # `_assembled` says so afterwards
+        if self.certified:  # only `_assembled` may set this, afterwards
             vars(self).update(certified=False, reason="Undecided: no proof made this certificate.")
 
     def __setstate__(self, state: dict[str, Any]) -> None:
-        """From a pickle, in which maps come without the proofs that they have kept."""
+        """From a pickle. There maps come without the proofs that they keep."""
         vars(self).update(state)
         if self.certified:
             vars(self.map).setdefault("_proof", self)
 
     def belongs_to(self, map: HarmonicMap) -> bool:
-        """Whether it is of this map: the same coefficients on the same or an equal domain."""
+        """Whether it belongs to this map: the same coefficients on the same or an equal domain."""
         check_type("map", map, HarmonicMap, "such as that of a result")
         own = self.map
         same = np.array_equal(own.phi, map.phi) and np.array_equal(own.psi, map.psi)
@@ -107,7 +107,7 @@ def proof_text(certificate: Certificate) -> str:
     loops = map_.domain.cage.loops_complex
     pieces = dyadic_panels(certificate.panels, loops)
     if pieces is None:
-        # What is claimed does not depend on the panels, and these are fewer than uniform ones.
+        # The claims do not depend on the panels, and graded panels are fewer than uniform ones.
         pieces = dyadic_panels(graded_panels(map_.domain), loops)
     values = {key: value for key, value in map_.to_dict().items() if key != "notes"}
     return exact_text(
@@ -130,7 +130,7 @@ class Known(NamedTuple):
     sigma1_seen: Any
     k_seen: Any
     fz_seen: Any
-    slack: Any  # bound on the error of both derivatives there, and of what is made of them
+    slack: Any  # bounds the error of both derivatives there, and of all that follows from them
     ends: Any = None  # (p, 2) f_z as computed at the start and the end
     own: Any = None  # (p,) bound on the errors of the two values at the start alone
 
@@ -150,11 +150,13 @@ def certify(
     """Prove a map locally injective and bound its distortion (Theorem 4.2), or say what fails.
 
     The kind is "hermite", cubic interpolants with Bernstein coefficients, "lipschitz", the paper's
-    Lipschitz constants (26)-(27), or "bdhm", the larger ones of bounded distortion harmonic
-    mappings (Figure 7). ``panels`` are pieces of the boundary to start from, by default graded
-    ones; a GeometryError where they do not tile that of the map's cage. With ``refine`` panels are
-    split on which the proof fails, as the paper does not, or whose bounds are further than the
-    relative ``tightness`` from values that the map attains.
+    Lipschitz constants (26)-(27), or "bdhm", the larger constants of bounded distortion harmonic
+    mappings (Figure 7).
+
+    ``panels`` are the pieces of the boundary to start from, by default graded ones. They must tile
+    the boundary of the map's cage, else a GeometryError is raised. With ``refine`` a panel is split
+    if its proof fails, or if its bounds are further than the relative ``tightness`` from values
+    that the map attains. The paper does not split panels.
     """
     check_type("map", map, HarmonicMap, "such as that of a result")
     check_type("panels", panels, Panels | None, "such as those of a certificate")
@@ -176,11 +178,11 @@ def certify(
 def refined(
     panels: Panels, known: Known, evaluate: Callable[..., Known], tightness: float
 ) -> tuple[Panels, Known]:
-    """Halve panels until the proof succeeds, then for tight bounds, or until that will not."""
+    """Halve panels until the proof succeeds, then until bounds are tight, or while it helps."""
     best = panels, known
     for _ in range(_MAX_ROUNDS):
         wanted = _to_split(known, tightness) & panels.divisible
-        # Elsewhere rounding hides that the map is injective at the panel's start.
+        # If not, rounding hides whether the map is injective at the panel's start.
         own = known.slack if known.own is None else known.own
         seen = (known.sigma2_seen > own) & np.isfinite(known.sigma1_seen + own)
         if not (seen.all() and wanted.any()) or len(panels) > _MAX_PANELS:
@@ -192,7 +194,7 @@ def refined(
 
 
 def _to_split(known: Known, tightness: float) -> Array:
-    """(p,) bool: the proof fails, or where it fails nowhere, the overall bounds are not tight."""
+    """(p,) bool: the proof fails; or, if it fails nowhere, the overall bounds are not tight."""
     bounds, injective = known.bounds, np.asarray(known.bounds.injective)
     if not known.proved or not np.isfinite(known.slack).all():
         return ~injective
@@ -211,8 +213,10 @@ def _to_split(known: Known, tightness: float) -> Array:
 
 
 def certificate_of(map: HarmonicMap, *, alone: bool = False) -> Certificate:
-    """A map's from its coefficients alone, else, unless they are to be alone, a solver's
-    (`proved_by`) if it has one; kept."""
+    """A map's certificate, computed from its coefficients and kept.
+
+    If that fails and ``alone`` is false, a solver's (`proved_by`) is returned if the map has one.
+    """
     known = vars(map)
     if "_certificate" not in known:
         known["_certificate"] = certify(map)
@@ -223,7 +227,7 @@ def certificate_of(map: HarmonicMap, *, alone: bool = False) -> Certificate:
 def proved_by(
     map: HarmonicMap, panels: Panels, sigma2_lower: Array, turning: Array, kind: CertificateKind
 ) -> Certificate:
-    """The certificate by what a solver has proved, neither of sigma_1 nor of k but ``k < 1``."""
+    """The certificate of what a solver has proved: no bound on sigma_1, and only ``k < 1``."""
     every = np.ones(len(panels))
     bounds = PanelBounds(sigma2_lower, every * np.inf, every, every > 0, turning)
     turns = windings(turning, panels.loop, 1 + map.domain.n_holes)
@@ -285,7 +289,7 @@ def _kernel(
     remainder = proof.remainder(coefficients, singularities) + proof.slack_share * slack
     bounds = proof.bounds(fz, fzb_conj, remainder)
     f, g = modulus(fz.start), modulus(fzb_conj.start)
-    # The start itself may lie beside the boundary.
+    # The start may lie beside the boundary.
     shift = jumps(coefficients, singularities) @ beside(start, end, singularities).T
     slack, at_ends = np.sum(slack + shift, axis=0), np.stack([fz.start, fz.end], axis=1)
     return Known(bounds, f - g, f + g, g / f, f, slack, at_ends, np.sum(own, axis=0))

@@ -44,9 +44,11 @@ class Hermite(NamedTuple):
         remainder: Float[Array, "2 p"],
         direction: Ends | None = None,
     ) -> PanelBounds:
-        """Bounds on each whole panel, whose interpolants are halved once to tighten them. With unit
-        vectors ``u`` as ``direction``, the bounds on sigma_2 and k hold with ``Re(conj(u) f_z)``,
-        proved positive where the turning is known, in place of ``|f_z|``."""
+        """Bounds on each whole panel; its interpolants are halved once to tighten them.
+
+        With unit vectors ``u`` as ``direction``, the bounds on sigma_2 and k hold with
+        ``Re(conj(u) f_z)`` in place of ``|f_z|``. It is proved positive where the turning is known.
+        """
         p, q = _control_points(fz), _control_points(fzb_conj)
         e_f, e_g = remainder[0], remainder[1]
         p_most = _greatest([modulus(point) for point in p])
@@ -54,7 +56,7 @@ class Hermite(NamedTuple):
         u = mean / modulus(mean) if direction is None else direction
         along = [(u.conj() * point).real for point in p]
         if direction is not None:
-            e_f = e_f + rounding.BERNSTEIN * p_most  # of u itself and the products
+            e_f = e_f + rounding.BERNSTEIN * p_most  # rounding of u and of the products
         halves = [
             _piece_bounds(a, b, e_f, e_g)
             for a, b in zip(_halves(p if direction is None else along), _halves(q), strict=True)
@@ -73,33 +75,33 @@ class Hermite(NamedTuple):
 
 
 def _piece_bounds(p: Cubic, q: Cubic, e_f: PerPanel, e_g: PerPanel) -> tuple[Array, Array, Array]:
-    """Lower bound on sigma_2, upper bounds on sigma_1 and k, where ``p`` and ``q`` interpolate."""
+    """Lower bound on sigma_2, upper bounds on sigma_1 and k, for interpolants ``p`` and ``q``."""
     xp = e_f.__array_namespace__()
     p_most = _greatest([modulus(point) for point in p])
     q_most = _greatest([modulus(point) for point in q])
-    # The computed coefficients are off by this much.
+    # Rounding errors of the computed coefficients.
     p_off, q_off = (rounding.BERNSTEIN * most**2 for most in (p_most, q_most))
     p_square = [a - p_off for a in _squared_modulus(p)]
     q_square = [b + q_off for b in _squared_modulus(q)]
 
     # |p| - |q| = (|p|^2 - |q|^2) / (|p| + |q|), and the control points bound the denominator.
-    # Where least is negative, |q|^2 <= |p|^2 - least gives |q| <= |p| + sqrt(-least).
+    # If least is negative, |q|^2 <= |p|^2 - least gives |q| <= |p| + sqrt(-least).
     least = _least([a - b for a, b in zip(p_square, q_square, strict=True)])
     sigma2 = xp.where(least > 0, least / (p_most + q_most), -xp.sqrt(-least)) - e_f - e_g
     sigma1 = p_most + q_most + e_f + e_g
 
-    # kappa^2 |p|^2 - |q|^2 >= 0 coefficient by coefficient bounds |q| / |p| by kappa.
+    # If all coefficients of kappa^2 |p|^2 - |q|^2 are at least 0, |q| / |p| is at most kappa.
     p_least_square = _least(p_square)
     p_least = xp.sqrt(xp.maximum(p_least_square, 0))
     ratios = [xp.maximum(b, 0) / a for a, b in zip(p_square, q_square, strict=True)]
     kappa = xp.sqrt(_greatest(ratios))
     k = (kappa * p_least + e_g) / (p_least - e_f)
     k = xp.where((p_least_square > 0) & (p_least > e_f), k, xp.inf)
-    # k = (sigma_1 - sigma_2) / (sigma_1 + sigma_2) grows with sigma_1 and falls with sigma_2, so
-    # the bounds on these bound it by less than 1 where sigma_2 is proved positive.
+    # k = (sigma_1 - sigma_2) / (sigma_1 + sigma_2) grows with sigma_1 and falls with sigma_2. So
+    # their bounds give another bound on k, below 1 where sigma_2 is proved positive.
     from_sigma = (sigma1 - sigma2) / (sigma1 + sigma2)
     k = xp.where(sigma2 > 0, xp.minimum(k, from_sigma), k)
-    # Nothing is proved where anything overflows.
+    # Overflow proves nothing.
     finite = xp.isfinite(p_off + q_off + e_f + e_g)
     sigma2 = xp.where(finite, sigma2, -xp.inf)
     sigma1, k = (xp.where(finite, a, xp.inf) for a in (sigma1, k * (1 + rounding.BERNSTEIN)))

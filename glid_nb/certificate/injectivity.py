@@ -1,9 +1,9 @@
-"""Proving a locally injective map globally injective, or finding where it overlaps itself.
+"""Prove a locally injective map globally injective, or find where it overlaps itself.
 
-A certified map is injective on the closed domain if and only if it is on the boundary, so only the
-boundary is searched. The image of a straight panel of length ``l`` is within ``M l^2 / 8`` of its
-chord, where ``M`` bounds the second derivative along the panel. Panels are split until that
-decides. `docs/proof.md` has the lemmas.
+A certified map is injective on the closed domain if and only if it is injective on the boundary, so
+only the boundary is searched. The image of a straight panel of length ``l`` is within ``M l^2 / 8``
+of its chord, where ``M`` bounds the second derivative along the panel. Panels are split until these
+enclosures decide. `docs/proof.md` has the lemmas.
 """
 
 import functools
@@ -24,10 +24,9 @@ from glid_nb.geometry.panels import cross, point_distance, segment_distance, seg
 from glid_nb.harmonic import HarmonicMap
 
 _MAX_ROUNDS = 40
-# A crossing is looked for in so many pairs of panels,
-_PLACES = 32
+_PLACES = 32  # pairs of panels in which a crossing is looked for
 _NEWTON_STEPS = 8
-# and proved on windows of these half-lengths, relative to the shorter arc.
+# Half-lengths of the windows on which a crossing is proved, relative to the shorter arc.
 _WINDOWS = 4.0 ** -np.arange(4)
 
 
@@ -54,9 +53,9 @@ def global_injectivity(
 ) -> GlobalInjectivity:
     """Decide whether a locally injective map is injective on the whole closed domain.
 
-    For an uncertified map the verdict is "undecided"; its certificate is computed unless it is
-    given. It is also undecided where more than ``max_panels`` pieces of the boundary were needed:
-    where images touch without crossing, or are closer than rounding.
+    The certificate is computed unless it is given. The verdict is "undecided" for an uncertified
+    map, and if more than ``max_panels`` pieces of the boundary would be needed: images that touch
+    without crossing, or that are closer than rounding.
 
     >>> from glid_nb import Cage, Domain, HarmonicMap, global_injectivity
     >>> domain = Domain.from_cage(Cage([[0, 0], [2, 0], [2, 1], [0, 1]]))
@@ -99,7 +98,7 @@ def global_injectivity(
         sagitta = arcs.sagitta
         unresolved[first[2 * sagitta[first] >= sagitta[second]]] = True
         unresolved[second[2 * sagitta[second] >= sagitta[first]]] = True
-        # Arcs flatter than their rounding error gain nothing from splitting.
+        # Splitting does not help arcs that are flatter than their rounding error.
         wanted = unresolved & (sagitta > arcs.error) & panels.divisible
         if not wanted.any() or len(panels) + wanted.sum() > max_panels:
             break
@@ -137,9 +136,11 @@ def _corner_simple(arcs: Arcs, following: Array) -> Array:
 
 
 def _proved_crossing(map: HarmonicMap, panels: Panels, arcs: Arcs, pairs: Array) -> Any:
-    """A double point of the boundary's image and the two points mapped to it, or None. Newton's
-    method finds candidates from pairs of panels whose chords cross; they are proved on windows
-    around them on the two edges, which may extend over several panels."""
+    """A double point of the boundary's image and the two points mapped to it, or None.
+
+    Newton's method finds candidates from pairs of panels whose chords cross. Each is proved on
+    windows around it on the two edges, which may extend over several panels.
+    """
     a, b = (arcs.at(index) for index in pairs)
     pairs = pairs[:, segments_cross(a.start, a.end, b.start, b.end)]
     if not pairs.size:

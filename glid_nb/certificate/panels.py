@@ -1,4 +1,4 @@
-"""Proofs on panels: input, result, and the protocol of a kind of proof."""
+"""Proofs on panels: their input, their result, and the protocol of a kind of proof."""
 
 from collections.abc import Callable
 from typing import Any, NamedTuple, Protocol, Self, TypeVar
@@ -43,7 +43,7 @@ class PanelBounds(NamedTuple):
 
 
 class PanelProof(Protocol):
-    """A kind of proof: a pytree of arrays, panels last, that depend on the panels only."""
+    """A kind of proof: a pytree of arrays, which depend on the panels only. Panels come last."""
 
     slack_share: int  # how many times the error of the end values enters the remainder
 
@@ -51,7 +51,7 @@ class PanelProof(Protocol):
     def on(cls, start: Ends, end: Ends, singularities: Singularities) -> Self: ...
 
     def remainder(self, coefficients: Rows, singularities: Singularities) -> Float[Array, "k p"]:
-        """Bounds how far ``sum_j D_j coefficients_j`` is from its estimate, but for rounding."""
+        """Bounds the error of the estimate of ``sum_j D_j coefficients_j``, without rounding."""
         ...
 
     @staticmethod
@@ -62,8 +62,8 @@ class PanelProof(Protocol):
 
 T = TypeVar("T")
 
-# How far a panel's end may be off its edge, relative to the largest coordinate; twice what rounding
-# makes of the package's own panels.
+# How far a panel's end may be off its edge, relative to the largest coordinate. The package's own
+# panels are off by at most half of it.
 _OFF = 24 * UNIT_ROUNDOFF
 
 

@@ -2,8 +2,8 @@
 
 A segment of the boundary runs from ``v_i`` to ``v_{i+1}`` and has the length ``l``. On it ``f_z``
 and ``f_zbar`` are Lipschitz continuous with constants ``L_fz`` and ``L_fzbar``. If Condition (27)
-holds on all segments and the sum (30) is 0, the map is locally injective. Last, the proof that
-Figure 7 compares it with.
+holds on all segments and the sum (30) is 0, the map is locally injective. The last class is the
+proof that Figure 7 compares it with.
 """
 
 import functools
@@ -30,7 +30,7 @@ def segment_bounds(
 
     ``|f_z|_min   = (|f_z(v_i)| + |f_z(v_{i+1})|) / 2 - L_fz l / 2``,
     ``|f_zbar|_max = (|f_zbar(v_i)| + |f_zbar(v_{i+1})|) / 2 + L_fzbar l / 2``.
-    That the first is at least the second is Condition (26), equivalent to
+    Condition (26) says that the first is at least the second. It is equivalent to
     ``sigma_2(v_i) + sigma_2(v_{i+1}) >= (L_fz + L_fzbar) l`` (27). (28) proves the turning.
     """
     variation_fz, variation_fzb = variation
@@ -105,10 +105,10 @@ def derivative_bound_weights(
 
 
 def beside(start: Ends, end: Ends, singularities: Singularities) -> Float[Array, "p n"]:
-    """Weights ``w``: where ends lie beside their edge, ``w @ jumps`` bounds what that changes.
+    """Weights ``w``: ``w @ jumps`` bounds the effect of panel ends that lie beside their edge.
 
-    An end that is ``delta`` off changes the value there by ``delta |f_z'|`` and the slope along the
-    panel by ``2 delta |f_z'| + delta l |f_z''|``, and each bound by no more than twice their sum.
+    An end that is off by ``delta`` changes the value there by ``delta |f_z'|``, and the slope along
+    the panel by ``2 delta |f_z'| + delta l |f_z''|``. Each bound changes by at most twice the sum.
     """
     d, ratio = clearance(start, end, singularities)
     m, xp = singularities.vertices.shape[0], start.__array_namespace__()
@@ -117,9 +117,11 @@ def beside(start: Ends, end: Ends, singularities: Singularities) -> Float[Array,
 
 
 def clearance(start: Ends, end: Ends, singularities: Singularities) -> tuple[Weights, Weights]:
-    """Lower bounds on :func:`distances` around each segment, and ``l / d``; 0 and inf where none.
-    The computed nearest point is off by 16 roundoffs of the distance to ``start``, at most ``d +
-    l``, and the segment's ends by `rounding.BESIDE`."""
+    """Lower bounds on :func:`distances` around each segment, and ``l / d``; 0 and inf without one.
+
+    The computed nearest point is off by 16 roundoffs of the distance to ``start``, which is at most
+    ``d + l``. The segment's ends are off by at most `rounding.BESIDE`.
+    """
     d, length = distances(start, end, singularities), modulus(end - start)[:, None]
     u, off = 32 * rounding.UNIT_ROUNDOFF, beside_by(singularities)
     d = start.__array_namespace__().maximum(d * (1 - u) - u * length - off, 0)
@@ -170,10 +172,12 @@ class BDHM(NamedTuple):
     """The proof by the larger constants of bounded distortion harmonic mappings (Figure 7).
 
     On a segment, ``|f_z'| <= sum_j L_j |phi_j|`` with ``L_j = |z_{j+1} - z_{j-1}| / (2 pi
-    d(z_{j-1}) d(z_j) d(z_{j+1}))``, a bound on ``|D_j'|`` (Chen & Weber 2015). Adding an affine
-    function of ``z_j`` to a loop's coefficients changes ``f_z`` by a constant at most, so on every
-    loop the one through the vertex of largest ``L_j`` and the larger of its neighbours is
-    subtracted; a hole's logarithm has ``1 / d^2``. There are ``n = m + N`` vertices and holes.
+    d(z_{j-1}) d(z_j) d(z_{j+1}))``, a bound on ``|D_j'|`` (Chen & Weber 2015). A hole's logarithm
+    has ``1 / d^2``.
+
+    An affine function of ``z_j`` that is added to a loop's coefficients changes ``f_z`` by a
+    constant. So one is subtracted on every loop: the one through the vertex of largest ``L_j`` and
+    the larger of its neighbours. There are ``n = m + N`` vertices and holes.
     """
 
     length: PerPanel  # l, and what ends beside their edge add

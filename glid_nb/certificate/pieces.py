@@ -1,8 +1,8 @@
-"""Proving linear pieces of motion at every instant; `docs/motion.md` has the lemmas.
+"""Prove linear pieces of motion at every instant; `docs/motion.md` has the lemmas.
 
 On a panel and for a unit vector ``u`` the function ``Re(conj(u) f_z) - |f_zbar| <= sigma_2`` is
-concave in time. Panels are halved as in the proof of one map; where at a panel's end no ``u``
-serves both times, time is.
+concave in time. Panels are halved as in the proof of one map. If no ``u`` works for both times at a
+panel's end, the time interval is halved.
 """
 
 import itertools
@@ -22,8 +22,8 @@ from glid_nb.certificate.paper import beside, jumps
 from glid_nb.geometry import graded_panels
 from glid_nb.harmonic import HarmonicMap, Singularities, basis_of, cauchy, rows_of
 
-_SHORTEST = 2.0**-12  # time, of a piece
-_TIGHT = 1 / 8  # likewise, for tight bounds
+_SHORTEST = 2.0**-12  # interval of time, as a share of a piece
+_TIGHT = 1 / 8  # the same where only bounds are not tight
 _TIGHTNESS = 0.05
 _DIRECTIONS = 9
 _GROUP = 16  # pieces whose maps are evaluated together
@@ -31,8 +31,10 @@ _GROUP = 16  # pieces whose maps are evaluated together
 
 @dataclass(frozen=True)
 class PieceCertificate:
-    """What is proved of ``(1 - t) f_0 + t f_1`` on the boundary for every ``t`` in [0, 1]; where it
-    is not certified the bounds are infinite."""
+    """What is proved of ``(1 - t) f_0 + t f_1`` on the boundary for every ``t`` in [0, 1].
+
+    The bounds are infinite if it is not certified.
+    """
 
     certified: bool
     """Whether ``|f_z| > |f_zbar|`` is proved at every time."""
@@ -64,9 +66,11 @@ class _Values(NamedTuple):
 
 @np.errstate(all="ignore")
 def certify_pieces(maps: Sequence[HarmonicMap]) -> Proofs:
-    """Prove the linear motion from each map of one domain to the next, or say how far that goes.
-    Panels, and time down to an eighth of a piece, are halved where the proof fails or bounds are
-    further than the relative `_TIGHTNESS` from values that are attained."""
+    """Prove the linear motion from each map of one domain to the next, or say until when it holds.
+
+    Panels and time intervals are halved where the proof fails, or where bounds are further than the
+    relative `_TIGHTNESS` from attained values; the latter only down to an eighth of a piece.
+    """
     panels = graded_panels(maps[0].domain)
     size = np.abs(rows_of(*maps)).max(axis=0)
     proofs = []
@@ -97,7 +101,7 @@ def _prove(first: HarmonicMap, last: HarmonicMap, values: _Values, size: Array) 
         unproved = ~np.asarray(own.injective)
         extremes = own.sigma2_lower.min(), own.sigma1_upper.max(), own.k_upper.max()
         sigma2, k = values.seen
-        # What a common u costs, at the ends of panels.
+        # Whether a common u makes the bounds loose, at the ends of panels.
         loose = along.sigma2_seen.min() < (1 - _TIGHTNESS) * sigma2
         loose |= along.k_seen.max() > (1 + _TIGHTNESS) * k + 1e-3
         if end - begin > (_SHORTEST if unproved.any() else _TIGHT) and (unproved.any() or loose):
@@ -138,7 +142,7 @@ def _values(start: Any, end: Any, rows: Any, size: Any, singularities: Singulari
 
 
 def _coefficient_rounding(start: Any, end: Any, size: Any, singularities: Singularities) -> Any:
-    """What rounding the coefficients of a map between others changes, (p,), by its Lemma 4."""
+    """(p,) bounds on the effect of rounding the coefficients of maps in between (Lemma 4)."""
     vertices, following, _, _ = singularities
     m = len(vertices)
     edges = (size[:m] + size[following]) / np.abs(vertices[following] - vertices)
@@ -152,8 +156,11 @@ def _coefficient_rounding(start: Any, end: Any, size: Any, singularities: Singul
 
 
 def _bounds(values: _Values) -> Known:
-    """What is proved for all times between two maps; what is seen is along each end's own ``u``,
-    so where the panel's fails alone, the panel is halved."""
+    """What is proved for all times between two maps.
+
+    The values that are seen use each end's own ``u``. So if only the panel's common ``u`` fails,
+    the panel is halved, not the time.
+    """
     ends: Any = values.ends
     errors: Any = values.errors
     fz, fzb_conj = ([EndValues(*ends[:, i, k].T) for i in (0, 1)] for k in (0, 1))
@@ -182,8 +189,10 @@ def _bounds(values: _Values) -> Known:
 
 
 def _common_direction(f: Array, g: Array) -> Any:
-    """(p,) ``u`` between those of both times, for which the least ``Re(conj(u) f) - |g|`` is most;
-    ``f`` and ``g`` are (2, e, p), at both times, and e points of each panel."""
+    """(p,) ``u`` between those of both times, chosen to maximise the least ``Re(conj(u) f) - |g|``.
+
+    ``f`` and ``g`` are (2, e, p): both times, e points of each panel.
+    """
     before, after = (f / np.abs(f)).sum(axis=1)
     before, after = before / np.abs(before), after / np.abs(after)
     u = before + np.linspace(0, 1, _DIRECTIONS)[:, None] * (after - before)

@@ -16,7 +16,7 @@ from glid_nb.geometry import Panels
 FORMAT = "glid_nb-proof"
 FORMAT_VERSION = 1
 
-_MOST_BISECTIONS = 60  # an edge is not bisected more often than its positions can tell apart
+_MOST_BISECTIONS = 60  # of an edge; more would be below rounding
 _ROUNDING = 0.1  # how far rounding moves a panel's middle, in lengths of the panel
 
 
@@ -26,8 +26,10 @@ def exact_text(values: dict[str, Any]) -> str:
 
 
 def dyadic_panels(panels: Panels, loops: Iterable[Array]) -> list[list[list[int]]] | None:
-    """Per edge of the cage, loop by loop, the pieces ``[k, d]`` from k/2^d to (k+1)/2^d of it; None
-    if the panels do not come from bisecting the edges, as uniform ones do not."""
+    """Per edge of the cage, loop by loop, its pieces ``[k, d]`` from k/2^d to (k+1)/2^d.
+
+    None if the panels do not come from bisecting the edges, such as uniform ones.
+    """
     edges = []
     for number, loop in enumerate(loops):
         own = panels.loop == number
@@ -45,7 +47,7 @@ def dyadic_panels(panels: Panels, loops: Iterable[Array]) -> list[list[list[int]
 
 
 def _bisected(middles: Array, k: int, d: int) -> list[list[int]]:
-    """Halves of halves of the piece ``[k, d]`` that do not hold the middles of two panels."""
+    """The piece ``[k, d]``, bisected until no part holds the middles of two panels."""
     if len(middles) <= 1 or d == _MOST_BISECTIONS:
         return [[k, d]]
     left = int(np.searchsorted(middles, (2 * k + 1) / 2 ** (d + 1)))

@@ -1,7 +1,8 @@
 """Bounds on the rounding errors of the certificate, and its bounds rounded for text.
 
-What the certificate's inequalities in double precision, of unit roundoff ``u``, may be off by is
-added to each panel's remainder. `docs/proof.md` derives every constant (Lemmas 4, 10 to 15).
+The certificate's inequalities are computed in double precision, of unit roundoff ``u``. A bound on
+their error is added to each panel's remainder. `docs/proof.md` derives every constant (Lemmas 4, 10
+to 15).
 """
 
 import math
@@ -15,21 +16,21 @@ from glid_nb.harmonic.cauchy import Points, Singularities
 UNIT_ROUNDOFF = 2.0**-53
 
 ELEMENTARY = 2.0
-"""Roundoffs, relative, that the real ``log`` and ``atan2`` of NumPy and XLA may be off by."""
-COMPLEX_QUOTIENT = 8.0  # the same for the modulus of the error of their complex division
-LOGARITHM = 16.0  # roundoffs per ``1 + |Log|`` that ``Log(B_{j+1} / B_j)`` may be off by
+"""Largest relative error of the real ``log`` and ``atan2`` of NumPy and XLA, in roundoffs."""
+COMPLEX_QUOTIENT = 8.0  # the same for complex division, by the modulus of the error
+LOGARITHM = 16.0  # largest error of ``Log(B_{j+1} / B_j)``, in roundoffs of ``1 + |Log|``
 CUT = 64 * UNIT_ROUNDOFF
-"""An edge seen under an angle closer to pi may lie on the wrong side of the logarithm's cut."""
+"""Within this of pi, the angle of an edge may be on the wrong side of the logarithm's cut."""
 BERNSTEIN = 16 * UNIT_ROUNDOFF
 """Error of a Bernstein coefficient of ``|p|^2``, relative to the largest ``|p|^2``."""
 UPWARD = 1 + 2.0**-30
-"""Enlarges a bound by more than the rounding of all sums of positive numbers that lead to it."""
+"""A factor larger than the rounding of all sums of positive numbers that make a bound."""
 UNDERFLOW = 1e-140
-"""Is added to all errors: where anything underflows, nothing of this size is proved."""
+"""Is added to all errors, so that nothing is proved of numbers that underflow."""
 BESIDE = 64 * UNIT_ROUNDOFF
 """How far the end of a panel may lie beside its edge, relative to the largest coordinate."""
 
-CARRIED_STEPS = 31  # most steps through which values are carried before they are computed anew
+CARRIED_STEPS = 31  # most steps for which values are carried along, then they are recomputed
 
 
 def slack_factor(n_columns: int) -> float:
@@ -43,12 +44,14 @@ def carried_slack_factor(n_columns: int) -> float:
 
 
 def allowance(slack: Float[Array, "*k p"], probe: Float[Array, ""]) -> Float[Array, "*k p"]:
-    """Errors with that of underflow; infinite under fast math (Lemmas 13 and 14), which is probed
-    by any positive number that the compiler does not know."""
+    """Errors plus `UNDERFLOW`; infinite under fast math (Lemmas 13 and 14).
+
+    ``probe``, any positive number that the compiler does not know, detects fast math.
+    """
     xp, small = slack.__array_namespace__(), probe * 2.0**-60
     total = probe + small
     second = total - probe
-    # The error of that sum is computed exactly, unless operations are reassociated.
+    # This computes the sum's error exactly, unless operations are reassociated.
     exact = (probe - (total - second)) + (small - second) == small
     return xp.where(exact, slack + UNDERFLOW, xp.inf)
 
@@ -73,8 +76,10 @@ def derivatives(
 def panel_scale(
     start: Complex[Array, " p"], end: Complex[Array, " p"], singularities: Singularities
 ) -> Float[Array, " p"]:
-    """Per panel, the larger scale of the terms of ``f_z`` and ``l f_z'`` at its two ends: times
-    :func:`slack_factor` and the largest coefficient it bounds the error of both together."""
+    """Per panel, the larger scale of the terms of ``f_z`` and ``l f_z'`` at its two ends.
+
+    Times :func:`slack_factor` and the largest coefficient, it bounds the error of both together.
+    """
     xp = start.__array_namespace__()
     length = xp.abs(end - start)
     scales = [term_scale(z, singularities) for z in (start, end)]
@@ -84,8 +89,10 @@ def panel_scale(
 def term_scale(
     z: Points, singularities: Singularities
 ) -> tuple[Float[Array, " k"], Float[Array, " k"]]:
-    """Sums of the moduli of all terms of ``D(z)``, with the logarithms' errors, and of ``D'(z)``;
-    infinite where a computed logarithm may be that of the wrong branch."""
+    """Sums of the moduli of all terms of ``D(z)``, with the logarithms' errors, and of ``D'(z)``.
+
+    They are infinite where a computed logarithm may be of the wrong branch.
+    """
     xp, (vertices, following, preceding, rho) = z.__array_namespace__(), singularities
     b, to_hole = xp.abs(vertices - z[:, None]), xp.abs(z[:, None] - rho)
     edge, chord = (xp.abs(vertices[following] - vertices[i]) for i in (slice(None), preceding))
@@ -99,13 +106,13 @@ def term_scale(
 
 
 def rounded_down(value: float, digits: int = 3) -> str:
-    """A lower bound as text that is a bound too, with ``digits`` significant digits."""
+    """A lower bound as text, rounded down to ``digits`` significant digits."""
     exact = Context(digits, ROUND_FLOOR).create_decimal_from_float(float(value))
     return f"{float(exact):.{digits}g}"
 
 
 def rounded_up(value: float, digits: int = 3) -> str:
-    """An upper bound as text, with ``digits`` significant digits and at most so many decimals."""
+    """An upper bound as text, rounded up to ``digits`` significant digits and decimals at most."""
     exact = Context(digits, ROUND_CEILING).create_decimal_from_float(float(value))
     if exact.is_finite() and exact.adjusted() < 0:
         exact = exact.quantize(Decimal(1).scaleb(-digits), ROUND_CEILING)

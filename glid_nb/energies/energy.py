@@ -32,10 +32,11 @@ class Differentials(NamedTuple):
 class Energy(ABC):
     """A pointwise distortion measure ``E(x, y)`` of ``x = |f_z|^2`` and ``y = |f_zbar|^2``.
 
-    Defined for orientation-preserving maps, ``x > y >= 0``; to the solver it is infinite elsewhere.
+    It is defined for orientation-preserving maps, ``x > y >= 0``; the solver takes it as infinite
+    elsewhere.
 
     Subclasses are frozen dataclasses decorated with :func:`register_energy`. Their fields are the
-    parameters: positive finite numbers with a default; anything else raises EnergyError. All values
+    parameters: positive finite numbers with a default. Anything else raises EnergyError. All values
     of a parameter share a compiled program.
     """
 
@@ -49,7 +50,7 @@ class Energy(ABC):
     """Whether it grows without bound as a map degenerates."""
     indefinite_across_f_only: ClassVar[bool] = False
     """Whether ``lambda_1 = 2 alpha_1`` is the only eigenvalue of ``K`` (23) that can be negative.
-    The Hessian is then projected by a correction at a fifth of its own cost."""
+    Then a correction projects the Hessian (25), at a fifth of the cost of assembling it."""
 
     def __new__(cls, *_: Any, **__: Any) -> Self:
         settle()  # other code may have imported JAX in the meantime
@@ -80,9 +81,11 @@ ENERGIES: dict[str, type[Energy]] = {}
 
 
 def register_energy(cls: type[E]) -> type[E]:
-    """Class decorator: register a frozen dataclass of numbers in ENERGIES and as a JAX pytree. The
-    class is part of the tree's structure. JAX's ``register_dataclass`` does not do: jaxlib 0.10
-    takes different dataclasses with the same fields for equal and may run the wrong program."""
+    """Class decorator: register a frozen dataclass of numbers in ENERGIES and as a JAX pytree.
+
+    The class is part of the tree's structure. JAX's ``register_dataclass`` cannot be used: jaxlib
+    0.10 treats different dataclasses with the same fields as equal, and may run the wrong program.
+    """
     once_loaded(
         lambda: jax.tree_util.register_pytree_node(
             cls, lambda energy: (tuple(vars(energy).values()), cls), _rebuilt
@@ -141,11 +144,13 @@ _checked: weakref.WeakSet[Callable[..., Any]] = weakref.WeakSet()
 class CustomEnergy(Energy):
     """An energy given as one function ``E(x, y)`` of scalars, written with ``jax.numpy``.
 
-    ``x = |f_z|^2 > y = |f_zbar|^2 >= 0``. The function is twice differentiable by JAX, with its
-    minimum at the isometry ``E(1, 0)``. Use one function object for many solves; each new one is
-    compiled anew. An EnergyError says so if it does not make one number of two, cannot be
-    differentiated, or is not finite at the isometry. The alphas and betas come from automatic
-    differentiation; the projection of the Hessian from Equations (23)-(24).
+    Its arguments are ``x = |f_z|^2 > y = |f_zbar|^2 >= 0``. JAX must be able to differentiate it
+    twice, and its minimum must be at the isometry, ``E(1, 0)``. Use one function object for many
+    solves, because each new one is compiled.
+
+    An EnergyError says if the function does not make one number of two, cannot be differentiated,
+    or is not finite at the isometry. The alphas and betas come from automatic differentiation, the
+    projection of the Hessian from (23) and (24).
 
     >>> dirichlet = CustomEnergy(lambda x, y: (x + y) * (1 + 1 / (x - y) ** 2))
     """

@@ -106,8 +106,8 @@ class AMIPS(Energy):
 class MIPS(Energy):
     """``(sigma_1 / sigma_2 + sigma_2 / sigma_1) / 2`` [Hormann and Greiner 2000].
 
-    In Wirtinger terms ``(x + y) / (x - y)``. It is 1 at every conformal map, whatever its scale,
-    and infinite where the map degenerates. Parts may shrink towards nothing while it falls to 1; a
+    In Wirtinger terms ``(x + y) / (x - y)``. It is 1 at every conformal map of any scale, and
+    infinite where the map degenerates. Parts may shrink towards a point while it falls to 1; a
     solve then ends as BLOCKED.
     """
 
@@ -131,8 +131,8 @@ class MIPS(Energy):
 class ARAP(Energy):
     """``E_ARAP = (sigma_1 - 1)^2 + (sigma_2 - 1)^2`` (Section 6).
 
-    For an orientation-preserving map ``2 (x + y) - 4 sqrt(x) + 2``. It stays finite where the map
-    degenerates; only the certificate keeps a solve from folding.
+    For an orientation-preserving map it is ``2 (x + y) - 4 sqrt(x) + 2``. It stays finite where the
+    map degenerates, so only the certificate prevents folds.
     """
 
     name: ClassVar[str] = "arap"

@@ -21,8 +21,10 @@ def column_bucket(count: int) -> int:
 
 
 class Basis(NamedTuple):
-    """Columns of the harmonic subspace on a domain (paper Section 5), padded by columns without
-    coefficients: domains with the same number of padded columns share compiled programs."""
+    """Columns of the harmonic subspace on a domain (Section 5), padded by columns without unknowns.
+
+    Domains with the same number of padded columns share compiled programs.
+    """
 
     singularities: Singularities
     """The offset cage's vertices, then padding on a far circle; hole points, then padding."""
@@ -30,7 +32,7 @@ class Basis(NamedTuple):
     phi_free: Bool[Array, " c"]
     """Which columns are unknowns: not the first two of each hole loop, nor padding."""
     psi_free: Bool[Array, " c"]
-    """The same, without the exterior's first and the logarithms, ``psi_j = conj(phi_j)``."""
+    """The same for psi, without the exterior's first and logarithms (``psi_j = conj(phi_j)``)."""
 
     @property
     def n_columns(self) -> int:

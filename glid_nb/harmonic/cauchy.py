@@ -62,8 +62,10 @@ def second_derivatives(z: Points, singularities: Singularities) -> Matrix:
 
 def first_by_edges(z: Points, singularities: Singularities) -> Matrix:
     """The matrix ``L(z)`` with ``f_z = L @ edge_coefficients``; (D.2) summed by edges.
+
     ``Log(B_{j+1} / B_j) / (2 pi i)`` for the edge from vertex ``j``, ``1 / (z - rho)`` for holes.
-    Adding a constant to a loop's coefficients changes no slope, so it costs no accuracy."""
+    A constant that is added to a loop's coefficients changes no slope, so it costs no accuracy.
+    """
     logarithms = _logarithms(singularities.vertices - z[:, None], singularities)
     rest = 1 / (z[:, None] - singularities.hole_points)
     return z.__array_namespace__().concat([logarithms / _TWO_PI_I, rest], axis=1)
@@ -94,9 +96,11 @@ def edge_slopes(coefficients: Values, singularities: Singularities) -> Values:
 
 
 def slope_jumps(coefficients: Rows, singularities: Singularities) -> Rows:
-    """``s_j - s_{j+1}`` for the vertices and the coefficient itself for the holes (Appendix H,
-    whose first sum has the wrong sign): ``f_z' = -1/(2 pi i) sum_j (s_j - s_{j+1}) / B_j - sum_k
-    phi_{m+k} / (z - rho_k)^2``."""
+    """``s_j - s_{j+1}`` for the vertices and the coefficient itself for the holes (Appendix H).
+
+    ``f_z' = -1/(2 pi i) sum_j (s_j - s_{j+1}) / B_j - sum_k phi_{m+k} / (z - rho_k)^2``; the
+    paper's first sum has the wrong sign.
+    """
     m, xp = singularities.vertices.shape[0], coefficients.__array_namespace__()
     slopes = edge_slopes(coefficients[..., :m], singularities)
     jumps = slopes - slopes[..., singularities.next]
@@ -127,8 +131,11 @@ def log_over_edge(b: Edges, singularities: Singularities) -> Edges:
 
 
 def _logarithms(b: Edges, singularities: Singularities) -> Edges:
-    """``Log(B_{j+1} / B_j)``, the principal branch: an edge subtends an angle below pi. XLA's
-    complex logarithm is off by 50 roundoffs near modulus 0.77; real ones and atan2 by one."""
+    """``Log(B_{j+1} / B_j)``, the principal branch, because an edge subtends an angle below pi.
+
+    XLA's complex logarithm is off by 50 roundoffs near modulus 0.77, its real ``log`` and ``atan2``
+    by one.
+    """
     xp = b.__array_namespace__()
     square = xp.real(b) ** 2 + xp.imag(b) ** 2
     angle = xp.angle(b[:, singularities.next] * xp.conj(b))

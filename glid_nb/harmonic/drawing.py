@@ -1,4 +1,4 @@
-"""A domain's maps in single precision, for drawing: at fixed points, and as a shader takes them."""
+"""A domain's maps in single precision, for drawing: at fixed points, and as data for a shader."""
 
 from typing import Any
 
@@ -11,7 +11,7 @@ from glid_nb.harmonic.map import HarmonicMap, as_complex, basis_of
 
 _CHUNK = 1 << 21  # numbers at a time
 _MOST_KEPT = 1 << 26  # numbers, of 8 bytes each
-_OTHER_VECTORS = 48  # matrices, ranges, colours and the like, beside the arrays counted below
+_OTHER_VECTORS = 48  # for matrices, ranges, colours and the like
 
 
 class FixedPoints:
@@ -56,7 +56,7 @@ class FixedPoints:
         if (known := self._kept.get(start)) is not None:
             return known
         b = self._vertices - z
-        # Rounded after the division: a ratio near 1 keeps the absolute accuracy of its logarithm.
+        # Round after the division, so that a ratio near 1 keeps its logarithm's absolute accuracy.
         ratio = (b[:, self._next] / b).astype(np.complex64)
         logarithms = np.log(np.abs(ratio)) + 1j * np.arctan2(ratio.imag, ratio.real)
         away = z - self._domain.hole_points_complex
@@ -68,7 +68,7 @@ class FixedPoints:
 
 
 class ShaderMap:
-    """A domain as the shader ``harmonic.glsl`` takes it: its offset cage and hole points."""
+    """A domain as data for the shader ``harmonic.glsl``: its offset cage and hole points."""
 
     def __init__(self, domain: Domain) -> None:
         self.domain = domain
@@ -100,12 +100,12 @@ class ShaderMap:
         return _padded(chain, [0, 0, 0, 0]), _padded(holes, self._far)
 
     def wire(self, map: HarmonicMap) -> bytes:
-        """The coefficients as the page takes them: little-endian float32, one after the other."""
+        """The coefficients as bytes for the page: little-endian float32, one after the other."""
         parts = self.coefficients(map)
         return b"".join(part.astype("<f4").tobytes() for part in parts)
 
     def defines(self) -> str:
-        """What stands before ``harmonic.glsl``."""
+        """Definitions to put before ``harmonic.glsl``."""
         return f"#define N_CHAIN {self.n_chain}\n#define N_HOLES {self.n_holes}\n"
 
     def uniforms(self, map: HarmonicMap) -> dict[str, dict[str, Any]]:
@@ -115,7 +115,7 @@ class ShaderMap:
 
 
 def _padded(vectors: Array, filling: Any) -> Array:
-    """At least two vectors, and not four: pythreejs takes 4 and 16 numbers for something else."""
+    """At least two vectors, but not four: pythreejs misreads arrays of 4 and of 16 numbers."""
     wanted = {0: 2, 1: 2, 4: 5}.get(len(vectors), len(vectors))
     extra = np.tile(np.asarray(filling, dtype=np.float32), (wanted - len(vectors), 1))
     return np.concatenate([vectors.astype(np.float32), extra])

@@ -24,7 +24,7 @@ from glid_nb.harmonic.cauchy import Singularities
 R = TypeVar("R")
 
 Outside = Literal["extend", "nan"]
-"""What a map gives at points outside its domain: what its formula gives, or NaN."""
+"""At points outside its domain, a map evaluates its formula, or gives NaN."""
 
 FORMAT = "glid_nb-map"
 FORMAT_VERSION = 1
@@ -57,8 +57,10 @@ class HarmonicMap(Rebuilt):
     domain: Domain
     """Where the map lives."""
     phi: Array = field(repr=False)
-    """(n,) complex coefficients up to 1e120, also those fixed to 0. For the holes ``phi_j =
-    conj(psi_j)`` (Section 5) up to rounding, which is evened out; else a MapError says which."""
+    """(n,) complex coefficients up to 1e120, including those fixed to 0.
+
+    For the holes ``phi_j = conj(psi_j)`` (Section 5). Rounding differences are evened out; larger
+    ones raise a MapError that names the hole."""
     psi: Array = field(repr=False)
 
     def __init__(self, domain: Domain, phi: ArrayLike, psi: ArrayLike) -> None:
@@ -83,7 +85,7 @@ class HarmonicMap(Rebuilt):
             worst = int(np.argmax(gap / scale))
             both = f"phi = {self.phi[holes][worst]}, psi = {self.psi[holes][worst]}"
             raise MapError(f"coefficients of hole {worst + 1} are not conjugate: {both}")
-        # The map's values know only their sum, so the halves are made equal.
+        # The map's values depend only on their sum, so the halves are made equal.
         uneven = np.flatnonzero(gap > 0) + holes.start
         self.phi[uneven] += (self.psi[uneven].conj() - self.phi[uneven]) / 2
         self.psi[uneven] = self.phi[uneven].conj()
@@ -135,7 +137,7 @@ class HarmonicMap(Rebuilt):
         return abs(fz) ** 2 - abs(fzb) ** 2
 
     def _evaluated(self, program: Callable[..., Any], points: Any, outside: Outside) -> Any:
-        """``program(z, rows, singularities)`` at points, NaN where that is wanted."""
+        """``program(z, rows, singularities)`` at points; with "nan", NaN outside the domain."""
         if unmet(Outside, outside):
             raise MapError(f"outside must be 'extend' or 'nan', not {outside!r:.40}")
         of_jax = is_of_jax(points)
@@ -154,8 +156,8 @@ class HarmonicMap(Rebuilt):
     def distance(self, other: Self, n_points: int = 2000) -> float:
         """Largest distance between the images under two maps, at ``n_points`` boundary points.
 
-        The components of the difference are harmonic, so their extremes lie on the boundary. The
-        maps may have different offset cages.
+        The components of the difference are harmonic, so they are extreme on the boundary. The maps
+        may have different offset cages.
         """
         check_type("other", other, HarmonicMap, "such as that of a result")
         points = as_points(uniform_panels(self.domain.cage, n_points).start)
@@ -171,7 +173,7 @@ class HarmonicMap(Rebuilt):
         """The map that :meth:`to_dict` wrote; raises MapError if the data is not valid."""
         checked_version(data, "map", FORMAT_VERSION, MapError)
         for key in (*DOMAIN_KEYS, "phi", "psi"):
-            # A domain without one of its parts would choose it, and so have another basis.
+            # Without one of its parts a domain would choose it, and then has another basis.
             if key not in data or (data[key] is None and key not in ("phi", "psi")):
                 raise MapError(f'the map lacks the key "{key}"')
         with about("the map's domain is not valid", MapError):
@@ -230,7 +232,7 @@ def _on_jax(map: HarmonicMap, program: Callable[..., Any], points: Any) -> Any:
         given = f"{points.dtype.name} of the shape {points.shape}"
         raise MapError(f"points must be (..., 2) coordinates or complex numbers, not {given}")
     known = basis_of(map.domain).singularities
-    # As arrays of JAX: NumPy's would be compiled into programs of whatever precision came first.
+    # As arrays of JAX: NumPy's would be compiled in, in the precision of the first call.
     rows, vertices, holes = (
         jnp.asarray(a.astype(z.dtype)) for a in (rows_of(map), known.vertices, known.hole_points)
     )
