@@ -16,8 +16,9 @@ from glid_nb._errors import InputError
 class GeometryError(InputError):
     """A polygon, offset or domain that cannot be used; the message says where and what to do.
 
-    ``point`` is the place of the problem, to mark in a picture, or None. Coordinates and vertex
-    numbers are ``details`` in parentheses, which ``plain``, for use beside the picture, leaves out.
+    ``point`` is the place of the problem, to mark in a picture, or None. ``details`` are the
+    coordinates and vertex numbers, in parentheses. ``plain``, shown beside the picture, leaves them
+    out.
     """
 
     def __init__(self, message: str, point: Any = None, details: str = "") -> None:
@@ -43,7 +44,7 @@ def place(point: ArrayLike, digits: int = 6) -> str:
 
 
 def places(points: ArrayLike) -> str:
-    """Two points for a message, joined by "and", with the digits that tell them apart."""
+    """Two points for a message, joined by "and", with enough digits to tell them apart."""
     for digits in (6, 9, 12, 17):
         one, other = (place(point, digits) for point in np.asarray(points))
         if one != other:

@@ -13,24 +13,24 @@ from glid_nb._arrays import Array, Rebuilt, frozen, number_pairs, real_array
 from glid_nb.geometry import _loops
 from glid_nb.geometry._loops import GeometryError, Loops, loop_name, place, plain_name
 
-# Parts of the boundary closer than this share of the cage's size count as touching: a few thousand
-# roundings, below which neither an offset nor a normal direction can be computed.
+# Parts of the boundary closer than this share of the cage's size count as touching. It is a few
+# thousand roundings: below it, offsets and normal directions cannot be computed.
 _RESOLUTION = 1e-12
-_EDGES = 64  # whose crossings are looked for at a time
+_EDGES = 64  # edges that are tested for crossings at a time
 
 
 @dataclass(frozen=True, eq=False, init=False)
 class Cage(Rebuilt):
     """A bounded polygon with any number of holes; the boundary P of the certified domain.
 
-    Loops have their vertices in order, either way round; where the first is repeated at the end,
-    that is left out. Polygons of shapely, and of others with a ``__geo_interface__``, and lists of
-    rings as in GeoJSON, the exterior first, are taken in place of a loop.
+    Loops list their vertices in order, in either direction. A last vertex that repeats the first is
+    left out. Instead of a loop, ``exterior`` may be a polygon of shapely or another object with a
+    ``__geo_interface__``, or a list of rings as in GeoJSON, the exterior first.
 
     The constructor checks what the package relies on: finite coordinates, at least three distinct
     vertices per loop, loops that neither cross nor touch themselves or each other, every hole
     inside the exterior and outside every other hole. If not, a GeometryError names the loop, the
-    vertex and its place. Loops are reversed where needed, keeping vertex 0 first, so that the
+    vertex and its place. Loops are reversed if needed, with vertex 0 still first, so that the
     domain lies to the left of the boundary.
     """
 
@@ -120,10 +120,10 @@ class Cage(Rebuilt):
         return polygon
 
     def contains(self, points: ArrayLike, tolerance: float = 0.0) -> NDArray[np.bool_]:
-        """Which of the (..., 2) points lie in the closed domain; not those with NaN.
+        """Which of the (..., 2) points lie in the closed domain. Points with NaN do not.
 
-        Points outside by at most the tolerance count as inside; it is at least 1e-12 of the cage's
-        size, so that rounded boundary points count too.
+        Points outside by at most the tolerance count as inside. The tolerance is at least 1e-12 of
+        the cage's size, so that rounded boundary points count as inside.
         """
         try:
             xy = real_array(points)
@@ -148,7 +148,7 @@ class Cage(Rebuilt):
 
 
 def _rings_of(shape: Any, holes: Any) -> list[Any]:
-    """The exterior and the holes of whatever a cage may be made of."""
+    """The exterior and the holes of anything that a cage can be made of."""
     if isinstance(shape, Cage):
         raise GeometryError("it is a cage already; use it as it is, or give its exterior and holes")
     if (geometry := getattr(shape, "__geo_interface__", None)) is not None:
@@ -176,7 +176,7 @@ def _rings_of_geometry(geometry: Mapping[str, Any]) -> list[Any]:
 
 
 def _depth(value: Any) -> int:
-    """How deep lists or arrays are nested, by their first elements: 2 for a loop of vertices."""
+    """The nesting depth of lists or arrays, by their first elements: 2 for a loop of vertices."""
     if isinstance(value, np.ndarray):
         return value.ndim
     if not isinstance(value, list | tuple):
@@ -186,7 +186,7 @@ def _depth(value: Any) -> int:
 
 
 def _checked_vertices(vertices: Any, name: str) -> Array:
-    """A float64 copy of (n, 2) finite vertices, n >= 3, without a last one that closes the loop."""
+    """A float64 copy of (n, 2) finite vertices, n >= 3, without a last one equal to the first."""
     if (geometry := getattr(vertices, "__geo_interface__", None)) is not None:
         vertices = _rings_of_geometry(geometry)[0]
     pairs = f"{name}: vertices must be pairs of numbers [[x, y], ...]"

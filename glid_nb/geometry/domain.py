@@ -20,22 +20,22 @@ from glid_nb.geometry.offset import offset_cage
 
 # The paper's reference cages use 0.1 where the longer image side is 20 units.
 _DEFAULT_OFFSET = 0.005
-# Edges are divided that are longer than so many widths, and than this share of the cage's longer
-# side or than so many times the greatest width. Traced cages follow their limbs with shorter ones.
+# An edge is divided if it is longer than LONG median widths and LONG_SHARE of the cage's longer
+# side, or longer than VERY_LONG times the greatest width. Edges of traced cages are shorter.
 _LONG, _LONG_SHARE, _VERY_LONG = 3.0, 0.3, 10.0
 # The pieces' length in widths, and their least length as a share of the cage's longer side.
 _PIECE, _LEAST_PIECE = 0.5, 0.02
-_SAMPLES = 32  # at so many points of an edge the width is taken
+_SAMPLES = 32  # points of an edge at which the width is measured
 
 
 @dataclass(frozen=True, eq=False, init=False)
 class Domain(Rebuilt):
     """Where a harmonic map lives: the cage P, the offset cage P^ and a point in every hole.
 
-    The basis is singular at the offset cage's vertices and the hole points, all outside the closed
-    domain bounded by `cage`, and smooth on that domain (section 5 and appendix D of Chen & Weber
-    2017). Domains are compared and hashed by identity, so that they can key a cache. Where the
-    parts do not fit a GeometryError names the loop and the place.
+    The basis is singular at the offset cage's vertices and the hole points (Section 5 and Appendix
+    D). All of them lie outside the closed domain bounded by `cage`, so the basis is smooth there.
+    Domains are compared and hashed by identity, so that they can be keys of a cache. If the parts
+    do not fit, a GeometryError names the loop and the place.
     """
 
     cage: Cage
@@ -46,7 +46,7 @@ class Domain(Rebuilt):
     hole_points: NDArray[np.float64]
     """(N, 2), one strictly inside each hole of `offset_cage`, in order; by default chosen."""
     notes: tuple[str, ...]
-    """Sentences about choices made, such as a reduced offset."""
+    """Sentences about choices, such as a reduced offset."""
 
     def __init__(
         self,
@@ -68,8 +68,8 @@ class Domain(Rebuilt):
         """The domain of a cage, with chosen offset cage and hole points.
 
         `offset` is the distance between the cages, by default 0.005 of the longer side of the
-        cage's bounding box. It is reduced in narrow passages; `notes` says where. Where edges are
-        long against the shape's width, the offset cage has more vertices than the cage.
+        cage's bounding box. It is reduced in narrow passages; `notes` says where. The offset cage
+        has extra vertices on edges that are long compared with the shape's width.
         """
         check_type("cage", cage, Cage, "make one with Cage(points)")
         outer, notes = _chosen_offset(cage, offset)
@@ -81,8 +81,8 @@ class Domain(Rebuilt):
 
         Its keys are ``cage`` and ``holes`` as in `Cage.from_dict`, and optionally ``offset`` (a
         distance), ``offset_cage``, ``offset_holes``, ``hole_points`` and ``notes``. Missing parts
-        are chosen; loops are reoriented where needed. ``offset_holes`` needs ``offset_cage``, and
-        ``offset`` has no effect beside it.
+        are chosen, and loops are reoriented if needed. ``offset_holes`` needs ``offset_cage``; with
+        ``offset_cage``, ``offset`` has no effect.
         """
         cage, notes = Cage.from_dict(data), data.get("notes")
         notes = () if notes is None else (notes,) if isinstance(notes, str) else notes
@@ -140,7 +140,7 @@ def _check_enclosed(cage: Cage, offset_cage: Cage) -> None:
     if offset_cage.n_holes != cage.n_holes:
         both = f"the offset cage has {offset_cage.n_holes} holes and the cage {cage.n_holes}"
         raise GeometryError(f"{both}; give one offset hole per hole, in the same order")
-    # Loops of different index do not meet, as those of either cage do not.
+    # Loops of different index cannot meet, because those of each cage do not.
     for i, (loop, offset_loop) in enumerate(zip(cage.loops, offset_cage.loops, strict=True)):
         name = "the exterior loop" if i == 0 else loop_name(i)
         meeting = shapely.intersection(shapely.LinearRing(loop), shapely.LinearRing(offset_loop))
@@ -175,7 +175,7 @@ def _checked_hole_points(points: ArrayLike, offset_cage: Cage) -> NDArray[np.flo
 
 
 def _divided(offset_cage: Cage, cage: Cage) -> Cage:
-    """The offset cage with more vertices on long edges, which would be too stiff to bend."""
+    """The offset cage with extra vertices on long edges, which otherwise could not bend."""
     least = _LEAST_PIECE * cage.longer_side
     start = np.concatenate(cage.loops_complex)
     end = np.concatenate([np.roll(loop, -1) for loop in cage.loops_complex])
@@ -202,7 +202,7 @@ def _widths(a: complex, b: complex, start: Array, end: Array) -> Array:
     """(k,) distances from points of the edge ``a b`` straight across the domain to an edge."""
     inward = 1j * (b - a) / abs(b - a)
     points = a + (b - a) * (np.arange(_SAMPLES)[:, None] + 0.5) / _SAMPLES
-    # In the frame in which the edge lies on the real axis and the domain above it.
+    # In a frame with the edge on the real axis and the domain above it.
     p, q = ((z - points) / inward * 1j for z in (start, end))
     rise = np.where(p.real == q.real, 1, q.real - p.real)
     height = p.imag - p.real * (q.imag - p.imag) / rise

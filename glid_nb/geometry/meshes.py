@@ -16,10 +16,11 @@ from glid_nb.geometry import _loops
 from glid_nb.geometry._loops import GeometryError, Loops, place
 from glid_nb.geometry.cage import Cage
 
-# Least distances of lattice points from the boundary (closer ones make flat triangles) and from the
-_MARGIN, _CLEARANCE = 0.55, 0.6  # wanted points, in spacings
+# Least distances of lattice points, in spacings: from the boundary, because closer ones make flat
+# triangles, and from wanted points.
+_MARGIN, _CLEARANCE = 0.55, 0.6
 _SAME = 1e-9  # points closer than this share of the cage's size count as one
-_ROUNDING = 1e-12  # points off the mesh by this share of its coordinates lie on it
+_ROUNDING = 1e-12  # points off the mesh by this share of its coordinates count as on it
 _ROW = np.sqrt(3.0) / 2.0  # height of a lattice row, in spacings
 
 
@@ -28,7 +29,7 @@ class Triangulation(Rebuilt):
     """A triangle mesh of a cage."""
 
     vertices: NDArray[np.float64]
-    """(v, 2) positions; the first `n_boundary` lie on the cage, loop after loop in order."""
+    """(v, 2) positions; the first `n_boundary` lie on the cage, loop by loop in order."""
     triangles: NDArray[np.int32]
     """(t, 3) int32 vertex indices, counter-clockwise."""
     n_boundary: int
@@ -60,7 +61,7 @@ class Triangulation(Rebuilt):
         return triangle
 
     def covers(self, points: Array) -> NDArray[np.bool_]:
-        """Which of (k, 2) points lie on the mesh, rounded points of its boundary too."""
+        """Which of (k, 2) points lie on the mesh, including rounded points of its boundary."""
         on = self.find(*points.T) >= 0
         beside = np.asarray(shapely.points(points[~on]), dtype=object)
         tolerance = _ROUNDING * max(float(np.abs(self.vertices).max()), 1e-300)
@@ -69,7 +70,7 @@ class Triangulation(Rebuilt):
         return on
 
     def weights(self, points: ArrayLike) -> Any:
-        """(k, v) sparse: interpolates at (k, 2) points, off the mesh by the nearest triangle."""
+        """(k, v) sparse: interpolates at (k, 2) points; off the mesh by the nearest triangle."""
         points = np.reshape(np.asarray(points, dtype=float), (-1, 2))
         triangle = self.find(*points.T)
         beside = triangle < 0
@@ -96,8 +97,11 @@ class MeshMap(Rebuilt):
         object.__setattr__(self, "images", images)
 
     def __call__(self, points: ArrayLike, *, outside: Literal["extend", "nan"] = "extend") -> Array:
-        """Images of (k, 2) points, by NumPy. With ``outside="extend"``, the default, one off the
-        mesh moves with the nearest triangle, with "nan" its image is NaN."""
+        """Images of (k, 2) points, by NumPy.
+
+        A point off the mesh moves with the nearest triangle (``outside="extend"``, the default), or
+        its image is NaN ("nan").
+        """
         if outside not in ("extend", "nan"):
             raise GeometryError(f"outside must be 'extend' or 'nan', not {outside!r:.40}")
         if "Tracer" in type(points).__name__:
@@ -141,9 +145,9 @@ def triangulate(
 
     The cage's edges are cut into equal parts and the inside is filled with a hexagonal lattice of
     the same spacing, chosen to give about `n_vertices` vertices. All vertices of the cage are
-    vertices of the mesh, so there are more where the cage has more.
+    vertices of the mesh, so a cage with more vertices than that gives a larger mesh.
 
-    The (k, 2) points, such as handles, become vertices too; a GeometryError names one outside.
+    The (k, 2) points, such as handles, become vertices too. A GeometryError names one outside.
     """
     check_type("cage", cage, Cage, "that of a domain is domain.cage")
     check_type("n_vertices", n_vertices, int | np.integer, "give a whole number")
@@ -196,7 +200,7 @@ def _spacing(cage: Cage, n_vertices: int) -> float:
     root = np.sqrt(linear**2 + 4.0 * n_vertices * cage.area / _ROW)
     spacing = 1.0 / float((root - linear) / (2.0 * cage.area / _ROW))
     lengths = Loops.of(cage.loops).lengths
-    # The formula is inaccurate for many short edges and for slender limbs.
+    # The formula is inaccurate for many short edges or slender limbs, so it is corrected.
     for _ in range(6):
         count = int(_parts(lengths, spacing).sum()) + len(_lattice(cage, spacing))
         if abs(count - n_vertices) <= 0.02 * n_vertices or spacing > cage.longer_side:

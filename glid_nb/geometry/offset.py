@@ -18,8 +18,8 @@ MITRE_LIMIT = 4.0  # longest mitre at an acute convex corner, in distances
 
 # Share of a passage's width that either side's offset may take, so that the clearance remains.
 _PASSAGE_SHARE = 1.0 / (2.0 + CLEARANCE)
-# Passages of at least this ratio of length to width are limited before anything else: offsets that
-# pass through each other along a whole passage are seen to meet only at its ends.
+# Passages of at least this ratio of length to width are limited first. If offsets cross each other
+# along a whole passage, later checks see them meet only at its ends.
 _PASSAGE_LENGTH = 4.0
 _SLOPE = 0.5  # greatest change of the distance per unit of arc length
 _KEPT_LENGTH = 0.1  # least length of an offset edge, as a share of its cage edge
@@ -36,18 +36,18 @@ class Offset:
     cage: Cage  # the offset cage P^, one vertex per vertex of the cage in the same order
     distances: tuple[NDArray[np.float64], ...]
     """Per loop, (n,) distances of vertex i of P^ from the lines of the two cage edges at vertex i.
-    Below the wanted distance in narrow places and where an acute corner's mitre was cut back."""
-    notes: tuple[str, ...] = ()  # a sentence per place where the distance had to be reduced
+    They are below the wanted distance in narrow places and at acute corners with a cut mitre."""
+    notes: tuple[str, ...] = ()  # a sentence per loop whose distance was reduced
 
 
 def offset_cage(cage: Cage, distance: float) -> Offset:
     """Move the exterior loop outward and every hole loop into its hole, in the cage's units.
 
-    Every edge moves by `distance` along its normal and neighbours meet in a mitre, so P^ has one
-    vertex per cage vertex, as in Chen & Weber (2017). Where that does not fit (a narrow passage, a
-    small hole, short edges at a reflex corner) the distance is reduced, and `Offset.notes` says so.
-    P^ encloses the cage strictly: the distance of each of its edges from the cage is at least 0.3
-    of the smaller of the distances at its ends.
+    Every edge moves by `distance` along its normal, and neighbours meet in a mitre. So P^ has one
+    vertex per cage vertex (Section 5). If that does not fit (a narrow passage, a small hole, short
+    edges at a reflex corner), the distance is reduced, and `Offset.notes` says so. P^ encloses the
+    cage strictly: each of its edges keeps a distance from the cage of at least 0.3 of the smaller
+    of the distances at its ends.
 
     A GeometryError for a distance that is not positive, and for a passage too narrow for float64.
     """
@@ -115,8 +115,8 @@ class _Corners:
         before, after = self.along[self.previous], self.along
         bulge = before[:, 0] * after[:, 1] - before[:, 1] * after[:, 0]
         self.convex = bulge > 0
-        # The bisector is along both n_before + n_after and +-(before - after); the longer one is
-        # accurate at corners of almost 0 or 180 degrees too.
+        # n_before + n_after and +-(before - after) both point along the bisector. The longer one is
+        # accurate, also at corners of almost 0 or 180 degrees.
         normals = self.normal[self.previous] + self.normal
         tangents = np.where(self.convex, 1.0, -1.0)[:, None] * (before - after)
         cosine = 0.5 * np.hypot(*normals.T)
@@ -127,7 +127,7 @@ class _Corners:
         mitre = np.where(self.convex, np.minimum(mitre, MITRE_LIMIT), mitre)
         self.step = mitre[:, None] * axis  # displacement per unit of distance
         self.height = mitre * cosine  # distance from the edges' lines per unit of distance
-        # Length that an offset edge gains per unit of distance at its start and at its end.
+        # By how much an offset edge gets longer per unit of distance, at its start and at its end.
         self.gain_start = -np.sum(self.step * after, axis=1)
         self.gain_end = np.sum(self.step[self.next] * after, axis=1)
 
@@ -135,8 +135,10 @@ class _Corners:
         return self.points + local[:, None] * self.step
 
     def passage_limits(self, min_ratio: float) -> Array:
-        """(n,) greatest distances where a vertex faces an edge of its loop across the outside, the
-        way along the loop being at least `min_ratio` times their gap."""
+        """(n,) greatest distances at vertices that face an edge of their loop across the outside.
+
+        The way between them along the loop must be at least `min_ratio` times their gap.
+        """
         points, reach = shapely.points(self.points), self.distance / _PASSAGE_SHARE
         w, e = self.tree.query(points, predicate="dwithin", distance=reach)
         apart = (e != w) & (self.next[e] != w) & (self.loop[e] == self.loop[w])
@@ -174,7 +176,7 @@ class _Corners:
             up = np.minimum.accumulate(d - s) + s
             down = (np.minimum.accumulate((d + s)[::-1]))[::-1] - s
             smooth = np.minimum(up, down)[n : 2 * n]
-            # Distances that are not reduced keep their exact value.
+            # Where nothing is reduced, keep the exact value.
             result[a:b] = np.where(smooth < local[a:b] * (1 - 1e-9), smooth, local[a:b])
         return result
 
@@ -194,7 +196,7 @@ class _Corners:
         return local, False
 
     def _edge_factors(self, local: Array) -> Array:
-        """(n,) factors that lengthen offset edges which are too short or reversed."""
+        """(n,) factors that make offset edges longer which are too short or reversed."""
         gain = local * self.gain_start + local[self.next] * self.gain_end
         loss = (1.0 - _KEPT_LENGTH) * self.length
         edge = np.flatnonzero(gain < -loss * (1 + 1e-9))
@@ -221,7 +223,7 @@ class _Corners:
         apart = (self.loop[e] == self.loop[f]) & ~neighbours
         e, f = e[apart], f[apart]
         gap = shapely.distance(edges[e], edges[f])
-        # The neighbours of a short edge are close anyway, so the gap is compared with the way too.
+        # A short edge is always close to its neighbours, so compare the gap with the way between.
         way = moved.way_between(e, f)
         close = gap < np.minimum(np.minimum(reach[e], reach[f]), CLEARANCE * way)
         self._shrink_ends(factors, edges, e[close], edges[f[close]])

@@ -1,4 +1,4 @@
-"""Panels: the straight pieces of the cage on which a map is integrated and certified."""
+"""Panels: straight pieces of the cage, on which maps are integrated and certified."""
 
 import functools
 from collections.abc import Sequence
@@ -57,7 +57,7 @@ class Panels(Rebuilt):
         return inside & (self.depth < _MAX_SPLITS)
 
     def split(self, chosen: Array) -> tuple["Panels", Array]:
-        """With ``chosen`` (p,) bool halved if :attr:`divisible`; (q,) which panel each is of."""
+        """Halve ``chosen`` (p,) bool, if :attr:`divisible`; with (q,) the old panel of each new one."""
         chosen = chosen & self.divisible
         parent = np.repeat(np.arange(len(self)), np.where(chosen, 2, 1))
         second = np.flatnonzero(np.diff(parent, prepend=-1) == 0)
@@ -69,8 +69,11 @@ class Panels(Rebuilt):
 
 @functools.lru_cache(maxsize=8)
 def graded_panels(domain: Domain, ratio: float = 1.0) -> Panels:
-    """Panels no longer than ``ratio`` times their distance to the nearest singularity of ``f_z``,
-    the offset cage's vertices and the hole points, by bisecting the cage's edges; kept."""
+    """Panels no longer than ``ratio`` times their distance to the nearest singularity of ``f_z``.
+
+    Singularities are the offset cage's vertices and the hole points. The cage's edges are bisected
+    until that holds. The last few results are kept.
+    """
     if not ratio > 0:
         raise ValueError(f"ratio is {ratio}; it must be positive")
     panels = Panels.along(domain.cage.loops_complex)
@@ -84,8 +87,11 @@ def graded_panels(domain: Domain, ratio: float = 1.0) -> Panels:
 
 
 def paired(panels: Panels, domain: Domain, ratio: float) -> Array:
-    """(p,) bool: the first of two consecutive panels of equal length on one straight piece that are
-    at most ``ratio`` times their distance to a singularity together; pairs do not overlap."""
+    """(p,) bool: the first panel of each pair; pairs do not overlap.
+
+    A pair is two consecutive panels of equal length on one straight piece. Together they are at
+    most ``ratio`` times as long as their distance to a singularity.
+    """
     after = np.roll(np.arange(len(panels)), -1)
     chord, following = panels.end - panels.start, panels.end[after] - panels.start[after]
     even = np.abs(chord - following) <= _EVEN * np.abs(chord)

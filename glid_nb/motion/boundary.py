@@ -15,19 +15,19 @@ from glid_nb.geometry.panels import point_distance
 from glid_nb.harmonic import basis_of, cauchy
 from glid_nb.solvers.discretisation import complex_basis, discretise
 
-_POINTS = 200  # at which images are compared
+_POINTS = 200  # boundary points at which images are compared
 _ON_LINK = 128
-# Periods are closed by turning rather than by scaling, which weighs so many times as much.
+# Closing periods should rather turn than scale: scaling has this weight relative to turning.
 _SCALING = 5.0
-_SMOOTH, _SMOOTH_PER_HOLE = 16, 4  # functions that close them
-# Newton steps; the gap is of second order in the difference of the keyframes. None is taken where
-# the gap, a coefficient of the logarithm, is below the second number.
+_SMOOTH, _SMOOTH_PER_HOLE = 16, 4  # functions that close periods
+# Most Newton steps; the gap is of second order in the difference of the keyframes. No step is taken
+# if the gap, a coefficient of the logarithm, is below the second number.
 _CLOSINGS, _CLOSED = 3, 1e-9
 
 
 @dataclass(frozen=True, eq=False)
 class Branch:
-    """A loop's nodes by index, in order, and the way through the domain to one of another loop."""
+    """A loop's nodes by index, in order, and a path through the domain from another loop's node."""
 
     indices: Array
     linked: int = 0
@@ -51,8 +51,8 @@ class Boundary:
     """(N, s) likewise, scaled coefficients of the logarithms of the best fits to two functions."""
     with_logarithms: Array  # (n, N) what these add to the coefficients
     holomorphic: Array
-    """(s, m) smooth single-valued functions at the nodes, for real coefficients. Their squares add
-    up to the function's mean square, in which its real part counts more."""
+    """(s, m) smooth single-valued functions at the nodes, for real coefficients. The sum of squared
+    coefficients is the function's mean square, in which the real part has more weight."""
     periods: Array
     """(N, s) the logarithms' coefficients in the best fit to a function by itself: its periods."""
 
@@ -74,7 +74,7 @@ class Boundary:
     def fitted(self, fz: Array, fzb_conj: Array) -> tuple[Array, Array]:
         """Coefficients of the map whose derivatives are nearest, in the mean square, at the nodes.
 
-        With ``phi_h = conj(psi_h)`` for the holes: what is orthogonal to all else tells both.
+        For the holes ``phi_h = conj(psi_h)``; the part orthogonal to all other columns gives both.
         """
         both = np.stack([fz, fzb_conj], axis=1)
         h, h_conj = (self.logarithms @ both).T

@@ -1,9 +1,10 @@
 """Bounded distortion interpolation, projected on the harmonic subspace.
 
 With ``a = f_z`` and ``nu = conj(f_zbar) / f_z`` of the keyframes, ``log a`` and ``nu`` are
-holomorphic, and so are their means: ``|nu|``, which is k, stays below that of the worse end (Chien,
-Chen & Weber 2016). Here the maps are first freed from their rigid motion, which moves by itself,
-and what the projection on the basis loses at the keyframes is added back evenly between them.
+holomorphic, and so are their weighted means. So k, which is ``|nu|``, stays below that of the worse
+end (Chien, Chen & Weber 2016). The rigid motion is taken out of the maps first and interpolated by
+itself. The projection on the basis loses something at the keyframes; it is added back, linearly in
+time between them.
 """
 
 from collections.abc import Sequence
@@ -18,13 +19,13 @@ from glid_nb.harmonic import HarmonicMap
 from glid_nb.motion.boundary import Boundary, boundary_of
 from glid_nb.solvers.pose import rigid_motion
 
-# A map may be worse than the worse end by this share, else tangents are shortened step by step.
+# If a map is worse than the worse end by more than this share, tangents are shortened.
 EXCESS = 0.01
-_LEAST = np.array([1e-9, 0.01])  # sigma_2 and k that such a share is taken of
+_LEAST = np.array([1e-9, 0.01])  # least sigma_2 and k that the share refers to
 _SHORTER = 0.8
-_MOST_STEPS, _ALONE = 12, 3  # after so many steps both tangents of a keyframe are shortened
-# Periods are closed where that changes `|f_z|` halfway by less than this, in its logarithm: else it
-# would lower sigma_2 between keyframes, which maps solved on the way mend in vain.
+_MOST_STEPS, _ALONE = 12, 3  # after ALONE steps both tangents of a keyframe are shortened
+# Periods are closed only if this changes the logarithm of `|f_z|` halfway by less than CLOSES. A
+# larger change would lower sigma_2 between keyframes, and maps solved on the way would not help.
 _CLOSES = 0.3
 _PROBES = np.linspace(0, 1, 18)[1:-1]
 
@@ -36,8 +37,8 @@ Maps = Sequence[HarmonicMap]
 class Bounded:
     """A smooth curve through keyframes; two keyframes are joined by the plain interpolation.
 
-    Cubic Hermite pieces in ``log f_z``, ``nu`` and the rigid motion, with tangents that are
-    shortened where they would carry k or sigma_2 beyond the worse keyframe.
+    Cubic Hermite pieces in ``log f_z``, ``nu`` and the rigid motion. Tangents are shortened where k
+    or sigma_2 would be worse than at the worse keyframe.
     """
 
     boundary: Boundary
@@ -45,21 +46,21 @@ class Bounded:
     times: tuple[float, ...]
     rows: Array
     """(k, 2 s + 2) of the keyframes: ``log f_z`` and ``nu`` at the nodes, then angle and mean of
-    the rigid motion ``z -> exp(i angle) z + mean`` that they are freed from."""
+    the rigid motion ``z -> exp(i angle) z + mean`` that is taken out of them."""
     lost: Array  # (k, 2, n) what the projection loses of phi and psi
     tangents: Array  # (k, 2 s + 2) slopes of the rows
     turns: tuple[int, ...]
-    worse: Array  # (k - 1, 2) what maps of each piece are measured by, as by `Boundary.worst`
+    worse: Array  # (k - 1, 2) what maps of each piece are compared with, see `Boundary.worst`
     closes: tuple[bool, ...]  # on which pieces periods are closed, see `Boundary.closed`
 
     @classmethod
     def through(
         cls, maps: Maps, times: Sequence[float], turns: Sequence[int], closed: bool, worse: Any = ()
     ) -> Self:
-        """Through maps of one domain whose ``f_z`` turn alike; ``turns`` more ways round a piece.
+        """Through maps of one domain whose ``f_z`` turn alike; ``turns`` are added to the pieces.
 
-        Where ``closed``, the last map is the first one again. Pieces are measured by ``worse``, by
-        default the worse of their ends.
+        If ``closed``, the last map is the first one again. Maps of a piece are compared with
+        ``worse``, by default the worse of the piece's ends.
         """
         boundary = boundary_of(maps[0].domain)
         rows, lost = [], []
@@ -88,15 +89,15 @@ class Bounded:
         return self.boundary.translated(turn * phi, row[-1]), psi / turn
 
     def laps(self, piece: int) -> int:
-        """So many times, at least 1, the whole turns round between two keyframes, at most.
+        """A bound, at least 1, on how often the whole turns round between two keyframes.
 
-        As if at the largest speed, which is of the control polygon of the angle's cubic.
+        It assumes the largest speed, that of the control polygon of the angle's cubic.
         """
         _, d, out, into = (float(row[-2].real) for row in self._hermite(piece))
         return 1 + int(max(abs(out), abs(3 * d - out - into), abs(into)) / (2 * np.pi))
 
     def excess(self, piece: int) -> Array:
-        """(2, 2) by which share sigma_2 and k are worse than `worse` in each half, at most."""
+        """(2, 2) by which share sigma_2 and k are worse than `worse`, the largest of each half."""
         worst, worse = self.boundary.worst, self.worse[piece]
         within = np.array([worst(*self(piece, s)) for s in _PROBES]).reshape(2, -1, 2)
         return (within.max(axis=1) - worse) / np.maximum(np.abs(worse), _LEAST)
@@ -107,13 +108,13 @@ class Bounded:
         return before + s * (out + s * (3 * d - 2 * out - into + s * (out + into - 2 * d)))
 
     def _hermite(self, piece: int) -> tuple[Array, Array, Array, Array]:
-        """The first row, the way to the next, and the slopes at both ends."""
+        """The first row, the difference to the next, and the slopes at both ends."""
         before, after = self.rows[piece : piece + 2]
         span = self.times[piece + 1] - self.times[piece]
         return before, after - before, span * self.tangents[piece], span * self.tangents[piece + 1]
 
     def _shortened(self, closed: bool) -> Self:
-        """With tangents so short that on no piece k is above its ends', or sigma_2 below."""
+        """With tangents so short that k and sigma_2 of no piece are worse than at its ends."""
         share, curve = np.ones((len(self.maps), 2)), self
         wild = np.ones((len(self.turns), 2, 2), dtype=bool)  # of each piece, halves, sigma_2 and k
         stale = wild.any(axis=(1, 2))
@@ -128,7 +129,7 @@ class Bounded:
             stale = (at[1:] | at[:-1]).any(axis=1)
             share[at] *= _SHORTER if step < _MOST_STEPS else 0
             fields = np.repeat(share, len(self.boundary.mean), axis=1) * self.tangents[:, :-2]
-            # The rigid motion, which distorts nothing, stays.
+            # The rigid motion stays, because it does not distort.
             curve = replace(self, tangents=np.hstack([fields, self.tangents[:, -2:]]))
         return curve
 
@@ -136,7 +137,7 @@ class Bounded:
 def _freed(
     boundary: Boundary, map: HarmonicMap, before: list[Array], turns: int
 ) -> tuple[Array, Array]:
-    """A keyframe's row, turned and with the logarithm's branch nearest to the one before."""
+    """A keyframe's row, with the angle and the logarithm's branch nearest to the row before."""
     turn, _, mean = rigid_motion(boundary.points, boundary.images(map.phi, map.psi))
     angle = float(np.angle(turn))
     if before:
@@ -154,7 +155,7 @@ def _freed(
 
 
 def _closes(boundary: Boundary, fields: Array) -> bool:
-    """Whether closing the periods of fields scales them little."""
+    """Whether closing the periods scales the fields by little."""
     log, nu = np.split(fields, 2)
     change = np.log(np.abs(boundary.closed(log, nu))) - np.real(log)
     return bool(np.abs(change).max() < _CLOSES)
@@ -173,10 +174,10 @@ def _nearest(angle: float, to: float) -> float:
 
 
 def _tangents(rows: Array, times: Array, closed: bool) -> Array:
-    """Slopes of the cubic spline that bends continuously; of the chord at open ends.
+    """Slopes of the cubic spline with a continuous second derivative; of the chord at open ends.
 
-    Where one side is much slower the motion would run away there: slopes are at most three times
-    those of either chord (de Boor & Swartz 1977), of the holomorphic fields all by one factor.
+    If one side is much slower, the motion would overshoot there. So slopes are at most three times
+    those of either chord (de Boor & Swartz 1977). All holomorphic fields are limited by one factor.
     """
 
     def sizes(slopes: Array) -> Array:

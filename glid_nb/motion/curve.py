@@ -1,4 +1,4 @@
-"""The smooth motion through keyframes, also through maps solved on the way, and linear pieces."""
+"""The smooth motion through keyframes and maps solved on the way, and its linear pieces."""
 
 import bisect
 import itertools
@@ -17,19 +17,19 @@ from glid_nb.motion.bounded import EXCESS, Bounded, Coefficients
 from glid_nb.motion.settings import EASINGS, MotionError
 from glid_nb.solvers import Options, Pose, solve
 
-_SAMPLES = 24  # of each lap of an interval, to see how it bends
+_SAMPLES = 24  # per lap of an interval, to measure how it bends
 _MOST_PIECES = 8192  # of an interval
-_STAGES = 5  # of each lap of an interval whose maps are solved for
+_STAGES = 5  # per lap of an interval with "solved"
 _POINTS = 40
 _SOFT = 1e-4  # weight of the handles of maps that mend a motion
-_ROUNDS = 5  # of halving where it is mended
-_PROGRESS = 0.7  # where two rounds leave a larger share of the excess, they are the last ones
+_ROUNDS = 5  # most rounds of halving, to mend a motion
+_PROGRESS = 0.7  # mending ends if two rounds leave a larger share of the excess
 
 Between = Callable[[int, float], Coefficients]
 
 
 class Piece(NamedTuple):
-    """Between its times the coefficients, and so all images, move on straight lines."""
+    """Between its times the coefficients move on straight lines, and so do all images."""
 
     start: float
     end: float
@@ -73,10 +73,10 @@ class Curve:
         return self.known[time]
 
     def breaks(self, interval: int, tolerance: float) -> list[float]:
-        """Times from a keyframe to the next between which images move straight up to a distance.
+        """Times from a keyframe to the next: straight pieces between them keep to the tolerance.
 
-        A piece of length h is off by ``h^2 / 8`` times the second derivative, so pieces are as
-        short as the square root of that is large.
+        A straight piece of length h is off by ``h^2 / 8`` times the second derivative. So pieces
+        are as short as the square root of the second derivative is large.
         """
         start, end = self.times[interval : interval + 2]
         samples = np.linspace(start, end, _SAMPLES * self.laps[interval] + 1)
@@ -103,20 +103,23 @@ def blend(maps: Sequence[HarmonicMap], piece: int, s: float) -> Coefficients:
 
 
 def through_solved(follow: Bounded, handles: Array | None, closed: bool) -> Between:
-    """Bounded interpolation through keyframes and solves on the way, whose handles ``follow``."""
+    """Bounded interpolation through keyframes and maps solved with handles on ``follow``."""
     every = range(len(follow.turns))
     pose = Pose(*[_even_points(follow) if handles is None else handles] * 2)
     return _by_time(follow, _divided(follow, every, every, _STAGES, pose, closed)[0])
 
 
 def through_mended(follow: Bounded, closed: bool) -> tuple[Between, tuple[str, ...]]:
-    """Bounded interpolation, which where it is worse than the worse keyframe runs through maps
-    solved for halfway, and again, unless that is worse still; and which way each interval took."""
+    """Bounded interpolation, mended where it is worse than the worse keyframe.
+
+    There it runs through a map solved halfway, and so on for each half, unless that is even worse.
+    The second value names the way of each interval.
+    """
     curve, points = follow, _even_points(follow)
     pose = Pose(points, points, weights=np.full(len(points), _SOFT))
     owners = every = range(len(follow.turns))
     alone = excess = [follow.excess(i).max() for i in every]
-    mending, course = set(every), [alone]  # the largest excess of each interval, after each round
+    mending, course = set(every), [alone]  # the largest excess of each interval after each round
     for _ in range(_ROUNDS):
         over = [i for i, share in enumerate(excess) if share > EXCESS and owners[i] in mending]
         if not over:
@@ -141,7 +144,7 @@ def _even_points(curve: Bounded) -> Array:
 def _divided(
     curve: Bounded, owners: Sequence[int], over: Sequence[int], parts: int, pose: Pose, closed: bool
 ) -> tuple[Bounded, list[int]]:
-    """The curve through maps solved on some of its pieces too, so many ``parts`` for each lap."""
+    """The curve through further maps, solved on some of its pieces, with ``parts`` for each lap."""
     maps, times, turns, of = [], [], [], []
     for i, (start, end) in enumerate(itertools.pairwise(curve.times)):
         count = parts * curve.laps(i) if i in over else 1
@@ -165,7 +168,7 @@ def _solved(curve: Bounded, piece: int, s: float, pose: Pose) -> HarmonicMap:
 
 
 def _by_time(follow: Bounded, curve: Bounded) -> Between:
-    """The curve, by the pieces of the one that it was made from."""
+    """The curve as a function of the pieces of ``follow``, from which it was made."""
     if curve is follow:
         return follow
 

@@ -33,7 +33,7 @@ _OPTIONAL = {"handles": _json.check_points, **_json.keys("notes", "image_size_px
 def texts(
     pieces: Sequence[Piece], settings: Mapping[str, Any], proofs: Sequence[PieceCertificate]
 ) -> tuple[str, ...]:
-    """The file of a motion, and if proofs of its pieces are given what ``glid-check`` reads."""
+    """The file of a motion and, if its pieces' proofs are given, the file for ``glid-check``."""
     first = pieces[0].start_map
     knots = [(pieces[0].start, first), *((p.end, p.end_map) for p in pieces)]
     shared = {

@@ -28,7 +28,7 @@ from glid_nb.motion.settings import Between, Easing, MotionError, Repeat, checke
 
 _TOLERANCE = 0.002
 _MOST_FRAMES = 100_000
-_FINER = 2  # times a piece that is not proved becomes three: they follow the curve more closely
+_FINER = 2  # how often a piece without proof becomes three, which follow the curve more closely
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,24 +59,24 @@ class Motion(Rebuilt):
 
     keyframes: tuple[HarmonicMap, ...] = field(repr=False)
     times: tuple[float, ...]
-    """Seconds, strictly increasing; by default 0, 1, 2 and so on. A loop may have one time more:
-    when it is back at its first keyframe; otherwise that takes as long as a mean interval."""
+    """Seconds, strictly increasing; by default 0, 1, 2 and so on. A loop may have one more time,
+    for its return to the first keyframe; by default that takes as long as a mean interval."""
     easing: tuple[Easing, ...]
     """One of "linear", "in", "out" or "in-out", for all intervals or for each."""
     repeat: Repeat
     """Either "once"; "loop", back to the first keyframe after the last; or "ping-pong"."""
     between: Between
-    """Either "bounded", bounded distortion interpolation; "solved", the same through maps solved on
-    the way, with handles that move on rigid paths; "auto", bounded but where that is worse than the
-    worse keyframe and solved better, see :attr:`ways`; or "linear", coefficients blended."""
+    """"bounded": bounded distortion interpolation. "solved": the same through maps solved on the
+    way, with handles that move on rigid paths. "linear": coefficients are blended. "auto": bounded,
+    or solved where bounded is worse than the worse keyframe and solved is better (:attr:`ways`)."""
     tolerance: float
-    """How far an image may be off the smooth motion, relative to the cage's longer side."""
+    """Largest distance of images from the smooth motion, relative to the cage's longer side."""
     turns: tuple[int, ...]
-    """Whole turns that each interval adds to the short way round, counter-clockwise."""
+    """Whole turns, counter-clockwise, that each interval adds to the short way round."""
     handles: Array | None = field(repr=False)
     """(h, 2) points of the domain that move on rigid paths for "solved"; by default even points."""
     image_size: tuple[int, int] | None
-    """(w, h) pixels of the picture that moves, if it is known; exports then refuse other sizes."""
+    """(w, h) pixels of the picture that moves, if known. Then exports refuse other sizes."""
 
     def __init__(
         self,
@@ -136,7 +136,7 @@ class Motion(Rebuilt):
 
     @property
     def end(self) -> float:
-        """The last time, seconds: of the last keyframe, a loop's return, or the way back."""
+        """The last time, seconds: of the last keyframe, or of a loop's or ping-pong's return."""
         there = self.times[-1] - self.times[0]
         return self.times[-1] + (there if self.repeat == "ping-pong" else 0.0)
 
@@ -154,7 +154,7 @@ class Motion(Rebuilt):
     def pieces(self) -> tuple[Piece, ...]:
         """The linear pieces of the motion in order: what is shown, exported and proved.
 
-        Raises MotionError where the tolerance needs over 8,192 from a keyframe to the next.
+        Raises MotionError if the tolerance needs more than 8,192 from a keyframe to the next.
         """
         forth = self.pieces_forth
         if self.repeat != "ping-pong":
@@ -191,9 +191,9 @@ class Motion(Rebuilt):
         )
 
     def __call__(self, time: float) -> HarmonicMap:
-        """The map at a time; a loop and a ping-pong go on for ever, other motions do not.
+        """The map at a time. A loop and a ping-pong repeat for ever.
 
-        Raises MotionError for a time outside ``start`` to ``end``.
+        For other motions, a time outside ``start`` to ``end`` raises MotionError.
         """
         time = checked("time", float, time, least=-settings.LATEST)
         if self.repeat != "once":
@@ -205,9 +205,9 @@ class Motion(Rebuilt):
         return self.pieces[max(bisect.bisect_right(starts, time) - 1, 0)].at(time)
 
     def frame_times(self, fps: float) -> Array:
-        """(n,) times at even distances; at most 100,000.
+        """(n,) evenly spaced times; at most 100,000.
 
-        A motion that repeats leaves out its end, which is its start.
+        A motion that repeats leaves out its end, which equals its start.
         """
         fps = checked("fps", float, fps, above=0, most=10_000)
         count = max(round(self.duration * fps), 1)
@@ -275,7 +275,8 @@ class Motion(Rebuilt):
     def save(self, path: str | Path, proof: str | Path | None = None) -> None:
         """Write keyframes, settings and pieces as JSON, and the proof that ``glid-check`` reads.
 
-        MotionError, and no file, for a proof of what is not certified, or of the same name.
+        If the motion is not certified, or both names are the same file, MotionError is raised and
+        nothing is written.
         """
         paths = [path] if proof is None else [path, proof]
         if proof is not None and same_file(Path(path), Path(proof)):
@@ -284,8 +285,10 @@ class Motion(Rebuilt):
             write_atomically(to, text)
 
     def texts(self, proof: bool = True, image_size: Sequence[int] | None = None) -> tuple[str, ...]:
-        """What :meth:`save` writes; MotionError if there is no proof. ``image_size`` is the
-        picture's, where the motion itself does not know it."""
+        """What :meth:`save` writes; MotionError if there is no proof.
+
+        ``image_size`` is the picture's, for a motion that does not know it.
+        """
         if proof and not self.certificate.certified:
             raise MotionError(f"there is no proof to write: {self.certificate.reason}")
         known = {"times": self.times, **self.settings}

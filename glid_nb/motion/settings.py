@@ -22,9 +22,9 @@ EASINGS: dict[str, Callable[[float], float]] = {
     "out": lambda s: s * (2 - s),
     "in-out": lambda s: s * s * (3 - 2 * s),
 }
-"""Monotone maps of [0, 1] to itself, so no map appears that the motion without them lacks."""
+"""Monotone maps of [0, 1] to itself, so easing adds no map to a motion."""
 LATEST = 1e9  # seconds
-_LEAST_GAP = 1e-9  # of the largest time, at least of a second: in it thousands of pieces have room
+_LEAST_GAP = 1e-9  # of the largest time, or of 1 s if that is more: room for thousands of pieces
 
 
 class MotionError(InputError):
@@ -32,7 +32,7 @@ class MotionError(InputError):
 
 
 def checked(name: str, kind: Any, value: Any, **limits: float) -> Any:
-    """The value, a number as a float; MotionError unless it is what `unmet` wants."""
+    """The value, a number as a float; MotionError unless `unmet` accepts it."""
     wanted = unmet(kind, value, limits)
     if wanted:
         raise MotionError(f"{name} is {value!r:.60}; it must be {wanted}")
@@ -40,7 +40,7 @@ def checked(name: str, kind: Any, value: Any, **limits: float) -> Any:
 
 
 def checked_each(name: str, kind: Any, given: Any, count: int, **limits: float) -> tuple[Any, ...]:
-    """One value for each interval, which may be given once for all."""
+    """One value for each interval; a single value holds for all."""
     values = given if isinstance(given, list | tuple) else [given] * count
     if len(values) != count:
         raise MotionError(f"{name} has {len(values)} values for {count} intervals; give {count}")
@@ -48,7 +48,7 @@ def checked_each(name: str, kind: Any, given: Any, count: int, **limits: float) 
 
 
 def checked_keyframes(keyframes: Any) -> tuple[HarmonicMap, ...]:
-    """Certified maps of one domain, of the first one's, whose ``f_z`` turn alike."""
+    """Certified maps of one domain whose ``f_z`` turn alike, all with the first one's domain."""
     if not isinstance(keyframes, list | tuple) or len(keyframes) < 2:
         raise MotionError(f"a motion needs a list of at least 2 keyframes, not {keyframes!r:.60}")
     maps: list[HarmonicMap] = []
