@@ -57,7 +57,7 @@ class Panels(Rebuilt):
         return inside & (self.depth < _MAX_SPLITS)
 
     def split(self, chosen: Array) -> tuple["Panels", Array]:
-        """Halve ``chosen`` (p,) bool if :attr:`divisible`; also (q,) the old panel of each new one."""
+        """Halve ``chosen`` (p,) bool if :attr:`divisible`; also (q,) the parent of each panel."""
         chosen = chosen & self.divisible
         parent = np.repeat(np.arange(len(self)), np.where(chosen, 2, 1))
         second = np.flatnonzero(np.diff(parent, prepend=-1) == 0)
