@@ -38,7 +38,7 @@ from .harmonic import HarmonicMap as HarmonicMap
 # Solving
 from .solvers import Iteration as Iteration
 from .solvers import Options as Options
-from .solvers import Pose as Pose
+from .pose import Pose as Pose
 from .solvers import Progress as Progress
 from .solvers import Result as Result
 from .solvers import Status as Status

@@ -16,8 +16,8 @@ from glid_nb.geometry import Cage, Domain, GeometryError
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.harmonic.map import MapError
 from glid_nb.imaging import PixelFrame
+from glid_nb.pose import Pose, PoseError
 from glid_nb.session.problem import Problem
-from glid_nb.solvers import Pose, PoseError
 
 RING = [[-10, -3], [10, -3], [10, 3], [-10, 3]]
 HOLE = [[-1, -1], [-1, 1], [1, 1], [1, -1]]

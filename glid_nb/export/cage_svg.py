@@ -12,7 +12,7 @@ from glid_nb.geometry._loops import subdivided
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging import PixelFrame, Sheets, deformed_loops, order_of
 from glid_nb.imaging.render import check_fits
-from glid_nb.solvers import Pose
+from glid_nb.pose import Pose
 
 _MARGIN = 0.02  # around everything, as a share of the longer side
 _PIECE = 0.0025  # of the cage's size: how finely its covered parts are found

@@ -18,7 +18,7 @@ from glid_nb.imaging import PixelFrame, as_rgba8, png
 from glid_nb.imaging.bleed import bled
 from glid_nb.imaging.progress import Progress, report
 from glid_nb.motion import Motion
-from glid_nb.solvers import Pose
+from glid_nb.pose import Pose
 
 # trimesh takes a second to import, so only the functions that need it do.
 if TYPE_CHECKING:

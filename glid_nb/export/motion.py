@@ -19,7 +19,7 @@ from glid_nb.imaging import as_rgba8
 from glid_nb.imaging.progress import Progress, Stopped, report
 from glid_nb.motion import Motion
 from glid_nb.motion.settings import checked
-from glid_nb.solvers import Pose
+from glid_nb.pose import Pose
 
 _FPS = 25.0
 _MAKE_ONE = "make one of certified maps"

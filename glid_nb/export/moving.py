@@ -19,7 +19,7 @@ from glid_nb.imaging.progress import Progress, report
 from glid_nb.imaging.render import TOLERANCE_PX, check_fits, draw_mesh
 from glid_nb.imaging.texture import Texture
 from glid_nb.motion import Motion
-from glid_nb.solvers import Pose
+from glid_nb.pose import Pose
 
 _VERTICES = 1500  # evenly spread ones, before refinement
 

@@ -28,7 +28,7 @@ from glid_nb.imaging.progress import Progress, report
 from glid_nb.imaging.render import MARGIN
 from glid_nb.motion import Motion, MotionCertificate
 from glid_nb.motion.settings import checked
-from glid_nb.solvers import Pose
+from glid_nb.pose import Pose
 
 _FOLDER = Path(__file__).parent
 _VERTICES = 4000

@@ -20,7 +20,7 @@ from glid_nb.imaging.read import png
 from glid_nb.imaging.render import MARGIN, TOLERANCE_PX, View, check_fits, draw_mesh, render
 from glid_nb.imaging.texture import Texture
 from glid_nb.motion.settings import checked
-from glid_nb.solvers import Pose
+from glid_nb.pose import Pose
 
 Format = Literal["gif", "apng"]
 

@@ -19,7 +19,7 @@ from PIL import Image, ImageColor
 from glid_nb._arrays import Floats
 from glid_nb.figures.style import CYAN, HAIRLINE, INK, NAMED, SMALL
 from glid_nb.imaging import PixelFrame
-from glid_nb.solvers import Pose
+from glid_nb.pose import Pose
 
 _MISS = 0.004  # of the axes' size: handles farther from their target get a line
 _SHOWN_DPI = 150.0  # in a notebook, at

@@ -15,7 +15,8 @@ from glid_nb.figures.shapes import DrawnMap, draw_deformed, draw_distortion, hol
 from glid_nb.figures.style import BLUE, FONT_SIZE, GREY, INK, LEGEND, SMALL
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging import PixelFrame, as_rgba8
-from glid_nb.solvers import Pose, Result
+from glid_nb.pose import Pose
+from glid_nb.solvers import Result
 from glid_nb.solvers.restarts import isometry_energy
 
 # Inches.

@@ -24,7 +24,7 @@ from glid_nb.imaging import DeformedMesh, PixelFrame, deformed_loops, deformed_m
 from glid_nb.imaging.rasterise import render_mesh
 from glid_nb.imaging.texture import Texture
 from glid_nb.methods.mesh.operators import MeshOperators
-from glid_nb.solvers import Pose
+from glid_nb.pose import Pose
 from glid_nb.solvers.restarts import isometry_energy
 
 Quantity = Literal["sigma1", "sigma2", "k", "energy", "distortion"]

@@ -11,7 +11,7 @@ from glid_nb.geometry import Cage, as_points, triangulate
 from glid_nb.geometry._loops import subdivided
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging.order import order_of
-from glid_nb.solvers import Pose
+from glid_nb.pose import Pose
 
 # Limits of refinement: no mesh follows a map close to its singularities.
 _MOST_VERTICES = 1_000_000

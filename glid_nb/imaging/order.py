@@ -17,7 +17,7 @@ from glid_nb.geometry import Cage, Domain, MeshMap, Triangulation, as_points, tr
 from glid_nb.geometry.meshes import barycentric
 from glid_nb.harmonic import FixedPoints, HarmonicMap
 from glid_nb.imaging.frame import PixelFrame
-from glid_nb.solvers import DeformationMap, Pose
+from glid_nb.pose import DeformationMap, Pose
 
 _VERTICES = 4000
 _CANDIDATES = 2000  # vertices that the innermost one is chosen from

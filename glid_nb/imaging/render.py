@@ -15,7 +15,7 @@ from glid_nb.imaging.mesh import DeformedMesh, deformed_loops, deformed_mesh
 from glid_nb.imaging.progress import Progress
 from glid_nb.imaging.rasterise import render_mesh, render_nearest
 from glid_nb.imaging.texture import Texture
-from glid_nb.solvers import Pose
+from glid_nb.pose import Pose
 
 View = Literal["source", "fit"]
 Interpolation = Literal["smooth", "nearest"]

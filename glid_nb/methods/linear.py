@@ -12,7 +12,8 @@ from glid_nb._runtime import double_precision
 from glid_nb.geometry import Domain, Triangulation, graded_panels, signed_area
 from glid_nb.harmonic import HarmonicMap, as_complex, basis_of, cauchy
 from glid_nb.methods.mesh.operators import MeshMethod, MeshProblem, flips
-from glid_nb.solvers import Inputs, MethodError, Pose, Status
+from glid_nb.pose import Pose
+from glid_nb.solvers import Inputs, MethodError, Status
 from glid_nb.solvers.discretisation import complex_basis
 from glid_nb.solvers.loop import Ending, Steps
 

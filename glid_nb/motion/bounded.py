@@ -17,7 +17,7 @@ from scipy.interpolate import CubicSpline
 from glid_nb._arrays import Array
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.motion.boundary import Boundary, boundary_of
-from glid_nb.solvers.pose import rigid_motion
+from glid_nb.pose import rigid_motion
 
 # If a map is worse than the worse end by more than this share, tangents are shortened.
 EXCESS = 0.01

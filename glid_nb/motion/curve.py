@@ -15,7 +15,8 @@ from glid_nb.harmonic import HarmonicMap
 from glid_nb.motion.boundary import boundary_of
 from glid_nb.motion.bounded import EXCESS, Bounded, Coefficients
 from glid_nb.motion.settings import EASINGS, MotionError
-from glid_nb.solvers import Options, Pose, solve
+from glid_nb.pose import Pose
+from glid_nb.solvers import Options, solve
 
 _SAMPLES = 24  # per lap of an interval, to measure how it bends
 _MOST_PIECES = 8192  # of an interval

@@ -20,12 +20,11 @@ from glid_nb.energies import Energy
 from glid_nb.geometry import Cage, Domain, place
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.motion.settings import Easing, Repeat
+from glid_nb.pose import DEEPEST, PER_HANDLE, Pose, Stiffness, misplaced
 from glid_nb.session.document import NamedPose, check_room
 from glid_nb.session.edit_state import EditError, EditState
 from glid_nb.session.timeline import LEAST_GAP
-from glid_nb.solvers import Method, Pose
-from glid_nb.solvers.pose import DEEPEST, PER_HANDLE, misplaced
-from glid_nb.solvers.stiffness import Stiffness
+from glid_nb.solvers import Method
 
 # Least distance of two handles, as a share of the cage's size.
 _LEAST_DISTANCE = 1e-6

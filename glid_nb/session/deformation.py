@@ -19,6 +19,7 @@ from glid_nb.energies import Energy
 from glid_nb.geometry import Domain
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging.order import Sheets
+from glid_nb.pose import Pose
 from glid_nb.session import actions, pose_text
 from glid_nb.session.document import NamedPose, Solution
 from glid_nb.session.edit_state import EditError, EditState, Frame, Moment, Task
@@ -26,7 +27,7 @@ from glid_nb.session.live_solver import LiveSolver, solve_edited
 from glid_nb.session.model import History, Undoable
 from glid_nb.session.status_line import StatusLine, describe
 from glid_nb.session.worker import LatestWins, weakly
-from glid_nb.solvers import Options, Pose
+from glid_nb.solvers import Options
 
 P = ParamSpec("P")
 

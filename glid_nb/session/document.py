@@ -15,8 +15,9 @@ from glid_nb.energies import Energy
 from glid_nb.geometry import Cage, Domain
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging import Scribbles, TraceOptions
+from glid_nb.pose import Pose
 from glid_nb.session.timeline import Timeline
-from glid_nb.solvers import Iteration, Method, Newton, Options, Pose, Status
+from glid_nb.solvers import Iteration, Method, Newton, Options, Status
 
 _MOST_POSES, _LONGEST_NAME = 1000, 200
 _ASKED = ("pose", "energy", "options", "method")  # what a solve of a pose depends on

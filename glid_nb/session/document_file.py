@@ -24,6 +24,7 @@ from glid_nb.harmonic import HarmonicMap
 from glid_nb.harmonic.map import DOMAIN_KEYS, complex_from_pairs
 from glid_nb.imaging import Scribbles, TraceOptions
 from glid_nb.imaging.read import MAX_SIDE, picture_format, png
+from glid_nb.pose import Pose
 from glid_nb.session.document import (
     AS_SEEN,
     Document,
@@ -34,7 +35,7 @@ from glid_nb.session.document import (
     is_identity,
 )
 from glid_nb.session.timeline import Timeline
-from glid_nb.solvers import Newton, Options, Pose
+from glid_nb.solvers import Newton, Options
 
 T = TypeVar("T")
 

@@ -10,9 +10,10 @@ from glid_nb.energies import Energy, SymmetricDirichlet
 from glid_nb.geometry import Domain, MeshMap
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging.order import Order, order_of
+from glid_nb.pose import DeformationMap, Pose
 from glid_nb.session.document import NamedPose, Solution
 from glid_nb.session.timeline import Timeline
-from glid_nb.solvers import DeformationMap, Iteration, Options, Pose
+from glid_nb.solvers import Iteration, Options
 
 LIVE_OPTIONS = Options(restarts=0, iterations_per_call=1)
 """Options for solving during a drag: a frame per iteration, and no restarts."""

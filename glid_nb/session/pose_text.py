@@ -10,8 +10,8 @@ import shapely
 
 from glid_nb._arrays import Array
 from glid_nb.geometry import Cage
+from glid_nb.pose import Pose, PoseError
 from glid_nb.session.edit_state import EditError, EditState
-from glid_nb.solvers import Pose, PoseError
 
 _BOX = "cage_box"
 _NO_POSE = "this text holds no pose; copy one in an editor first (Ctrl+C on its canvas)"

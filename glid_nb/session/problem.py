@@ -10,7 +10,7 @@ from glid_nb._arrays import Array
 from glid_nb._errors import about
 from glid_nb.geometry import Domain
 from glid_nb.imaging import PixelFrame
-from glid_nb.solvers import Pose, PoseError
+from glid_nb.pose import Pose, PoseError
 
 _POSE = {"handles": _json.check_points, "targets": _json.check_points}
 _CHOSEN_WHEN_MISSING = {

@@ -7,8 +7,9 @@ from glid_nb.certificate import Certificate, certificate_of
 from glid_nb.certificate.rounding import rounded_down, rounded_up
 from glid_nb.geometry import MeshMap
 from glid_nb.harmonic import HarmonicMap
+from glid_nb.pose import Pose
 from glid_nb.session.edit_state import Frame, Moment
-from glid_nb.solvers import MethodError, Pose, Status, misses
+from glid_nb.solvers import MethodError, Status, misses
 
 Level = Literal["idle", "working", "good", "blocked", "error"]
 

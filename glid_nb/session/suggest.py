@@ -7,7 +7,7 @@ import shapely
 from glid_nb._arguments import check_type
 from glid_nb._arrays import Array
 from glid_nb.geometry import Domain, as_points, triangulate
-from glid_nb.solvers import Pose
+from glid_nb.pose import Pose
 
 _MESH_VERTICES = 3000
 # As shares of the distance, inside the shape, from its middle to its farthest point.

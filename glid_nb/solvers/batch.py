@@ -21,6 +21,7 @@ from glid_nb._jax import jax, jnp
 from glid_nb._runtime import double_precision, single_blas_thread
 from glid_nb.energies import Energy, as_energy
 from glid_nb.geometry import Domain
+from glid_nb.pose import Pose, PoseError, Stiffness
 from glid_nb.solvers import step
 from glid_nb.solvers.discretisation import discretise
 from glid_nb.solvers.line_search import RUNNING
@@ -28,11 +29,9 @@ from glid_nb.solvers.loop import Advance, Stopwatch, followed
 from glid_nb.solvers.method import Inputs
 from glid_nb.solvers.newton import SLOW_ITERATIONS, Newton, NewtonDescent, descend
 from glid_nb.solvers.options import Options
-from glid_nb.solvers.pose import Pose, PoseError
 from glid_nb.solvers.problem import SubspaceProblem
 from glid_nb.solvers.restarts import improve
 from glid_nb.solvers.result import Result
-from glid_nb.solvers.stiffness import Stiffness
 
 # Poses per device and call; few sizes, for each compiles a program of its own.
 _SIZES = (1, 4, 16, 64)

@@ -12,9 +12,9 @@ from glid_nb.certificate import Certificate, certificate_of
 from glid_nb.energies import Energy
 from glid_nb.geometry import Domain
 from glid_nb.harmonic import HarmonicMap
+from glid_nb.pose import DeformationMap, Pose
 from glid_nb.solvers.options import Options
-from glid_nb.solvers.pose import Pose
-from glid_nb.solvers.result import Callback, DeformationMap, Result
+from glid_nb.solvers.result import Callback, Result
 
 Family = Literal["harmonic", "mesh", "linear"]
 

@@ -9,7 +9,7 @@ from scipy.spatial import Delaunay, QhullError
 from glid_nb._arrays import Array, frozen
 from glid_nb.geometry import MeshMap
 from glid_nb.harmonic import HarmonicMap, as_complex
-from glid_nb.solvers.pose import Pose
+from glid_nb.pose import Pose
 
 NOTABLE = 0.01  # twentieths of the cage's longer side; a smaller distance is not visible
 # Targets follow a motion where it leaves out less than the first share of their spread, and less

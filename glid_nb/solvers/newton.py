@@ -76,7 +76,9 @@ class NewtonDescent(SubspaceDescent):
         singular = len(inputs.pose) < 2
         self.ridge, self._least_ridge = (_SINGULAR_RIDGE, _RIDGE) if singular else (0.0, 0.0)
         self.full_since: int | None = None
-        self._begins = self.discretisation.whitening.steep.shape[1] > 0  # without some coordinates
+        self._begins = (
+            self.discretisation.whitening.steep.shape[1] > 0
+        )  # some coordinates are left out
         if isinstance(inputs.start, Result) and self._continues(inputs.start):
             # The result keeps its own.
             self.factor = jnp.array(inputs.start.factor, copy=True)
@@ -149,8 +151,8 @@ class NewtonDescent(SubspaceDescent):
     def adapt(self, done: Advance) -> Ending | None:
         """Take the full Hessian or another ridge where that may help; else end."""
         if done.outcome == line_search.CONVERGED and self._begins:
-            self._begins = False
-            self.reuse = not self.put_back() and bool(self.inputs.options.corrections)
+            self._begins = self.put_back()
+            self.reuse = not self._begins and bool(self.inputs.options.corrections)
             return None
         if done.outcome == line_search.CONVERGED:
             now = map_from(self.inputs.domain, self.point.coefficients)

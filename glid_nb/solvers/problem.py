@@ -18,8 +18,8 @@ from glid_nb.energies import Energy
 from glid_nb.geometry import Domain
 from glid_nb.harmonic import Basis, HarmonicMap, Singularities, as_complex, cauchy, rows_of
 from glid_nb.harmonic.basis import basis_of
+from glid_nb.pose import Pose, rigid_motion
 from glid_nb.solvers.discretisation import Matrices, complex_basis
-from glid_nb.solvers.pose import Pose, rigid_motion
 
 _HANDLE_BUCKET = 16
 _TURN = 10.0  # weight of f_z at a handle, beside that of its image

@@ -14,16 +14,14 @@ from glid_nb._arrays import Array
 from glid_nb.certificate import Certificate, certificate_of, certify
 from glid_nb.energies import Energy
 from glid_nb.geometry import MeshMap
-from glid_nb.harmonic import HarmonicMap
+from glid_nb.pose import DeformationMap, Pose
 from glid_nb.solvers import misses
 from glid_nb.solvers.discretisation import Discretisation
 from glid_nb.solvers.options import Options
-from glid_nb.solvers.pose import Pose
 
 if TYPE_CHECKING:
     from glid_nb.solvers.method import Method
 
-DeformationMap = HarmonicMap | MeshMap
 Make = Callable[[], Certificate | MeshMap]
 """Makes the map of a moment: a harmonic one with its proof, which holds it, or one of a mesh."""
 

@@ -14,11 +14,11 @@ from glid_nb.energies import Energy, as_energy
 from glid_nb.geometry import Cage, Domain, MeshMap, as_points
 from glid_nb.geometry._loops import subdivided
 from glid_nb.harmonic import HarmonicMap
+from glid_nb.pose import DeformationMap, Pose
 from glid_nb.solvers.method import Inputs, Method, MethodError, StartError
 from glid_nb.solvers.newton import Newton
 from glid_nb.solvers.options import Options
-from glid_nb.solvers.pose import Pose
-from glid_nb.solvers.result import Callback, DeformationMap, Refinement, Result, Status
+from glid_nb.solvers.result import Callback, Refinement, Result, Status
 
 # Offset edges shorter than so many times their distance from the cage are not divided.
 _SHORT = 2.0

@@ -22,10 +22,9 @@ from glid_nb.geometry import Domain, as_points, triangulate
 from glid_nb.harmonic import HarmonicMap, as_complex
 from glid_nb.harmonic.basis import basis_of
 from glid_nb.harmonic.cauchy import edge_coefficients, first_by_edges
+from glid_nb.pose import DeformationMap, Pose
 from glid_nb.solvers.discretisation import discretise
-from glid_nb.solvers.pose import Pose
 from glid_nb.solvers.problem import matrix_at, unknowns_of
-from glid_nb.solvers.result import DeformationMap
 from glid_nb.solvers.whitening import pulled_back
 
 _VERTICES = 300

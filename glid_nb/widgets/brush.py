@@ -11,9 +11,9 @@ import traitlets
 
 from glid_nb._arrays import Array
 from glid_nb.geometry import Cage
+from glid_nb.pose import Stiffness
 from glid_nb.session.deformation import Deformation
 from glid_nb.session.edit_state import EditError, Moment
-from glid_nb.solvers.stiffness import Stiffness
 from glid_nb.widgets.controls import EditControls, button, toggle
 from glid_nb.widgets.gestures import LEFT, Event, PinGestures
 from glid_nb.widgets.pad import answer_during_cells

@@ -20,12 +20,13 @@ from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging.read import ImageSource, png, read_image
 from glid_nb.imaging.render import View
 from glid_nb.motion import Motion
+from glid_nb.pose import Pose
 from glid_nb.session.deformation import Deformation
 from glid_nb.session.document import Document, DocumentError, NamedPose
 from glid_nb.session.edit_state import EditError
 from glid_nb.session.editor_model import EditorModel, KeptWorkError, find_document
 from glid_nb.session.status_line import StatusLine
-from glid_nb.solvers import Method, Pose
+from glid_nb.solvers import Method
 from glid_nb.widgets import exporting
 from glid_nb.widgets.brush import BrushBar
 from glid_nb.widgets.canvas import DeformCanvas, Toolbar, check_size

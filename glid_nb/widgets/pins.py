@@ -5,10 +5,10 @@ from typing import Any
 import ipywidgets
 import numpy as np
 
+from glid_nb.pose import DEEPEST, SCALES, Pose
 from glid_nb.session.actions import wrapped
 from glid_nb.session.deformation import Deformation
 from glid_nb.session.edit_state import EditError
-from glid_nb.solvers.pose import DEEPEST, SCALES, Pose
 from glid_nb.widgets.controls import EditControls, button
 
 _NOTHING = Pose([(0, 0)], [(0, 0)])  # what the fields show while nothing is selected

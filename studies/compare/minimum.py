@@ -20,7 +20,7 @@ from glid_nb.energies import Energy
 from glid_nb.geometry import MeshMap
 from glid_nb.methods.mesh.aqp import largest_step
 from glid_nb.methods.mesh.operators import MeshOperators
-from glid_nb.solvers import Pose
+from glid_nb.pose import Pose
 from glid_nb.solvers.hessian import LocalHessian, local_hessian, positive_part
 
 Array = NDArray[Any]

@@ -10,7 +10,7 @@ from glid_nb.energies import SymmetricDirichlet
 from glid_nb.geometry import MeshMap, Triangulation, triangulate
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.methods import METHODS, available
-from glid_nb.solvers import Pose
+from glid_nb.pose import Pose
 from studies.cases import Case
 from studies.compare.minimum import Minimum, NoMinimumError, mesh_minimum
 from studies.compare.progress_figure import HARMONIC, MESH, draw

@@ -13,7 +13,8 @@ from glid_nb.certificate import certify, rounding
 from glid_nb.energies import as_energy
 from glid_nb.geometry import graded_panels, uniform_panels
 from glid_nb.harmonic import HarmonicMap, basis_of, cauchy
-from glid_nb.solvers import Pose, evaluation
+from glid_nb.pose import Pose
+from glid_nb.solvers import evaluation
 from glid_nb.solvers.discretisation import discretise
 from glid_nb.solvers.problem import (
     SubspaceProblem,

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from glid_nb.geometry import Cage, Domain
 from glid_nb.harmonic import HarmonicMap
-from glid_nb.solvers import Pose
+from glid_nb.pose import Pose
 
 SIZE = (300, 200)  # world: 20 x 13.33
 

@@ -12,7 +12,7 @@ from PIL import Image, ImageSequence
 
 from glid_nb.export import animation_bytes
 from glid_nb.harmonic import HarmonicMap
-from glid_nb.solvers import Pose
+from glid_nb.pose import Pose
 
 from .shapes import bent, domain, picture, pose
 

@@ -25,7 +25,7 @@ from glid_nb.export.moving import MovingMesh, frames
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging import PixelFrame
 from glid_nb.imaging.order import order_of
-from glid_nb.solvers import Pose
+from glid_nb.pose import Pose
 
 from .shapes import SIZE, bent, domain, picture, pose
 

@@ -27,7 +27,7 @@ from glid_nb.figures.plots import CertificatePlot, EnergyPlot, StepPlot, TimePlo
 from glid_nb.figures.style import CYAN, distortion_colors
 from glid_nb.geometry import Cage, Domain
 from glid_nb.harmonic import HarmonicMap
-from glid_nb.solvers import Pose
+from glid_nb.pose import Pose
 
 pytestmark = pytest.mark.slow  # most of the time is compiling
 

@@ -17,7 +17,7 @@ from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging import PixelFrame
 from glid_nb.imaging.mesh import deformed_loops
 from glid_nb.imaging.order import Sheets, order_of
-from glid_nb.solvers import Pose, PoseError
+from glid_nb.pose import Pose, PoseError
 
 from .test_render import bent, rectangle
 

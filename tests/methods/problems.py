@@ -10,7 +10,8 @@ import numpy as np
 from glid_nb import methods
 from glid_nb.energies import Energy
 from glid_nb.geometry import Domain
-from glid_nb.solvers import Options, Pose, Result, solve
+from glid_nb.pose import Pose
+from glid_nb.solvers import Options, Result, solve
 
 from ..domains import domain
 

@@ -15,7 +15,8 @@ from glid_nb.geometry import Cage, Domain
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.methods import BDHM
 from glid_nb.methods.bdhm.program import MARGIN, BoundedProblem, DistortionBounds
-from glid_nb.solvers import MethodError, Pose, Progress, Result, Status
+from glid_nb.pose import Pose
+from glid_nb.solvers import MethodError, Progress, Result, Status
 
 from ..reference_map import DenseCheck, Measured
 from .problems import problem, run_method

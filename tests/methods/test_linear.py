@@ -17,7 +17,8 @@ from glid_nb.methods.linear import (
     mean_value_coordinates,
     moving_least_squares,
 )
-from glid_nb.solvers import Pose, Status
+from glid_nb.pose import Pose
+from glid_nb.solvers import Status
 
 from ..domains import real
 from .problems import problem, run_method

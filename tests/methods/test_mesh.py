@@ -22,7 +22,8 @@ from glid_nb.energies import (
 from glid_nb.geometry import Domain, MeshMap, Triangulation, triangulate
 from glid_nb.methods.mesh.aqp import ENOUGH, closest, largest_step, project
 from glid_nb.methods.mesh.operators import MeshOperators, Pinned
-from glid_nb.solvers import MethodError, Pose, Result, Status
+from glid_nb.pose import Pose
+from glid_nb.solvers import MethodError, Result, Status
 
 from ..domains import domain
 from .problems import problem, run_method

@@ -14,7 +14,8 @@ from glid_nb.energies import ARAP, Energy, SymmetricDirichlet
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.methods.subspace.descent import DirectedDescent, SubspaceMethod
 from glid_nb.methods.subspace.methods import FLOOR, LBFGS, NewtonEigen, NewtonStaged
-from glid_nb.solvers import Options, Pose, Result, Status
+from glid_nb.pose import Pose
+from glid_nb.solvers import Options, Result, Status
 from glid_nb.solvers.method import Inputs
 
 from ..reference_map import DenseCheck

@@ -16,7 +16,8 @@ from glid_nb import samples
 from glid_nb.geometry import Domain
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging.trace import trace
-from glid_nb.solvers import Options, Pose, Status, solve
+from glid_nb.pose import Pose
+from glid_nb.solvers import Options, Status, solve
 
 from ..domains import divided
 

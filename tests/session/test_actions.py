@@ -11,10 +11,11 @@ import pytest
 from glid_nb.energies import AMIPS
 from glid_nb.geometry import Cage, Domain
 from glid_nb.harmonic import HarmonicMap
+from glid_nb.pose import Pose, PoseError
 from glid_nb.session import actions, pose_text
 from glid_nb.session.document import Solution
 from glid_nb.session.edit_state import EditError, EditState
-from glid_nb.solvers import OptionError, Pose, PoseError, Status
+from glid_nb.solvers import OptionError, Status
 
 from ..domains import domain
 

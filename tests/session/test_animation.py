@@ -14,12 +14,12 @@ import pytest
 
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.motion import Motion, MotionError
+from glid_nb.pose import Pose
 from glid_nb.session import actions
 from glid_nb.session.animation import Animation
 from glid_nb.session.deformation import Deformation
 from glid_nb.session.document import AS_SEEN, NamedPose
 from glid_nb.session.edit_state import EditError, EditState
-from glid_nb.solvers import Pose
 
 from ..domains import domain
 

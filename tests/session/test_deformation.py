@@ -15,9 +15,10 @@ import pytest
 from glid_nb._runtime import stage
 from glid_nb.certificate import certify
 from glid_nb.energies import AMIPS, ARAP
+from glid_nb.pose import Pose
 from glid_nb.session.deformation import Deformation
 from glid_nb.session.edit_state import EditError
-from glid_nb.solvers import Pose, Status
+from glid_nb.solvers import Status
 
 from ..domains import domain
 

@@ -24,12 +24,12 @@ from glid_nb.energies import AMIPS, CustomEnergy, SymmetricDirichlet
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging import Scribbles, TraceOptions
 from glid_nb.methods import AQP
+from glid_nb.pose import PER_HANDLE, Pose
 from glid_nb.session.document import Document, DocumentError, NamedPose
 from glid_nb.session.document_file import load_document, save_document
 from glid_nb.session.problem import Problem, load_pose
 from glid_nb.session.timeline import Timeline
-from glid_nb.solvers import Newton, Options, Pose
-from glid_nb.solvers.pose import PER_HANDLE
+from glid_nb.solvers import Newton, Options
 
 from ..domains import domain, random_map
 

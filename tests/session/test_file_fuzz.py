@@ -20,10 +20,11 @@ from glid_nb._errors import InputError
 from glid_nb.energies import SymmetricDirichlet
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging import Scribbles, TraceOptions
+from glid_nb.pose import Pose
 from glid_nb.session.document import Document, NamedPose
 from glid_nb.session.document_file import load_document, save_document
 from glid_nb.session.problem import Problem, load_pose
-from glid_nb.solvers import Options, Pose
+from glid_nb.solvers import Options
 
 from ..domains import domain
 

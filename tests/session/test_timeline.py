@@ -14,11 +14,11 @@ from scipy.interpolate import CubicSpline
 
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.motion.settings import MotionError
+from glid_nb.pose import Pose
 from glid_nb.session import actions
 from glid_nb.session.edit_state import EditError, EditState
 from glid_nb.session.model import History
 from glid_nb.session.timeline import Timeline, on_grid, thinned
-from glid_nb.solvers import Pose
 
 from ..domains import domain
 

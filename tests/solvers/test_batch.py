@@ -16,7 +16,8 @@ import pytest
 from glid_nb._features import enable_x64
 from glid_nb.energies import as_energy
 from glid_nb.geometry import Domain
-from glid_nb.solvers import Options, Pose, PoseError, Status, batch, solve, solve_batch
+from glid_nb.pose import Pose, PoseError
+from glid_nb.solvers import Options, Status, batch, solve, solve_batch
 from glid_nb.solvers.method import Inputs
 
 from ..domains import domain

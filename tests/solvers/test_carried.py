@@ -7,7 +7,8 @@ import pytest
 from glid_nb.certificate import certify
 from glid_nb.energies import ARAP
 from glid_nb.harmonic import HarmonicMap
-from glid_nb.solvers import Options, Pose, Progress, Status, solve
+from glid_nb.pose import Pose
+from glid_nb.solvers import Options, Progress, Status, solve
 
 from ..domains import domain
 

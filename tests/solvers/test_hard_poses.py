@@ -18,7 +18,8 @@ from glid_nb.geometry import Cage, Domain
 from glid_nb.geometry._loops import subdivided
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging.trace import trace
-from glid_nb.solvers import Options, Pose, Progress, Status, solve
+from glid_nb.pose import Pose
+from glid_nb.solvers import Options, Progress, Status, solve
 from glid_nb.solvers.restarts import SAME_ENERGY
 
 from ..domains import NAMES, circle, domain, real

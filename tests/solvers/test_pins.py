@@ -7,7 +7,8 @@ import pytest
 
 from glid_nb import methods
 from glid_nb.harmonic import HarmonicMap
-from glid_nb.solvers import MethodError, Options, Pose, PoseError, Result, solve, solve_batch
+from glid_nb.pose import Pose, PoseError
+from glid_nb.solvers import MethodError, Options, Result, solve, solve_batch
 
 from ..domains import domain
 from .checks import check_certified

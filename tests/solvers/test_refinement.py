@@ -11,8 +11,9 @@ from glid_nb.cli.output import summary_text
 from glid_nb.geometry import Domain
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.methods import BDHM
+from glid_nb.pose import Pose
 from glid_nb.session.report import build_report
-from glid_nb.solvers import Options, Pose, refine, solve
+from glid_nb.solvers import Options, refine, solve
 from glid_nb.solvers.method import MethodError
 from glid_nb.solvers.solve import in_finer_basis
 

@@ -10,7 +10,8 @@ import pytest
 
 from glid_nb import methods
 from glid_nb.geometry import Cage, Domain
-from glid_nb.solvers import Options, Pose, Result, solve, solve_batch
+from glid_nb.pose import Pose
+from glid_nb.solvers import Options, Result, solve, solve_batch
 
 pytestmark = pytest.mark.slow
 

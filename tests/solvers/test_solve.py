@@ -25,12 +25,11 @@ from glid_nb.energies import (
 )
 from glid_nb.geometry import Cage, Domain
 from glid_nb.harmonic import HarmonicMap
+from glid_nb.pose import Pose, PoseError
 from glid_nb.solvers import (
     Iteration,
     OptionError,
     Options,
-    Pose,
-    PoseError,
     Progress,
     Result,
     StartError,

@@ -15,11 +15,12 @@ from glid_nb import methods
 from glid_nb._jax import jax
 from glid_nb._runtime import compilation_clock, double_precision
 from glid_nb.energies import SymmetricDirichlet
-from glid_nb.solvers import MethodError, Options, Pose, evaluation, solve, solve_batch
+from glid_nb.pose import FULL_WEIGHT, Pose, Stiffness, StiffnessError
+from glid_nb.solvers import MethodError, Options, evaluation, solve, solve_batch
 from glid_nb.solvers.discretisation import discretise
 from glid_nb.solvers.hessian import assemble, local_hessian
 from glid_nb.solvers.problem import real_coefficients
-from glid_nb.solvers.stiffness import FULL_WEIGHT, NODES, Stiffness, StiffnessError, stiff_matrices
+from glid_nb.solvers.stiffness import NODES, stiff_matrices
 
 from ..domains import domain, random_map, real, reference
 from ..reference_map import points_inside

@@ -9,7 +9,8 @@ from hypothesis import strategies as st
 
 from glid_nb.geometry import Cage, Domain, meshes
 from glid_nb.harmonic import HarmonicMap
-from glid_nb.solvers import Options, Pose, Result, solve
+from glid_nb.pose import Pose
+from glid_nb.solvers import Options, Result, solve
 from glid_nb.solvers.problem import aligned
 from glid_nb.solvers.restarts import FAR
 from glid_nb.solvers.turning import turning_of

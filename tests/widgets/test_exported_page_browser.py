@@ -21,7 +21,7 @@ from glid_nb.imaging import PixelFrame, trace
 from glid_nb.imaging.mesh import deformed_mesh
 from glid_nb.imaging.render import draw_mesh, render
 from glid_nb.imaging.texture import Texture
-from glid_nb.solvers import Pose
+from glid_nb.pose import Pose
 
 from ..browser import ARTEFACTS, watched_page
 from ..export import shapes

@@ -11,9 +11,9 @@ import pytest
 from glid_nb.certificate import certify
 from glid_nb.geometry import Cage, Domain
 from glid_nb.harmonic import HarmonicMap
+from glid_nb.pose import Stiffness
 from glid_nb.session.deformation import Deformation
 from glid_nb.solvers import MethodError
-from glid_nb.solvers.stiffness import Stiffness
 from glid_nb.widgets.brush import BrushGestures, painted_areas
 
 from ..domains import domain

@@ -16,7 +16,7 @@ from glid_nb._runtime import double_precision
 from glid_nb.certificate import Certificate
 from glid_nb.geometry import graded_panels
 from glid_nb.harmonic import HarmonicMap, basis_of, cauchy
-from glid_nb.solvers import Pose
+from glid_nb.pose import Pose
 from glid_nb.solvers.discretisation import complex_basis
 from glid_nb.solvers.problem import (
     aligned,

@@ -8,7 +8,8 @@ from glid_nb.energies import Energy
 from glid_nb.geometry import as_points
 from glid_nb.harmonic import as_complex
 from glid_nb.methods.mesh.operators import MeshMethod, MeshProblem, flips
-from glid_nb.solvers import MethodError, Pose
+from glid_nb.pose import Pose
+from glid_nb.solvers import MethodError
 from glid_nb.solvers.loop import Steps
 
 # libigl's names of energies, and libigl's energies in ours.

@@ -14,9 +14,9 @@ from glid_nb._runtime import double_precision
 from glid_nb.energies import Energy
 from glid_nb.geometry import MeshMap, Triangulation, as_points, place, triangulate
 from glid_nb.harmonic import as_complex
+from glid_nb.pose import rigid_motion
 from glid_nb.solvers import Inputs, Iteration, Method, MethodError, Result
 from glid_nb.solvers.loop import GeneratedDescent, Reached, Steps, follow
-from glid_nb.solvers.pose import rigid_motion
 
 _AT_VERTEX = 1e-9  # of the shape's longer side
 

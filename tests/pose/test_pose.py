@@ -12,8 +12,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from glid_nb.solvers import Pose
-from glid_nb.solvers.pose import PoseError
+from glid_nb.pose import Pose, PoseError
 
 from ..domains import domain
 

@@ -8,17 +8,14 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
-import shapely
 from numpy.typing import ArrayLike
 
 from glid_nb._arrays import Array, Rebuilt, frozen, number_pairs, real_array
 from glid_nb._errors import InputError
-from glid_nb.geometry import Cage, Domain, place, places
-from glid_nb.solvers.stiffness import FARTHEST, Stiffness
+from glid_nb.geometry import Domain, place
+from glid_nb.pose.placement import beside, misplaced
+from glid_nb.pose.stiffness import FARTHEST, Stiffness
 
-# Coordinates that many times as large as those of the shape may be pixels; handles this close to
-# it, by its longer side, are in its coordinates.
-_PIXELS, _NEAR = 1.5, 0.5
 DEEPEST, SCALES = 100.0, (0.01, 100.0)  # the largest depth of a handle; its least and largest scale
 # What a handle may have beside its target: least, most, and what it has otherwise.
 _MORE = {
@@ -100,7 +97,7 @@ class Pose(Rebuilt):
         """Raise :class:`PoseError` naming the first handle that lies outside the domain."""
         i = _first_outside(domain, self.handles.tobytes())
         if i is not None:
-            where, apart = _beside(domain.cage, self.handles[i])
+            where, apart = beside(domain.cage, self.handles[i])
             what = f"handle {i} at {where} lies outside the domain, by {apart:.2g} units"
             why = misplaced(domain.cage, self.handles)
             remedy = "move it inside and out of its holes, or remove it"
@@ -151,47 +148,10 @@ class Pose(Rebuilt):
         return cls(data["handles"], data["targets"], **more)
 
 
-def rigid_motion(z: Array, targets: Array) -> tuple[complex, complex, complex]:
-    """Turn, middle and aim: ``aim + turn (z - middle)`` brings ``z`` closest to its targets."""
-    middle, aim = z.mean(), targets.mean()
-    correlation = np.vdot(z - middle, targets - aim)
-    turn = correlation / abs(correlation) if abs(correlation) > 0 else 1.0
-    return complex(turn), complex(middle), complex(aim)
-
-
 @functools.lru_cache(maxsize=32)
 def _first_outside(domain: Domain, handles: bytes) -> int | None:
     inside = domain.cage.contains(np.frombuffer(handles).reshape(-1, 2))
     return None if inside.all() else int(np.argmin(inside))
-
-
-def _beside(cage: Cage, point: Array) -> tuple[str, float]:
-    """A place outside, with the digits that tell it from the cage, and its distance from that."""
-    way = shapely.shortest_line(cage.polygon, shapely.Point(point))
-    nearest = shapely.get_coordinates(way)[0]
-    return places([point, nearest]).split(" and ")[0], float(way.length)
-
-
-def misplaced(cage: Cage, points: Array) -> str:
-    """Where handles outside may come from, and what makes world coordinates of them; empty for
-    handles that lie near the cage, unless others of the same kind would lie in it."""
-    xmin, ymin, xmax, ymax = cage.bounds
-    spans = f"the shape spans x from {xmin:.4g} to {xmax:.4g} and y from {ymin:.4g} to {ymax:.4g}"
-    world = f"Handles are in world coordinates, x right and y up: {spans}"
-    if (points >= 0).all() and points.max() > _PIXELS * max(abs(xmin), xmax, abs(ymin), ymax):
-        call = "PixelFrame(width, height).to_world"
-        pixels = f"pixels (x, y) of a picture become that by {call}(handles)"
-        return f"{world}; {pixels}, (row, column) by {call}(handles[:, ::-1])"
-    for seen, code, others in (
-        ("x and y look swapped", "handles[:, ::-1]", points[:, ::-1]),
-        ("y looks upside down", "handles * [1, -1]", points * [1, -1]),
-        ("they look like rows, downwards, and columns", "handles[:, ::-1] * [1, -1]",
-         points[:, ::-1] * [1, -1]),
-    ):  # fmt: skip
-        if len(points) > 1 and cage.contains(others).all():
-            return f"{world}; {seen}, for all would lie inside as {code}"
-    near = cage.contains(points, _NEAR * cage.longer_side).all()
-    return "" if near else world
 
 
 def _checked_points(points: Any, name: str) -> Array:

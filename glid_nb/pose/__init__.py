@@ -1,0 +1,11 @@
+"""What a map is asked for, and the maps that answer: handles, targets, stiff areas."""
+
+from glid_nb.geometry import MeshMap
+from glid_nb.harmonic import HarmonicMap
+from glid_nb.pose.placement import misplaced
+from glid_nb.pose.pose import DEEPEST, PER_HANDLE, SCALES, Pose, PoseError
+from glid_nb.pose.rigid import rigid_motion
+from glid_nb.pose.stiffness import FARTHEST, FULL_WEIGHT, Stiffness, StiffnessError
+
+DeformationMap = HarmonicMap | MeshMap
+"""A map in the harmonic subspace, or a piecewise linear one of a mesh."""

@@ -1,0 +1,39 @@
+"""Where handles outside a shape may come from: pixels, swapped axes, rows and columns."""
+
+import shapely
+
+from glid_nb._arrays import Array
+from glid_nb.geometry import Cage, places
+
+# Coordinates that many times as large as those of the shape may be pixels; handles this close to
+# it, by its longer side, are in its coordinates.
+_PIXELS, _NEAR = 1.5, 0.5
+
+
+def beside(cage: Cage, point: Array) -> tuple[str, float]:
+    """A place outside, with the digits that tell it from the cage, and its distance from that."""
+    way = shapely.shortest_line(cage.polygon, shapely.Point(point))
+    nearest = shapely.get_coordinates(way)[0]
+    return places([point, nearest]).split(" and ")[0], float(way.length)
+
+
+def misplaced(cage: Cage, points: Array) -> str:
+    """Where handles outside may come from, and what makes world coordinates of them; empty for
+    handles that lie near the cage, unless others of the same kind would lie in it."""
+    xmin, ymin, xmax, ymax = cage.bounds
+    spans = f"the shape spans x from {xmin:.4g} to {xmax:.4g} and y from {ymin:.4g} to {ymax:.4g}"
+    world = f"Handles are in world coordinates, x right and y up: {spans}"
+    if (points >= 0).all() and points.max() > _PIXELS * max(abs(xmin), xmax, abs(ymin), ymax):
+        call = "PixelFrame(width, height).to_world"
+        pixels = f"pixels (x, y) of a picture become that by {call}(handles)"
+        return f"{world}; {pixels}, (row, column) by {call}(handles[:, ::-1])"
+    for seen, code, others in (
+        ("x and y look swapped", "handles[:, ::-1]", points[:, ::-1]),
+        ("y looks upside down", "handles * [1, -1]", points * [1, -1]),
+        ("they look like rows, downwards, and columns", "handles[:, ::-1] * [1, -1]",
+         points[:, ::-1] * [1, -1]),
+    ):  # fmt: skip
+        if len(points) > 1 and cage.contains(others).all():
+            return f"{world}; {seen}, for all would lie inside as {code}"
+    near = cage.contains(points, _NEAR * cage.longer_side).all()
+    return "" if near else world
