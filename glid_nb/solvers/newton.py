@@ -37,8 +37,8 @@ _CREEPING = 1e-6
 _WORK_PER_CALL = 10**10  # products of a Hessian: some seconds, after which a callback may stop it
 # Steep coordinates are put back until the others together would gain less than this share of the
 # energy. They are first asked at a decrement that promises the second share. One that needs larger
-# coefficients than the shape, by the third factor, stays out.
-_GAIN, _ROUGH, _GROWTH = 1e-7, 1e-3, 1.0
+# coefficients than this many times the shape's size stays out.
+_GAIN, _ROUGH, _GROWTH = 1e-7, 4e-3, 1e2
 _ROUNDING = 1e-8  # a decrease promised by the Newton decrement that rounding of the energy can hide
 
 

@@ -220,7 +220,8 @@ def restrict_hessian(
     (Algorithm 1, line 6).
 
     Of ``h`` the columns of ``psi`` and the block of ``phi`` are read; below the diagonal blocks the
-    result means nothing. The diagonal is raised by ``ridge`` times its mean."""
+    result means nothing. The diagonal is raised by ``ridge`` times its mean, except for
+    translations that ``other`` holds: a single handle moves the shape freely."""
     phi, psi, sign = _hole_slices(h.shape[0], unknowns)
     if phi is not None:
         sign = sign.astype(h.dtype)
@@ -231,8 +232,12 @@ def restrict_hessian(
     free = unknowns.free
     # One pass over the matrix, nothing that a compiled loop would keep.
     diagonal = jnp.diag(h) * free + (1 - free if other is None else jnp.diag(other))
-    diagonal = diagonal + ridge * jnp.mean(diagonal)
     index = jnp.arange(len(free))
+    raised = ridge * jnp.mean(diagonal)
+    if other is not None:
+        translations = np.isin(np.arange(len(free)), (0, len(free) // 4))
+        raised = jnp.where(translations & (jnp.diag(other) > 0), 0.0, raised)
+    diagonal = diagonal + raised
     masked = h * free[:, None] * free
     masked = masked if other is None else masked + other
     return jnp.where(index[:, None] == index, diagonal, masked)
