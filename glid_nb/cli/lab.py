@@ -38,6 +38,14 @@ def run(chosen: argparse.Namespace) -> None:
     chosen.folder.mkdir(parents=True, exist_ok=True)
     if not notebook.exists():
         shutil.copyfile(_bundled_notebook(), notebook)
+    become(command)
+
+
+def become(command: list[str]) -> None:
+    """Run the command in place of this process, so that a signal to one ends both."""
+    if os.name == "posix":
+        sys.stdout.flush()
+        os.execv(command[0], command)
     if status := subprocess.run(command, check=False).returncode:
         raise InputError(f"JupyterLab ended with the exit code {status}")
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import shlex
 import subprocess
+import sys
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -19,12 +20,7 @@ def started(monkeypatch: pytest.MonkeyPatch) -> list[list[str]]:
     """The commands that would have been run."""
     commands: list[list[str]] = []
 
-    def run(command: list[str], check: bool) -> SimpleNamespace:
-        assert not check
-        commands.append(command)
-        return SimpleNamespace(returncode=0)
-
-    monkeypatch.setattr(subprocess, "run", run)
+    monkeypatch.setattr(lab, "become", commands.append)
     return commands
 
 
@@ -63,3 +59,21 @@ def test_without_jupyterlab_it_says_what_to_install(
     outcome = run("lab", tmp_path)
     assert outcome.code == 1
     assert "pip install 'glid-nb[lab]'" in outcome.err
+
+
+@pytest.mark.skipif(os.name != "posix", reason="elsewhere a process of its own is started")
+def test_the_server_takes_the_place_of_the_command() -> None:
+    """So a terminal that closes, or a supervisor, ends the server too."""
+    server = [sys.executable, "-c", "import os; print(os.getpid())"]
+    code = f"from glid_nb.cli.lab import become; become({server!r})"
+    with subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE) as command:
+        assert command.stdout is not None
+        assert int(command.stdout.read()) == command.pid
+
+
+def test_where_no_process_can_be_replaced_the_exit_code_is_told(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(lab, "os", SimpleNamespace(name="nt"))
+    with pytest.raises(lab.InputError, match="exit code 3"):
+        lab.become([sys.executable, "-c", "raise SystemExit(3)"])
