@@ -20,7 +20,7 @@ LAYERS = (
     ("certificate",),
     ("solvers",),
     ("imaging", "methods", "motion"),
-    ("figures",),
+    ("figures", "page"),
     ("samples", "export"),
     ("session",),
     ("widgets",),

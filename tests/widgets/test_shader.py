@@ -9,13 +9,12 @@ import numpy as np
 import pytest
 from playwright.sync_api import Page
 
-from glid_nb._scripts import glsl
 from glid_nb.energies import ENERGIES
 from glid_nb.geometry import triangulate
-from glid_nb.harmonic import ShaderMap
 from glid_nb.imaging import PixelFrame
 from glid_nb.imaging.order import order_of
-from glid_nb.widgets.layers import energy_defines, picture_texture
+from glid_nb.page import ShaderMap, energy_defines, glsl
+from glid_nb.widgets.layers import picture_texture
 from glid_nb.widgets.scene import Drawing, Scene, _stacked, drawing_order, energy_uniform
 
 from ..domains import NAMES, domain, random_map

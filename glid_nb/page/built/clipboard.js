@@ -1,0 +1,58 @@
+// pad/clipboard.js
+async function copied(text) {
+  try {
+    await navigator.clipboard.writeText(text);
+    return true;
+  } catch {
+    return copiedBySelection(text);
+  }
+}
+function copiedBySelection(text) {
+  const focused = document.activeElement;
+  const area = document.createElement("textarea");
+  area.value = text;
+  area.setAttribute("readonly", "");
+  Object.assign(area.style, { position: "fixed", top: "0", left: "0", opacity: "0" });
+  document.body.append(area);
+  area.select();
+  try {
+    return document.execCommand("copy");
+  } catch {
+    return false;
+  } finally {
+    area.remove();
+    focused?.focus({ preventScroll: true });
+  }
+}
+
+// pad/dom.js
+function make(tag, properties = {}, ...children) {
+  const element = document.createElement(tag);
+  if (tag === "button") element.type = "button";
+  for (const [name, value] of Object.entries(properties)) {
+    if (name.startsWith("on")) element.addEventListener(name.slice(2), value);
+    else if (name in element && name !== "list") element[name] = value;
+    else element.setAttribute(name, value);
+  }
+  element.append(...children);
+  return element;
+}
+
+// clipboard/main.js
+var saved = /* @__PURE__ */ new Set();
+function download(name, data) {
+  const href = URL.createObjectURL(new Blob([data]));
+  make("a", { href, download: name }).click();
+  setTimeout(() => URL.revokeObjectURL(href), 6e4);
+}
+function render({ model }) {
+  model.on("msg:custom", async ({ number, text, name }, [data]) => {
+    if (!name) model.send({ number, copied: await copied(text) });
+    else if (!saved.has(number)) download(name, data);
+    saved.add(number);
+  });
+}
+var main_default = { render };
+export {
+  main_default as default
+};
