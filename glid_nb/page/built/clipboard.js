@@ -21,17 +21,17 @@ function copiedBySelection(text) {
     return false;
   } finally {
     area.remove();
-    focused?.focus({ preventScroll: true });
+    if (focused instanceof HTMLElement) focused.focus({ preventScroll: true });
   }
 }
 
 // pad/dom.js
 function make(tag, properties = {}, ...children) {
   const element = document.createElement(tag);
-  if (tag === "button") element.type = "button";
+  if (element instanceof HTMLButtonElement) element.type = "button";
   for (const [name, value] of Object.entries(properties)) {
     if (name.startsWith("on")) element.addEventListener(name.slice(2), value);
-    else if (name in element && name !== "list") element[name] = value;
+    else if (name in element && name !== "list") Reflect.set(element, name, value);
     else element.setAttribute(name, value);
   }
   element.append(...children);
@@ -39,16 +39,17 @@ function make(tag, properties = {}, ...children) {
 }
 
 // clipboard/main.js
+var KEPT = 6e4;
 var saved = /* @__PURE__ */ new Set();
 function download(name, data) {
   const href = URL.createObjectURL(new Blob([data]));
   make("a", { href, download: name }).click();
-  setTimeout(() => URL.revokeObjectURL(href), 6e4);
+  setTimeout(() => URL.revokeObjectURL(href), KEPT);
 }
 function render({ model }) {
   model.on("msg:custom", async ({ number, text, name }, [data]) => {
-    if (!name) model.send({ number, copied: await copied(text) });
-    else if (!saved.has(number)) download(name, data);
+    if (text !== void 0) model.send({ number, copied: await copied(text) });
+    else if (name && !saved.has(number)) download(name, data);
     saved.add(number);
   });
 }

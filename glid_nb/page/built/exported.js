@@ -2,40 +2,57 @@
 (() => {
   // motion/motion.js
   var Motion = class {
-    // values: plain JSON; floats: a Float32Array of the arrays of all knots, one after the other.
-    constructor(values, floats) {
-      Object.assign(this, values);
+    /**
+     * @param {{ times: number[], repeat: Repeat }} values the knots' times, of a ping-pong's way there
+     * @param {Float32Array} floats the arrays of all knots, one after the other
+     */
+    constructor({ times, repeat }, floats) {
+      this.times = times;
+      this.repeat = repeat;
       this.floats = floats;
-      this.mixed = new Float32Array(floats.length / this.times.length);
+      this.mixed = new Float32Array(floats.length / times.length);
+      this.start = times[0];
+      this.last = times[times.length - 1];
+      this.end = repeat === "ping-pong" ? 2 * this.last - this.start : this.last;
     }
-    get start() {
-      return this.times[0];
-    }
-    get end() {
-      const last = this.times.at(-1);
-      return this.repeat === "ping-pong" ? 2 * last - this.start : last;
-    }
-    // The time from start to end that shows what any time shows: loops and ping-pongs go on for ever.
+    /**
+     * The time from start to end that shows what any time shows: loops and ping-pongs go on for ever.
+     *
+     * @param {number} time
+     */
     within(time) {
       const { start, end } = this;
       if (this.repeat === "once") return Math.min(Math.max(time, start), end);
       const span = end - start;
       return start + ((time - start) % span + span) % span;
     }
-    // The piece between two knots at a time, and the share of it that has passed.
+    /**
+     * The piece between two knots at a time, and the share of it that has passed.
+     *
+     * @param {number} time
+     */
     place(time) {
-      const { times } = this;
-      let t = this.within(time);
-      if (t > times.at(-1)) t = 2 * times.at(-1) - t;
-      const next = times.findIndex((knot, i) => i && t < knot);
-      const high = next < 0 ? times.length - 1 : next, low = high - 1;
-      return { piece: low, share: (t - times[low]) / (times[high] - times[low]) };
+      const { times, last } = this;
+      const within = this.within(time);
+      const there = within > last ? 2 * last - within : within;
+      const next = times.findIndex((knot, i) => i > 0 && there < knot);
+      const high = next < 0 ? times.length - 1 : next;
+      const low = high - 1;
+      return { piece: low, share: (there - times[low]) / (times[high] - times[low]) };
     }
-    // The array at a time. Every call returns the same one, with other numbers.
+    /**
+     * The array at a time. Every call returns the same one, with other numbers.
+     *
+     * @param {number} time
+     */
     at(time) {
       const { piece, share } = this.place(time);
-      const { floats, mixed } = this, n = mixed.length, from = piece * n, to = from + n;
-      for (let i = 0; i < n; i++) mixed[i] = (1 - share) * floats[from + i] + share * floats[to + i];
+      const { floats, mixed } = this;
+      const low = piece * mixed.length;
+      const high = low + mixed.length;
+      for (let i = 0; i < mixed.length; i++) {
+        mixed[i] = (1 - share) * floats[low + i] + share * floats[high + i];
+      }
       return mixed;
     }
   };
@@ -43,43 +60,96 @@
   // pad/dom.js
   function make(tag, properties = {}, ...children) {
     const element = document.createElement(tag);
-    if (tag === "button") element.type = "button";
+    if (element instanceof HTMLButtonElement) element.type = "button";
     for (const [name, value] of Object.entries(properties)) {
       if (name.startsWith("on")) element.addEventListener(name.slice(2), value);
-      else if (name in element && name !== "list") element[name] = value;
+      else if (name in element && name !== "list") Reflect.set(element, name, value);
       else element.setAttribute(name, value);
     }
     element.append(...children);
     return element;
   }
+  function penOf(canvas) {
+    const pen = canvas.getContext("2d");
+    if (!pen) throw new Error("this browser does not draw on canvases");
+    return pen;
+  }
 
   // pad/view.js
   var WHEEL_SPEED = 15e-4;
   var WHEEL_LINE = 33;
-  var distance = ([x, y], [u, v]) => Math.hypot(x - u, y - v);
+  var LINES = 1;
+  var PINCH = 5;
+  function distance([x, y], [u, v]) {
+    return Math.hypot(x - u, y - v);
+  }
   var View = class {
-    // up: 1 if the world's y points up, -1 if down. changed(): called after every change.
-    constructor(changed, { up = 1, nearest, farthest }) {
-      Object.assign(this, { changed, up, nearest, farthest });
-      Object.assign(this, { x: 0, y: 0, unit: 1, width: 0, height: 0 });
+    x = 0;
+    // the centre, world units
+    y = 0;
+    unit = 1;
+    // world units per CSS pixel
+    width = 0;
+    // CSS pixels
+    height = 0;
+    /**
+     * @param {() => void} changed called after every change by a hand
+     * @param {object} options
+     * @param {1 | -1} [options.up] 1 if the world's y points up, -1 if down
+     * @param {number} options.nearest the least unit
+     * @param {number} options.farthest the greatest unit
+     */
+    constructor(changed, { up: up2 = 1, nearest, farthest }) {
+      this.changed = changed;
+      this.up = up2;
+      this.nearest = nearest;
+      this.farthest = farthest;
     }
+    /**
+     * @param {Point} place
+     * @returns {Point}
+     */
     toWorld([px, py]) {
-      const { x, y, unit, up } = this;
-      return [x + (px - this.width / 2) * unit, y - up * (py - this.height / 2) * unit];
+      const x = this.x + (px - this.width / 2) * this.unit;
+      const y = this.y - this.up * (py - this.height / 2) * this.unit;
+      return [x, y];
     }
+    /**
+     * @param {Point} point
+     * @returns {Point}
+     */
     toScreen([x, y]) {
-      const { unit, up } = this;
-      return [(x - this.x) / unit + this.width / 2, up * (this.y - y) / unit + this.height / 2];
+      const px = (x - this.x) / this.unit + this.width / 2;
+      const py = this.up * (this.y - y) / this.unit + this.height / 2;
+      return [px, py];
     }
+    /** @param {Point[]} points */
     line(points) {
       return points.map((point) => this.toScreen(point));
     }
+    /**
+     * @param {Point} point
+     */
+    centreOn([x, y]) {
+      this.x = x;
+      this.y = y;
+      this.changed();
+    }
+    /**
+     * @param {number} dx CSS pixels
+     * @param {number} dy
+     */
     pan(dx, dy) {
       this.x -= dx * this.unit;
       this.y += this.up * dy * this.unit;
       this.changed();
     }
-    // Zooms about a place on the screen, by default its middle.
+    /**
+     * Zooms about a place on the screen, by default its middle.
+     *
+     * @param {number} factor
+     * @param {Point} place
+     */
     zoom(factor, place = [this.width / 2, this.height / 2]) {
       const [x, y] = this.toWorld(place);
       const unit = Math.min(this.farthest, Math.max(this.nearest, this.unit * factor));
@@ -88,278 +158,198 @@
       this.unit = unit;
       this.changed();
     }
-    // A pinch on a touchpad is a wheel with Ctrl.
+    /**
+     * @param {WheelEvent} e
+     * @param {Point} place
+     */
     wheel(e, place) {
       e.preventDefault();
-      const step = e.deltaMode === WheelEvent.DOM_DELTA_LINE ? e.deltaY * WHEEL_LINE : e.deltaY;
-      this.zoom(Math.exp(step * WHEEL_SPEED * (e.ctrlKey ? 5 : 1)), place);
+      const step = e.deltaMode === LINES ? e.deltaY * WHEEL_LINE : e.deltaY;
+      this.zoom(Math.exp(step * WHEEL_SPEED * (e.ctrlKey ? PINCH : 1)), place);
     }
-    // Follows one of the pressed pointers, whose last places are known; two of them zoom as well.
+    /**
+     * Follows one of the pressed pointers to a place. Two of them zoom as well.
+     *
+     * @param {Map<number, Point>} pointers their last places
+     * @param {number} id
+     * @param {Point} place
+     */
     follow(pointers, id, place) {
-      const before = pointers.get(id), other = [...pointers].find(([one]) => one !== id)?.[1];
+      const before = pointers.get(id) ?? place;
+      const other = [...pointers].find(([one]) => one !== id)?.[1];
       const share = other ? 0.5 : 1;
       pointers.set(id, place);
       this.pan(share * (place[0] - before[0]), share * (place[1] - before[1]));
       if (!other) return;
       const apart = (one) => Math.max(distance(one, other), 1);
-      this.zoom(apart(before) / apart(place), [(place[0] + other[0]) / 2, (place[1] + other[1]) / 2]);
+      const middle = (
+        /** @type {Point} */
+        [(place[0] + other[0]) / 2, (place[1] + other[1]) / 2]
+      );
+      this.zoom(apart(before) / apart(place), middle);
     }
   };
 
-  // exported/main.js
-  (async () => {
-    "use strict";
-    const data = JSON.parse(document.getElementById("data").textContent);
-    const get = (id) => document.getElementById(id);
-    const canvas = document.querySelector("canvas");
-    const fail = (message) => Object.assign(get("problem"), { textContent: message, hidden: false });
-    const gl = canvas.getContext("webgl2", { antialias: true, premultipliedAlpha: true, preserveDrawingBuffer: true });
-    if (!gl || !window.DecompressionStream) return fail("This page needs WebGL 2 and a browser of 2023 or later.");
-    const bytes = (text) => Uint8Array.from(atob(text), (c) => c.charCodeAt(0)).buffer;
-    const unpacked = async ({ bytes: text, step }, width) => {
-      const stream = new Blob([bytes(text)]).stream().pipeThrough(new DecompressionStream("deflate"));
-      const packed = new Uint8Array(await new Response(stream).arrayBuffer());
-      const n = packed.length / 4, whole = new Int32Array(n);
-      for (let i = 0; i < n; i++) {
-        const folded = packed[i] | packed[n + i] << 8 | packed[2 * n + i] << 16 | packed[3 * n + i] << 24;
-        whole[i] = (folded >>> 1 ^ -(folded & 1)) + 2 * (whole[i - width] ?? 0) - (whole[i - 2 * width] ?? 0);
-      }
-      return Float32Array.from(whole, (value) => step * value);
-    };
-    const restored = async ({ sizes, rows: rows2, shares }, width) => {
-      const few = await unpacked(rows2, rows2.width), each = await unpacked(shares, sizes.length);
-      const values = new Float64Array(each.length / sizes.length * width);
-      each.forEach((share, i) => {
-        const k = i % sizes.length, to = width * Math.floor(i / sizes.length);
-        for (let j = 0; j < width; j++) values[to + j] += share / sizes[k] * few[width * k + j];
+  // exported/course.js
+  var GLIDE = 600;
+  function playedFrom(motion, time, loop) {
+    const { start, end } = motion;
+    const span = end - start;
+    const from = (!loop && time >= end ? start : time) - start;
+    const lasts = loop ? Infinity : 1e3 * (span - from);
+    const at = (ms) => ms === lasts ? end : start + (from + ms / 1e3) % span;
+    return { plays: true, lasts, at };
+  }
+  function glideTo(motion, time, to) {
+    const { last, repeat } = motion;
+    const from = repeat === "ping-pong" && time > last ? 2 * last - time : time;
+    const goal = repeat === "loop" ? nearestTurn(from, to, motion.end - motion.start) : to;
+    const at = (ms) => ms < GLIDE ? from + eased(ms / GLIDE) * (goal - from) : goal;
+    return { plays: false, lasts: GLIDE, at };
+  }
+  function nearestTurn(from, to, span) {
+    const far = (goal) => Math.abs(goal - from);
+    const goals = [to, to + span, to - span];
+    return goals.reduce((best, goal) => far(goal) < far(best) ? goal : best);
+  }
+  function eased(share) {
+    return share * share * (3 - 2 * share);
+  }
+
+  // exported/numbers.js
+  function down(x) {
+    return (Math.floor(1e3 * x) / 1e3).toFixed(3);
+  }
+  function up(x) {
+    return (Math.ceil(1e3 * x) / 1e3).toFixed(3);
+  }
+  function provedNow({ sigma1, sigma2, k, until }, piece, time) {
+    const low = sigma2[piece];
+    const high = sigma1[piece];
+    const most = k[piece];
+    if (low !== null && high !== null && most !== null) {
+      return `Now: σ₂ ≥ ${down(low)}, σ₁ ≤ ${up(high)}, k ≤ ${up(most)}`;
+    }
+    return time < until ? "Now: proved not to fold" : "Now: not proved";
+  }
+
+  // exported/poses.js
+  var SOON = 1e-3;
+  var Poses = class {
+    /** @type {HTMLButtonElement[]} */
+    buttons = [];
+    /** @type {number[]} the numbers of buttons that are seen and not drawn yet */
+    #waiting = [];
+    /**
+     * @param {number[]} times of the poses
+     * @param {(time: number) => void} goTo
+     * @param {(time: number) => HTMLCanvasElement} draw a small picture of a time
+     * @param {() => void} drawNext draws a frame, which begins with `drawOne`
+     */
+    constructor(times, goTo, draw, drawNext) {
+      this.times = times;
+      this.draw = draw;
+      this.drawNext = drawNext;
+      this.buttons = times.map((time, i) => {
+        const title = `Pose ${i + 1}, at ${time.toFixed(2)} s`;
+        const look = { title, "aria-label": title, onclick: () => goTo(time) };
+        return make("button", look, make("canvas"));
       });
-      return Float32Array.from(values);
-    };
-    const source = await unpacked(data.source, 2), count = source.length / 2, wide = count > 65535;
-    const rows = await restored(data.coefficients, data.width);
-    const undeformed = rows.subarray(0, data.width), motion = new Motion(data.motion, rows.subarray(data.width));
-    const cage = new Float32Array(bytes(data.cage)), heights = await restored(data.heights, count);
-    const layers = new Motion({ times: data.height_times.length ? data.height_times : [0], repeat: motion.repeat }, heights);
-    const corners = await unpacked(data.triangles, 3), height = ([a, b, c]) => heights[a] + heights[b] + heights[c];
-    const faces = Array.from({ length: corners.length / 3 }, (_, i) => [0, 1, 2].map((k) => corners[3 * i] + (k && corners[3 * i + k])));
-    const triangles = new (wide ? Uint32Array : Uint16Array)(faces.sort((a, b) => height(a) - height(b)).flat());
-    const position = new Float32Array(3 * count);
-    for (let i = 0; i < count; i++) position.set([source[2 * i], source[2 * i + 1], layers.floats[i]], 3 * i);
-    const program = gl.createProgram();
-    for (const [kind, text] of [[gl.VERTEX_SHADER, data.vertex], [gl.FRAGMENT_SHADER, data.fragment]]) {
-      const shader = gl.createShader(kind);
-      gl.shaderSource(shader, text);
-      gl.compileShader(shader);
-      gl.attachShader(program, shader);
-      if (!gl.getShaderParameter(shader, gl.COMPILE_STATUS)) return fail(gl.getShaderInfoLog(shader));
-    }
-    gl.linkProgram(program);
-    if (!gl.getProgramParameter(program, gl.LINK_STATUS)) return fail(gl.getProgramInfoLog(program));
-    gl.useProgram(program);
-    const uniform = (name) => gl.getUniformLocation(program, name);
-    const put = (target, made, values) => {
-      gl.bindBuffer(target, made);
-      gl.bufferData(target, values, gl.DYNAMIC_DRAW);
-      return made;
-    };
-    const buffer = (target, values) => put(target, gl.createBuffer(), values);
-    const attribute = (name, size, stride, offset) => {
-      const place2 = gl.getAttribLocation(program, name);
-      gl.enableVertexAttribArray(place2);
-      gl.vertexAttribPointer(place2, size, gl.FLOAT, false, stride, offset);
-    };
-    const points = buffer(gl.ARRAY_BUFFER, position);
-    attribute("position", 3, 0, 0);
-    buffer(gl.ELEMENT_ARRAY_BUFFER, triangles);
-    let move;
-    if (cage.length) {
-      const blocks = ["cage", "coefficients", "holes"].map((name, i) => {
-        gl.uniformBlockBinding(program, gl.getUniformBlockIndex(program, `${name}_block`), i);
-        const made = buffer(gl.UNIFORM_BUFFER, cage);
-        gl.bindBufferBase(gl.UNIFORM_BUFFER, i, made);
-        return made;
+      const seen = new IntersectionObserver((entries) => {
+        if (!this.#waiting.length) requestAnimationFrame(() => this.#drawOn());
+        for (const { isIntersecting, target } of entries) {
+          if (!isIntersecting) continue;
+          this.#waiting.push(this.buttons.indexOf(
+            /** @type {HTMLButtonElement} */
+            target
+          ));
+          seen.unobserve(target);
+        }
       });
-      move = (mixed) => {
-        put(gl.UNIFORM_BUFFER, blocks[1], mixed.subarray(0, cage.length));
-        put(gl.UNIFORM_BUFFER, blocks[2], mixed.subarray(cage.length));
-      };
-    } else {
-      const images = buffer(gl.ARRAY_BUFFER, undeformed);
-      attribute("image", 2, 24, 0);
-      attribute("derivatives", 4, 24, 8);
-      move = (mixed) => put(gl.ARRAY_BUFFER, images, mixed);
+      for (const button of this.buttons) seen.observe(button);
     }
-    gl.uniform4f(uniform("frame"), data.frame[0], data.frame[1], data.frame[2] - data.frame[0], data.frame[3] - data.frame[1]);
-    gl.uniform3fv(uniform("colors"), data.colors);
-    gl.uniform1f(uniform("grid_spacing"), data.grid);
-    gl.enable(gl.DEPTH_TEST);
-    gl.depthFunc(gl.LEQUAL);
-    gl.enable(gl.BLEND);
-    gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
-    const view = new View(() => draw(), { nearest: 1e-4, farthest: 100 });
-    const overlay = get("overlay"), straight = get("source"), slider = get("time");
-    const waiting = [];
-    let time = motion.start;
-    function fit() {
-      Object.assign(view, fitted(canvas.clientWidth, canvas.clientHeight));
-      draw();
-    }
-    function fitted(width, height2) {
-      const [xmin, ymin, xmax, ymax] = straight.checked ? data.source_bounds : data.bounds;
-      const unit = Math.max((xmax - xmin) / width, (ymax - ymin) / height2) / (1 - 2 * data.margin);
-      return { width, height: height2, unit, x: (xmin + xmax) / 2, y: (ymin + ymax) / 2 };
-    }
-    function draw() {
-      if (waiting.length) drawThumb(waiting.shift());
-      paint(view);
-    }
-    function paint({ width: w, height: h, unit, x, y }) {
-      const ratio = window.devicePixelRatio || 1;
-      const [width, height2] = [Math.round(w * ratio), Math.round(h * ratio)];
-      if (canvas.width !== width || canvas.height !== height2) Object.assign(canvas, { width, height: height2 });
-      gl.viewport(0, 0, width, height2);
-      gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
-      const [sx, sy] = [2 / (unit * w), 2 / (unit * h)];
-      gl.uniformMatrix4fv(uniform("projectionMatrix"), false, [sx, 0, 0, 0, 0, sy, 0, 0, 0, 0, -1, 0, -x * sx, -y * sy, 0, 1]);
-      gl.uniform1f(uniform("pixel"), unit / ratio);
-      gl.uniform1f(uniform("overlay"), overlay.value);
-      gl.uniform2fv(uniform("color_range"), data.ranges[overlay.value] ?? [0, 1]);
-      if (layers.times.length > 1) {
-        layers.at(time).forEach((height3, i) => {
-          position[3 * i + 2] = height3;
-        });
-        put(gl.ARRAY_BUFFER, points, position);
-      }
-      move(straight.checked ? undeformed : motion.at(time));
-      gl.drawElements(gl.TRIANGLES, triangles.length, wide ? gl.UNSIGNED_INT : gl.UNSIGNED_SHORT, 0);
-    }
-    const place = (e) => [e.offsetX, e.offsetY], pointers = /* @__PURE__ */ new Map();
-    canvas.addEventListener("pointerdown", (e) => {
-      canvas.setPointerCapture(e.pointerId);
-      pointers.set(e.pointerId, place(e));
-    });
-    canvas.addEventListener("pointermove", (e) => {
-      if (pointers.has(e.pointerId)) view.follow(pointers, e.pointerId, place(e));
-    });
-    canvas.addEventListener("lostpointercapture", (e) => pointers.delete(e.pointerId));
-    canvas.addEventListener("wheel", (e) => view.wheel(e, place(e)), { passive: false });
-    get("fit").addEventListener("click", fit);
-    straight.addEventListener("change", fit);
-    const LABELS = { 2: "Stretch σ₁", 3: "Stretch σ₂", 4: "Dilatation k" };
-    const css = (i) => `rgb(${data.colors.slice(3 * i, 3 * i + 3).map((c) => Math.round(255 * c))})`;
-    const stops = data.colors.length / 3;
-    document.documentElement.style.setProperty("--colors", Array.from({ length: stops }, (_, i) => css(i)).join());
-    for (const value of Object.keys(data.ranges)) overlay.append(new Option(LABELS[value], value));
-    const down = (x) => (Math.floor(1e3 * x) / 1e3).toFixed(3), up = (x) => (Math.ceil(1e3 * x) / 1e3).toFixed(3);
-    overlay.addEventListener("change", () => {
-      draw();
-      const { value } = overlay, range = data.ranges[value], legend = get("legend");
-      legend.hidden = !range;
-      if (!range) return;
-      const end = value === "3" ? down(range[1]) : up(range[1]);
-      legend.replaceChildren(`${LABELS[value]} ${range[0]}`, make("i"), end);
-    });
-    const STEP = 1 / 25, GLIDE = 600;
-    const span = motion.end - motion.start, play = get("play"), thumbs = [];
-    let course = null, due = 0;
-    function seek(t) {
-      time = t === motion.end ? t : motion.within(t);
-      slider.value = time;
-      get("clock").textContent = `${time.toFixed(2)} / ${motion.end.toFixed(2)} s`;
-      const { piece } = motion.place(time);
-      const [low, high, k] = [motion.sigma2[piece], motion.sigma1[piece], motion.k[piece]];
-      const bare = time < motion.until ? "proved not to fold" : "not proved";
-      get("here").textContent = `Now: ${low === null ? bare : `σ₂ ≥ ${down(low)}, σ₁ ≤ ${up(high)}, k ≤ ${up(k)}`}`;
-      thumbs.forEach((thumb, i) => thumb.setAttribute("aria-current", Math.abs(motion.keyframes[i] - motion.within(time)) < 1e-3));
-      draw();
-    }
-    function run(next) {
-      cancelAnimationFrame(due);
-      course = next && { began: performance.now(), ...next };
-      if (course) due = requestAnimationFrame(tick);
-      play.textContent = course?.plays ? "❚❚" : "▶";
-      play.setAttribute("aria-label", course?.plays ? "Pause" : "Play");
-    }
-    function tick(now) {
-      const { began, lasts, at } = course, passed = Math.min(Math.max(now - began, 0), lasts);
-      seek(at(passed));
-      if (passed === lasts) run(null);
-      else due = requestAnimationFrame(tick);
-    }
-    function playOrPause() {
-      if (course?.plays) return run(null);
-      const from = (!data.loop && time >= motion.end ? motion.start : time) - motion.start;
-      const lasts = data.loop ? Infinity : 1e3 * (span - from);
-      const at = (ms) => ms === lasts ? motion.end : motion.start + (from + ms / 1e3) % span;
-      run({ plays: true, lasts, at });
-    }
-    function glideTo(to) {
-      const last = motion.times.at(-1), away = motion.repeat === "loop" ? [0, span, -span] : [0];
-      const from = motion.repeat === "ping-pong" && time > last ? 2 * last - time : time;
-      const far = (goal2) => Math.abs(goal2 - from);
-      const goal = away.map((shift) => to + shift).sort((a, b) => far(a) - far(b))[0];
-      const eased = (s) => s * s * (3 - 2 * s);
-      const at = (ms) => ms < GLIDE ? from + eased(ms / GLIDE) * (goal - from) : goal;
-      run({ lasts: GLIDE, at });
-    }
-    const seen = new IntersectionObserver((entries) => {
-      if (!waiting.length) requestAnimationFrame(drawOn);
-      for (const { target } of entries.filter((entry) => entry.isIntersecting)) {
-        waiting.push(thumbs.indexOf(target));
-        seen.unobserve(target);
-      }
-    });
-    function drawOn() {
-      if (!waiting.length) return;
-      if (!course) draw();
-      requestAnimationFrame(drawOn);
-    }
-    function drawThumb(i) {
-      const small = thumbs[i].firstChild, kept = [time, overlay.value, straight.checked];
-      [time, overlay.value, straight.checked] = [motion.keyframes[i], "0", false];
-      paint(fitted(56, 56));
-      Object.assign(small, { width: canvas.width, height: canvas.height }).getContext("2d").drawImage(canvas, 0, 0);
-      [time, overlay.value, straight.checked] = kept;
-    }
-    function prepare() {
-      document.querySelector("section").hidden = false;
-      Object.assign(slider, { min: motion.start, max: motion.end });
-      motion.keyframes.forEach((t, i) => {
-        const title = `Pose ${i + 1}, at ${t.toFixed(2)} s`, onclick = () => glideTo(t);
-        const thumb = make("button", { title, "aria-label": title, onclick }, make("canvas"));
-        thumbs.push(thumb);
-        seen.observe(thumb);
+    /** @param {number} time marks the pose of this time */
+    mark(time) {
+      this.buttons.forEach((button, i) => {
+        button.setAttribute("aria-current", String(Math.abs(this.times[i] - time) < SOON));
       });
-      get("poses").append(...thumbs);
-      const colors = Array.from({ length: 100 }, (_, i) => {
-        const t = motion.start + (i + 0.5) / 100 * span, sigma2 = motion.sigma2[motion.place(t).piece] ?? 0;
-        return `${t < motion.until ? css(Math.round((1 - Math.min(sigma2, 1)) * (stops - 1))) : "#7f7f7f"} ${i}% ${i + 1}%`;
-      });
-      get("strip").style.background = `linear-gradient(to right, ${colors})`;
-      play.addEventListener("click", playOrPause);
-      slider.addEventListener("input", () => {
-        run(null);
-        seek(Number(slider.value));
-      });
-      document.addEventListener("keydown", (e) => {
-        const control = /BUTTON|SELECT/.test(e.target.tagName) || e.target.type === "checkbox";
-        const step = { ArrowLeft: -STEP, ArrowRight: STEP }[e.key] * (e.shiftKey ? 5 : 1);
-        const to = { Home: motion.start, End: motion.end }[e.key] ?? time + step;
-        if (e.ctrlKey || e.metaKey || e.altKey || e.target.tagName === "SELECT" || (e.key === " " ? control : isNaN(to))) return;
-        e.preventDefault();
-        if (e.key === " ") return playOrPause();
-        run(null);
-        seek(Math.min(Math.max(to, motion.start), motion.end));
-      });
-      seek(motion.start);
-      run(null);
-      if (data.loop && !matchMedia("(prefers-reduced-motion: reduce)").matches) playOrPause();
     }
-    const picture = new Image();
-    picture.onerror = () => fail("The picture in this page is damaged.");
-    picture.onload = () => {
+    /** Draws one of the pictures that wait. */
+    drawOne() {
+      const next = this.#waiting.shift();
+      if (next === void 0) return;
+      const picture = this.draw(this.times[next]);
+      const small = (
+        /** @type {HTMLCanvasElement} */
+        this.buttons[next].firstChild
+      );
+      small.width = picture.width;
+      small.height = picture.height;
+      penOf(small).drawImage(picture, 0, 0);
+    }
+    #drawOn() {
+      if (!this.#waiting.length) return;
+      this.drawNext();
+      requestAnimationFrame(() => this.#drawOn());
+    }
+  };
+
+  // exported/renderer.js
+  var FLOAT = 4;
+  var CannotShow = class extends Error {
+  };
+  var Renderer = class {
+    /** @type {WebGL2RenderingContext} */
+    #gl;
+    #program;
+    #position;
+    #count;
+    // of the triangles' corners
+    #index;
+    // their type
+    #points;
+    /** @type {Record<string, WebGLUniformLocation | null>} */
+    #uniforms = {};
+    /** @type {(coefficients: Float32Array) => void} shows the map that an array stands for */
+    #move;
+    /**
+     * @param {HTMLCanvasElement} canvas
+     * @param {WebGL2RenderingContext} gl
+     * @param {PageData} data
+     * @param {Mesh} mesh
+     * @param {Float32Array} cage empty where a shader cannot hold it
+     */
+    constructor(canvas, gl, data, mesh, cage) {
+      this.canvas = canvas;
+      this.ranges = data.ranges;
+      this.#gl = gl;
+      this.#program = linked(gl, data.vertex, data.fragment);
+      gl.useProgram(this.#program);
+      this.#position = positions(mesh);
+      this.#points = this.#buffer(gl.ARRAY_BUFFER, this.#position);
+      this.#attribute("position", 3, 0, 0);
+      const corners = inOrder(mesh).flat();
+      const many = mesh.heights.length > 65535;
+      this.#count = corners.length;
+      this.#index = many ? gl.UNSIGNED_INT : gl.UNSIGNED_SHORT;
+      this.#buffer(gl.ELEMENT_ARRAY_BUFFER, new (many ? Uint32Array : Uint16Array)(corners));
+      this.#move = cage.length ? this.#movedByShader(cage) : this.#movedByBuffer();
+      const [left, bottom, right, top] = data.frame;
+      gl.uniform4f(this.#uniform("frame"), left, bottom, right - left, top - bottom);
+      gl.uniform3fv(this.#uniform("colors"), data.colors);
+      gl.uniform1f(this.#uniform("grid_spacing"), data.grid);
+      gl.enable(gl.DEPTH_TEST);
+      gl.depthFunc(gl.LEQUAL);
+      gl.enable(gl.BLEND);
+      gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
+    }
+    /** @param {HTMLImageElement} picture */
+    setPicture(picture) {
+      const gl = this.#gl;
       const most = gl.getParameter(gl.MAX_TEXTURE_SIZE);
-      if (Math.max(picture.width, picture.height) > most) return fail(`This device shows pictures of at most ${most} pixels.`);
+      if (Math.max(picture.width, picture.height) > most) {
+        throw new CannotShow(`This device shows pictures of at most ${most} pixels.`);
+      }
       gl.bindTexture(gl.TEXTURE_2D, gl.createTexture());
       gl.pixelStorei(gl.UNPACK_PREMULTIPLY_ALPHA_WEBGL, true);
       gl.pixelStorei(gl.UNPACK_FLIP_Y_WEBGL, true);
@@ -369,11 +359,454 @@
       gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, gl.LINEAR_MIPMAP_LINEAR);
       gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_WRAP_S, gl.CLAMP_TO_EDGE);
       gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_WRAP_T, gl.CLAMP_TO_EDGE);
-      if (motion.keyframes.length) prepare();
-      new ResizeObserver(fit).observe(canvas);
-      fit();
+    }
+    /** @param {Frame} frame */
+    draw({ width, height, unit, x, y, overlay, coefficients, heights }) {
+      const gl = this.#gl;
+      const ratio = window.devicePixelRatio || 1;
+      this.#resize(Math.round(width * ratio), Math.round(height * ratio));
+      gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
+      const projection = projectionMatrix(width, height, unit, x, y);
+      gl.uniformMatrix4fv(this.#uniform("projectionMatrix"), false, projection);
+      gl.uniform1f(this.#uniform("pixel"), unit / ratio);
+      gl.uniform1f(this.#uniform("overlay"), Number(overlay));
+      gl.uniform2fv(this.#uniform("color_range"), this.ranges[overlay] ?? [0, 1]);
+      if (heights) this.#lift(heights);
+      this.#move(coefficients);
+      gl.drawElements(gl.TRIANGLES, this.#count, this.#index, 0);
+    }
+    /**
+     * @param {number} width pixels
+     * @param {number} height
+     */
+    #resize(width, height) {
+      const { canvas } = this;
+      if (canvas.width !== width || canvas.height !== height) {
+        canvas.width = width;
+        canvas.height = height;
+      }
+      this.#gl.viewport(0, 0, width, height);
+    }
+    /** @param {Float32Array} heights */
+    #lift(heights) {
+      heights.forEach((height, i) => {
+        this.#position[3 * i + 2] = height;
+      });
+      this.#put(this.#gl.ARRAY_BUFFER, this.#points, this.#position);
+    }
+    /** @param {Float32Array} cage */
+    #movedByShader(cage) {
+      const gl = this.#gl;
+      const [, coefficients, holes] = ["cage", "coefficients", "holes"].map((name, i) => {
+        const block = gl.getUniformBlockIndex(this.#program, `${name}_block`);
+        gl.uniformBlockBinding(this.#program, block, i);
+        const buffer = this.#buffer(gl.UNIFORM_BUFFER, cage);
+        gl.bindBufferBase(gl.UNIFORM_BUFFER, i, buffer);
+        return buffer;
+      });
+      return (mixed) => {
+        this.#put(gl.UNIFORM_BUFFER, coefficients, mixed.subarray(0, cage.length));
+        this.#put(gl.UNIFORM_BUFFER, holes, mixed.subarray(cage.length));
+      };
+    }
+    // The arrays hold images and derivatives of the vertices.
+    #movedByBuffer() {
+      const gl = this.#gl;
+      const images = gl.createBuffer();
+      gl.bindBuffer(gl.ARRAY_BUFFER, images);
+      this.#attribute("image", 2, 6 * FLOAT, 0);
+      this.#attribute("derivatives", 4, 6 * FLOAT, 2 * FLOAT);
+      return (mixed) => this.#put(gl.ARRAY_BUFFER, images, mixed);
+    }
+    /** @param {string} name */
+    #uniform(name) {
+      this.#uniforms[name] ??= this.#gl.getUniformLocation(this.#program, name);
+      return this.#uniforms[name];
+    }
+    /**
+     * Takes an attribute from the buffer that is bound.
+     *
+     * @param {string} name
+     * @param {number} size
+     * @param {number} stride bytes
+     * @param {number} offset bytes
+     */
+    #attribute(name, size, stride, offset) {
+      const gl = this.#gl;
+      const place = gl.getAttribLocation(this.#program, name);
+      gl.enableVertexAttribArray(place);
+      gl.vertexAttribPointer(place, size, gl.FLOAT, false, stride, offset);
+    }
+    /**
+     * @param {number} target
+     * @param {AllowSharedBufferSource} values
+     */
+    #buffer(target, values) {
+      const buffer = this.#gl.createBuffer();
+      this.#put(target, buffer, values);
+      return buffer;
+    }
+    /**
+     * @param {number} target
+     * @param {WebGLBuffer} buffer
+     * @param {AllowSharedBufferSource} values
+     */
+    #put(target, buffer, values) {
+      this.#gl.bindBuffer(target, buffer);
+      this.#gl.bufferData(target, values, this.#gl.DYNAMIC_DRAW);
+    }
+  };
+  function linked(gl, vertex, fragment) {
+    const program = gl.createProgram();
+    gl.attachShader(program, compiled(gl, gl.VERTEX_SHADER, vertex));
+    gl.attachShader(program, compiled(gl, gl.FRAGMENT_SHADER, fragment));
+    gl.linkProgram(program);
+    if (!gl.getProgramParameter(program, gl.LINK_STATUS)) {
+      throw new CannotShow(gl.getProgramInfoLog(program) ?? "The shaders do not fit together.");
+    }
+    return program;
+  }
+  function compiled(gl, kind, text) {
+    const shader = gl.createShader(kind);
+    if (!shader) throw new CannotShow("The graphics card was lost.");
+    gl.shaderSource(shader, text);
+    gl.compileShader(shader);
+    if (!gl.getShaderParameter(shader, gl.COMPILE_STATUS)) {
+      throw new CannotShow(gl.getShaderInfoLog(shader) ?? "A shader does not compile.");
+    }
+    return shader;
+  }
+  function positions({ source, heights }) {
+    const count = source.length / 2;
+    const position = new Float32Array(3 * count);
+    for (let i = 0; i < count; i++) {
+      position.set([source[2 * i], source[2 * i + 1], heights[i]], 3 * i);
+    }
+    return position;
+  }
+  function inOrder({ heights, triangles }) {
+    const height = ([a, b, c]) => heights[a] + heights[b] + heights[c];
+    return [...triangles].sort((a, b) => height(a) - height(b));
+  }
+  function projectionMatrix(width, height, unit, x, y) {
+    const sx = 2 / (unit * width);
+    const sy = 2 / (unit * height);
+    return [sx, 0, 0, 0, 0, sy, 0, 0, 0, 0, -1, 0, -x * sx, -y * sy, 0, 1];
+  }
+
+  // exported/unpack.js
+  function bytesOf(text) {
+    return Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0)).buffer;
+  }
+  async function unpacked({ bytes, step }, width) {
+    const stream = new Blob([bytesOf(bytes)]).stream().pipeThrough(new DecompressionStream("deflate"));
+    const planes = new Uint8Array(await new Response(stream).arrayBuffer());
+    const n = planes.length / 4;
+    const whole = new Int32Array(n);
+    for (let i = 0; i < n; i++) {
+      const low = planes[i] | planes[n + i] << 8;
+      const folded = low | planes[2 * n + i] << 16 | planes[3 * n + i] << 24;
+      const second = folded >>> 1 ^ -(folded & 1);
+      whole[i] = second + 2 * (whole[i - width] ?? 0) - (whole[i - 2 * width] ?? 0);
+    }
+    return Float32Array.from(whole, (value) => step * value);
+  }
+  async function restored({ sizes, rows, shares }, width) {
+    const few = await unpacked(rows, rows.width);
+    const each = await unpacked(shares, sizes.length);
+    const values = new Float64Array(each.length / sizes.length * width);
+    each.forEach((share, i) => {
+      const k = i % sizes.length;
+      const to = width * Math.floor(i / sizes.length);
+      for (let j = 0; j < width; j++) values[to + j] += share / sizes[k] * few[width * k + j];
+    });
+    return Float32Array.from(values);
+  }
+  async function cornersOf(triangles) {
+    const numbers = await unpacked(triangles, 3);
+    return Array.from({ length: numbers.length / 3 }, (_, i) => {
+      const [first, second, third] = numbers.subarray(3 * i, 3 * i + 3);
+      return [first, first + second, first + third];
+    });
+  }
+
+  // exported/main.js
+  var LABELS = { 2: "Stretch σ₁", 3: "Stretch σ₂", 4: "Dilatation k" };
+  var LOWER = "3";
+  var PLAIN = "0";
+  var STEP = 1 / 25;
+  var FAST = 5;
+  var THUMBNAIL = 56;
+  var STRIPES = 100;
+  var UNPROVED = "#7f7f7f";
+  function byId(id, kind) {
+    const found = document.getElementById(id);
+    if (!(found instanceof kind)) throw new Error(`the page has no ${id}`);
+    return found;
+  }
+  var Page = class {
+    overlay = byId("overlay", HTMLSelectElement);
+    undeformed = byId("source", HTMLInputElement);
+    slider = byId("time", HTMLInputElement);
+    play = byId("play", HTMLButtonElement);
+    clock = byId("clock", HTMLOutputElement);
+    here = byId("here", HTMLOutputElement);
+    view = new View(() => this.draw(), { nearest: 1e-4, farthest: 100 });
+    /** @type {(Course & { began: number }) | null} */
+    #course = null;
+    #due = 0;
+    /**
+     * @param {HTMLCanvasElement} canvas
+     * @param {PageData} data
+     * @param {Renderer} renderer
+     * @param {Float32Array} rows coefficients: the undeformed shape's, then those at the knots
+     * @param {Float32Array} heights of the vertices, at the keyframes
+     */
+    constructor(canvas, data, renderer, rows, heights) {
+      this.canvas = canvas;
+      this.data = data;
+      this.renderer = renderer;
+      this.identity = rows.subarray(0, data.width);
+      this.motion = new Motion(data.motion, rows.subarray(data.width));
+      const { height_times: times } = data;
+      const { repeat } = this.motion;
+      this.layers = times.length > 1 ? new Motion({ times, repeat }, heights) : null;
+      this.time = this.motion.start;
+      this.poses = new Poses(
+        data.motion.keyframes,
+        (time) => this.#run(glideTo(this.motion, this.time, time)),
+        (time) => this.#thumbnail(time),
+        () => !this.#course && this.draw()
+      );
+      this.#hearPointers();
+      this.#showColors();
+    }
+    /** The picture is there. */
+    begin() {
+      if (this.data.motion.keyframes.length) this.#prepareMotion();
+      new ResizeObserver(() => this.fit()).observe(this.canvas);
+      this.fit();
       document.documentElement.dataset.ready = "true";
-    };
-    picture.src = data.picture;
-  })();
+    }
+    fit() {
+      const { clientWidth, clientHeight } = this.canvas;
+      const bounds = this.undeformed.checked ? this.data.source_bounds : this.data.bounds;
+      Object.assign(this.view, this.#fitted(bounds, clientWidth, clientHeight));
+      this.draw();
+    }
+    draw() {
+      this.poses.drawOne();
+      const { width, height, unit, x, y } = this.view;
+      const coefficients = this.undeformed.checked ? this.identity : this.motion.at(this.time);
+      this.#paint({ width, height, unit, x, y }, this.time, this.overlay.value, coefficients);
+    }
+    /**
+     * @param {{ width: number, height: number, unit: number, x: number, y: number }} view
+     * @param {number} time
+     * @param {string} overlay
+     * @param {Float32Array} coefficients
+     */
+    #paint(view, time, overlay, coefficients) {
+      const heights = this.layers?.at(time) ?? null;
+      this.renderer.draw({ ...view, overlay, coefficients, heights });
+    }
+    /** @param {number} time */
+    #thumbnail(time) {
+      const view = this.#fitted(this.data.bounds, THUMBNAIL, THUMBNAIL);
+      this.#paint(view, time, PLAIN, this.motion.at(time));
+      return this.canvas;
+    }
+    /**
+     * The view that shows a box.
+     *
+     * @param {PageData["bounds"]} bounds
+     * @param {number} width CSS pixels
+     * @param {number} height
+     */
+    #fitted([left, bottom, right, top], width, height) {
+      const room = 1 - 2 * this.data.margin;
+      const unit = Math.max((right - left) / width, (top - bottom) / height) / room;
+      return { width, height, unit, x: (left + right) / 2, y: (bottom + top) / 2 };
+    }
+    #hearPointers() {
+      const { canvas, view } = this;
+      const place = (e) => (
+        /** @type {Point} */
+        [e.offsetX, e.offsetY]
+      );
+      const pointers = /* @__PURE__ */ new Map();
+      canvas.addEventListener("pointerdown", (e) => {
+        canvas.setPointerCapture(e.pointerId);
+        pointers.set(e.pointerId, place(e));
+      });
+      canvas.addEventListener("pointermove", (e) => {
+        if (pointers.has(e.pointerId)) view.follow(pointers, e.pointerId, place(e));
+      });
+      canvas.addEventListener("lostpointercapture", (e) => pointers.delete(e.pointerId));
+      canvas.addEventListener("wheel", (e) => view.wheel(e, place(e)), { passive: false });
+      byId("fit", HTMLButtonElement).addEventListener("click", () => this.fit());
+      this.undeformed.addEventListener("change", () => this.fit());
+    }
+    /** @param {number} stop of the colour map */
+    #css(stop) {
+      const color = this.data.colors.slice(3 * stop, 3 * stop + 3);
+      return `rgb(${color.map((share) => Math.round(255 * share))})`;
+    }
+    get #stops() {
+      return this.data.colors.length / 3;
+    }
+    // Colours for the distortion, from an isometry's value to the certified bound, or a tenth off.
+    #showColors() {
+      const colors = Array.from({ length: this.#stops }, (_, i) => this.#css(i));
+      document.documentElement.style.setProperty("--colors", colors.join());
+      for (const value of Object.keys(this.data.ranges)) {
+        this.overlay.append(new Option(LABELS[value], value));
+      }
+      this.overlay.addEventListener("change", () => {
+        this.draw();
+        this.#showLegend();
+      });
+    }
+    #showLegend() {
+      const { value } = this.overlay;
+      const range = this.data.ranges[value];
+      const legend = byId("legend", HTMLParagraphElement);
+      legend.hidden = !range;
+      if (!range) return;
+      const end = value === LOWER ? down(range[1]) : up(range[1]);
+      legend.replaceChildren(`${LABELS[value]} ${range[0]}`, make("i"), end);
+    }
+    #prepareMotion() {
+      const { motion, slider } = this;
+      const section = document.querySelector("section");
+      if (section) section.hidden = false;
+      slider.min = String(motion.start);
+      slider.max = String(motion.end);
+      byId("poses", HTMLDivElement).append(...this.poses.buttons);
+      byId("strip", HTMLDivElement).style.background = this.#strip();
+      this.play.addEventListener("click", () => this.#playOrPause());
+      slider.addEventListener("input", () => this.#goTo(Number(slider.value)));
+      document.addEventListener("keydown", (e) => this.#keydown(e));
+      this.#seek(motion.start);
+      this.#run(null);
+      const still = matchMedia("(prefers-reduced-motion: reduce)").matches;
+      if (this.data.loop && !still) this.#playOrPause();
+    }
+    // The bound on sigma_2 at every time, as colours.
+    #strip() {
+      const { motion } = this;
+      const { sigma2, until } = this.data.motion;
+      const span = motion.end - motion.start;
+      const colors = Array.from({ length: STRIPES }, (_, i) => {
+        const time = motion.start + (i + 0.5) / STRIPES * span;
+        const bound = sigma2[motion.place(time).piece] ?? 0;
+        const stop = Math.round((1 - Math.min(bound, 1)) * (this.#stops - 1));
+        return `${time < until ? this.#css(stop) : UNPROVED} ${i}% ${i + 1}%`;
+      });
+      return `linear-gradient(to right, ${colors})`;
+    }
+    /** @param {KeyboardEvent} e */
+    #keydown(e) {
+      const target = (
+        /** @type {HTMLElement} */
+        e.target
+      );
+      if (e.ctrlKey || e.metaKey || e.altKey || target.tagName === "SELECT") return;
+      if (e.key === " ") {
+        if (target.matches("button, input[type=checkbox]")) return;
+        e.preventDefault();
+        this.#playOrPause();
+        return;
+      }
+      const to = this.#timeOf(e);
+      if (to === null) return;
+      e.preventDefault();
+      this.#goTo(Math.min(Math.max(to, this.motion.start), this.motion.end));
+    }
+    /**
+     * The time that a key leads to; null for none.
+     *
+     * @param {KeyboardEvent} e
+     */
+    #timeOf(e) {
+      const step = e.shiftKey ? FAST * STEP : STEP;
+      if (e.key === "ArrowLeft") return this.time - step;
+      if (e.key === "ArrowRight") return this.time + step;
+      if (e.key === "Home") return this.motion.start;
+      return e.key === "End" ? this.motion.end : null;
+    }
+    /** @param {number} time */
+    #goTo(time) {
+      this.#run(null);
+      this.#seek(time);
+    }
+    /** @param {number} time */
+    #seek(time) {
+      const { motion } = this;
+      this.time = time === motion.end ? time : motion.within(time);
+      this.slider.value = String(this.time);
+      this.clock.textContent = `${this.time.toFixed(2)} / ${motion.end.toFixed(2)} s`;
+      const { piece } = motion.place(this.time);
+      this.here.textContent = provedNow(this.data.motion, piece, this.time);
+      this.poses.mark(motion.within(this.time));
+      this.draw();
+    }
+    /** @param {Course | null} course null pauses */
+    #run(course) {
+      cancelAnimationFrame(this.#due);
+      this.#course = course && { ...course, began: performance.now() };
+      if (course) this.#due = requestAnimationFrame((now) => this.#tick(now));
+      this.play.textContent = course?.plays ? "❚❚" : "▶";
+      this.play.setAttribute("aria-label", course?.plays ? "Pause" : "Play");
+    }
+    /** @param {number} now */
+    #tick(now) {
+      if (!this.#course) return;
+      const { began, lasts, at } = this.#course;
+      const passed = Math.min(Math.max(now - began, 0), lasts);
+      this.#seek(at(passed));
+      if (passed === lasts) this.#run(null);
+      else this.#due = requestAnimationFrame((next) => this.#tick(next));
+    }
+    #playOrPause() {
+      const playing = this.#course?.plays;
+      this.#run(playing ? null : playedFrom(this.motion, this.time, this.data.loop));
+    }
+  };
+  function fail(message) {
+    const problem = byId("problem", HTMLParagraphElement);
+    problem.textContent = message;
+    problem.hidden = false;
+  }
+  function loaded(address) {
+    return new Promise((resolve, reject) => {
+      const picture = new Image();
+      picture.onerror = () => reject(new CannotShow("The picture in this page is damaged."));
+      picture.onload = () => resolve(picture);
+      picture.src = address;
+    });
+  }
+  async function show() {
+    const data = JSON.parse(byId("data", HTMLScriptElement).text);
+    const canvas = document.querySelector("canvas");
+    const options = { antialias: true, premultipliedAlpha: true, preserveDrawingBuffer: true };
+    const gl = canvas?.getContext("webgl2", options);
+    if (!canvas || !gl || !window.DecompressionStream) {
+      throw new CannotShow("This page needs WebGL 2 and a browser of 2023 or later.");
+    }
+    const source = await unpacked(data.source, 2);
+    const rows = await restored(data.coefficients, data.width);
+    const heights = await restored(data.heights, source.length / 2);
+    const triangles = await cornersOf(data.triangles);
+    const cage = new Float32Array(bytesOf(data.cage));
+    const lowest = heights.subarray(0, source.length / 2);
+    const renderer = new Renderer(canvas, gl, data, { source, heights: lowest, triangles }, cage);
+    const page = new Page(canvas, data, renderer, rows, heights);
+    renderer.setPicture(await loaded(data.picture));
+    page.begin();
+  }
+  show().catch((error) => {
+    fail(error.message);
+    if (!(error instanceof CannotShow)) throw error;
+  });
 })();

@@ -1,12 +1,19 @@
 // pad/loader.js
-var modules = globalThis.glidModules ??= /* @__PURE__ */ new Map();
+var page = (
+  /** @type {{ glidModules?: Map<string, Promise<any>> }} */
+  globalThis
+);
+page.glidModules ??= /* @__PURE__ */ new Map();
+var modules = page.glidModules;
 async function render(context) {
   const script = context.model.get("_script");
-  if (!modules.has(script)) {
+  let loading = modules.get(script);
+  if (!loading) {
     const url = URL.createObjectURL(new Blob([script], { type: "text/javascript" }));
-    modules.set(script, import(url).finally(() => URL.revokeObjectURL(url)));
+    loading = import(url).finally(() => URL.revokeObjectURL(url));
+    modules.set(script, loading);
   }
-  const module = await modules.get(script);
+  const module = await loading;
   if (!context.signal.aborted) return module.default.render(context);
 }
 var loader_default = { render };

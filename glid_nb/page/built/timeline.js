@@ -1,10 +1,67 @@
+// motion/motion.js
+var Motion = class {
+  /**
+   * @param {{ times: number[], repeat: Repeat }} values the knots' times, of a ping-pong's way there
+   * @param {Float32Array} floats the arrays of all knots, one after the other
+   */
+  constructor({ times, repeat }, floats) {
+    this.times = times;
+    this.repeat = repeat;
+    this.floats = floats;
+    this.mixed = new Float32Array(floats.length / times.length);
+    this.start = times[0];
+    this.last = times[times.length - 1];
+    this.end = repeat === "ping-pong" ? 2 * this.last - this.start : this.last;
+  }
+  /**
+   * The time from start to end that shows what any time shows: loops and ping-pongs go on for ever.
+   *
+   * @param {number} time
+   */
+  within(time) {
+    const { start, end } = this;
+    if (this.repeat === "once") return Math.min(Math.max(time, start), end);
+    const span = end - start;
+    return start + ((time - start) % span + span) % span;
+  }
+  /**
+   * The piece between two knots at a time, and the share of it that has passed.
+   *
+   * @param {number} time
+   */
+  place(time) {
+    const { times, last } = this;
+    const within = this.within(time);
+    const there = within > last ? 2 * last - within : within;
+    const next = times.findIndex((knot, i) => i > 0 && there < knot);
+    const high = next < 0 ? times.length - 1 : next;
+    const low = high - 1;
+    return { piece: low, share: (there - times[low]) / (times[high] - times[low]) };
+  }
+  /**
+   * The array at a time. Every call returns the same one, with other numbers.
+   *
+   * @param {number} time
+   */
+  at(time) {
+    const { piece, share } = this.place(time);
+    const { floats, mixed } = this;
+    const low = piece * mixed.length;
+    const high = low + mixed.length;
+    for (let i = 0; i < mixed.length; i++) {
+      mixed[i] = (1 - share) * floats[low + i] + share * floats[high + i];
+    }
+    return mixed;
+  }
+};
+
 // pad/dom.js
 function make(tag, properties = {}, ...children) {
   const element = document.createElement(tag);
-  if (tag === "button") element.type = "button";
+  if (element instanceof HTMLButtonElement) element.type = "button";
   for (const [name, value] of Object.entries(properties)) {
     if (name.startsWith("on")) element.addEventListener(name.slice(2), value);
-    else if (name in element && name !== "list") element[name] = value;
+    else if (name in element && name !== "list") Reflect.set(element, name, value);
     else element.setAttribute(name, value);
   }
   element.append(...children);
@@ -51,133 +108,139 @@ function iconButton(name, title, onclick, className = "glid-icon") {
   return make("button", { title, "aria-label": title, className, onclick, innerHTML: icon(name) });
 }
 
-// motion/motion.js
-var Motion = class {
-  // values: plain JSON; floats: a Float32Array of the arrays of all knots, one after the other.
-  constructor(values, floats) {
-    Object.assign(this, values);
-    this.floats = floats;
-    this.mixed = new Float32Array(floats.length / this.times.length);
-  }
-  get start() {
-    return this.times[0];
-  }
-  get end() {
-    const last = this.times.at(-1);
-    return this.repeat === "ping-pong" ? 2 * last - this.start : last;
-  }
-  // The time from start to end that shows what any time shows: loops and ping-pongs go on for ever.
-  within(time) {
-    const { start, end } = this;
-    if (this.repeat === "once") return Math.min(Math.max(time, start), end);
-    const span = end - start;
-    return start + ((time - start) % span + span) % span;
-  }
-  // The piece between two knots at a time, and the share of it that has passed.
-  place(time) {
-    const { times } = this;
-    let t = this.within(time);
-    if (t > times.at(-1)) t = 2 * times.at(-1) - t;
-    const next = times.findIndex((knot, i) => i && t < knot);
-    const high = next < 0 ? times.length - 1 : next, low = high - 1;
-    return { piece: low, share: (t - times[low]) / (times[high] - times[low]) };
-  }
-  // The array at a time. Every call returns the same one, with other numbers.
-  at(time) {
-    const { piece, share } = this.place(time);
-    const { floats, mixed } = this, n = mixed.length, from = piece * n, to = from + n;
-    for (let i = 0; i < n; i++) mixed[i] = (1 - share) * floats[from + i] + share * floats[to + i];
-    return mixed;
-  }
-};
-
 // pad/link.js
 var BUSY_AFTER = 250;
 var ACKNOWLEDGE_TIMEOUT = 2e3;
-function connectNoMoreComms(kernel) {
-  const status = kernel?.statusChanged, { connect } = status ?? {};
-  if (!connect || Object.hasOwn(status, "connect")) return;
-  status.connect = (slot, receiver) => !String(slot).includes("_cleanSubshells") && connect.call(status, slot, receiver);
-}
 var Link = class {
-  // report(): an answer came, or is overdue: `busy`, `refusal` and `idle` are others.
+  busy = false;
+  // an answer is overdue
+  /** @type {string | null} why the kernel refused the last batch */
+  refusal = null;
+  view = Math.random().toString(36).slice(2);
+  /** @type {(KernelEvent & { seq: number })[]} */
+  #queue = [];
+  /** @type {ArrayBuffer[]} */
+  #buffers = [];
+  /** @type {Promised[]} */
+  #promised = [];
+  #waiting = false;
+  // for the answer to a batch, or for its frame
+  #awaited = 0;
+  // the number of the last event of that batch
+  #number = 0;
+  // of the last event
+  #acknowledged = 0;
+  // the number of the last event that was answered
+  /** @type {ReturnType<typeof setTimeout> | undefined} */
+  #overdue;
+  /** @type {ReturnType<typeof setTimeout> | undefined} */
+  #timeout;
+  #drawing = 0;
+  /**
+   * @param {Model<any>} model
+   * @param {HTMLElement} element its `data-idle` says whether all is answered
+   * @param {AbortSignal} signal ends it
+   * @param {() => void} report called when an answer came, or is overdue
+   */
   constructor(model, element, signal, report) {
-    Object.assign(this, { model, element, signal, report, busy: false, refusal: null });
+    this.model = model;
+    this.element = element;
+    this.signal = signal;
+    this.report = report;
     connectNoMoreComms(model.widget_manager.kernel);
-    this.view = Math.random().toString(36).slice(2);
-    this.queue = [];
-    this.buffers = [];
-    this.answers = [];
-    this.waiting = false;
-    this.number = this.acknowledged = 0;
-    element.dataset.idle = true;
-    signal.addEventListener("abort", () => this.stop());
-    model.on("msg:custom", (message) => message.view === this.view && this.answered(message));
+    element.dataset.idle = "true";
+    signal.addEventListener("abort", () => this.#stop());
+    model.on("msg:custom", (message) => {
+      if (message.view === this.view) this.#answered(message);
+    });
   }
+  /** Whether all events were answered. */
   get idle() {
-    return this.acknowledged === this.number;
+    return this.#acknowledged === this.#number;
   }
-  // An event replaces the last one that waits if both have the same `replaces`. Resolves to the
-  // kernel's refusal, or null, when the event was handled.
+  /**
+   * Sends an event, or has it wait. It replaces the last one that waits if both have the same
+   * `replaces`.
+   *
+   * @param {KernelEvent} event
+   * @param {ArrayBuffer[]} buffers
+   * @returns {Promise<string | null>} the kernel's refusal, or null, when the event was handled
+   */
   put(event, buffers = []) {
-    const seq = ++this.number;
-    const last = this.queue.at(-1);
-    if (last?.replaces && last.replaces === event.replaces) this.queue.pop();
-    this.queue.push({ ...event, seq });
-    this.buffers.push(...buffers);
-    this.element.dataset.idle = false;
-    this.flush();
-    return new Promise((resolve) => this.answers.push({ seq, resolve }));
+    this.#number += 1;
+    const number = this.#number;
+    const last = this.#queue.at(-1);
+    if (last?.replaces && last.replaces === event.replaces) this.#queue.pop();
+    this.#queue.push({ ...event, seq: number });
+    this.#buffers.push(...buffers);
+    this.element.dataset.idle = "false";
+    this.#flush();
+    return new Promise((resolve) => this.#promised.push({ number, resolve }));
   }
-  flush() {
-    if (this.waiting || !this.queue.length) return;
-    this.waiting = true;
-    this.awaited = this.number;
+  #flush() {
+    if (this.#waiting || !this.#queue.length) return;
+    this.#waiting = true;
+    this.#awaited = this.#number;
     try {
       const { kernel } = this.model.widget_manager;
       if (kernel === null || kernel?.isDisposed) throw new Error("the kernel was shut down");
-      this.model.send({ view: this.view, events: this.queue }, void 0, this.buffers);
+      this.model.send({ view: this.view, events: this.#queue }, void 0, this.#buffers);
     } catch {
-      const [host, editor] = [".glid-host", ".glid-editor"].map((one) => this.element.closest(one));
-      (editor ?? host).classList.add("jupyter-widgets-disconnected");
+      this.#markDisconnected();
       return;
     }
-    [this.queue, this.buffers] = [[], []];
-    this.overdue = setTimeout(() => {
+    this.#queue = [];
+    this.#buffers = [];
+    this.#overdue = setTimeout(() => {
       this.busy = true;
       this.report();
     }, BUSY_AFTER);
-    this.timeout = setTimeout(() => this.release(), ACKNOWLEDGE_TIMEOUT);
+    this.#timeout = setTimeout(() => this.#release(), ACKNOWLEDGE_TIMEOUT);
   }
-  answered({ ack, refusal }) {
-    if (ack === this.awaited) clearTimeout(this.overdue);
-    this.acknowledged = Math.max(this.acknowledged, ack);
-    Object.assign(this, { busy: false, refusal });
-    this.element.dataset.idle = this.idle;
-    const due = this.answers.filter(({ seq }) => seq <= ack);
-    this.answers = this.answers.filter(({ seq }) => seq > ack);
+  // The kernel is gone. Nothing is sent any more, and the page says so if it does not yet.
+  #markDisconnected() {
+    const around = this.element.closest(".glid-editor") ?? this.element.closest(".glid-host");
+    around?.classList.add("jupyter-widgets-disconnected");
+  }
+  /** @param {Answer} answer */
+  #answered({ ack, refusal }) {
+    if (ack === this.#awaited) clearTimeout(this.#overdue);
+    this.#acknowledged = Math.max(this.#acknowledged, ack);
+    this.busy = false;
+    this.refusal = refusal;
+    this.element.dataset.idle = String(this.idle);
+    const due = this.#promised.filter(({ number }) => number <= ack);
+    this.#promised = this.#promised.filter(({ number }) => number > ack);
     for (const { resolve } of due) resolve(refusal);
     this.report();
-    if (ack < this.awaited) return;
-    if (document.hidden) this.release();
-    else this.drawing = requestAnimationFrame(() => this.release());
+    if (ack < this.#awaited) return;
+    if (document.hidden) this.#release();
+    else this.#drawing = requestAnimationFrame(() => this.#release());
   }
-  release() {
-    this.stop();
-    this.waiting = false;
-    this.flush();
+  #release() {
+    this.#stop();
+    this.#waiting = false;
+    this.#flush();
   }
-  stop() {
-    clearTimeout(this.overdue);
-    clearTimeout(this.timeout);
-    cancelAnimationFrame(this.drawing);
+  #stop() {
+    clearTimeout(this.#overdue);
+    clearTimeout(this.#timeout);
+    cancelAnimationFrame(this.#drawing);
   }
 };
+function connectNoMoreComms(kernel) {
+  const status = kernel?.statusChanged;
+  const connect = status?.connect;
+  if (!connect || Object.hasOwn(status, "connect")) return;
+  status.connect = (slot, receiver) => !String(slot).includes("_cleanSubshells") && connect.call(status, slot, receiver);
+}
 
-// pad/pad.js
+// pad/keys.js
 function undoOrRedo(e) {
-  const key = (e.ctrlKey || e.metaKey) && e.key.toLowerCase();
-  if (key === "z" || key === "y") return key === "z" && !e.shiftKey ? "undo" : "redo";
+  if (!e.ctrlKey && !e.metaKey) return null;
+  const key = e.key.toLowerCase();
+  if (key === "z") return e.shiftKey ? "redo" : "undo";
+  return key === "y" ? "redo" : null;
 }
 
 // timeline/player.js
@@ -209,7 +272,8 @@ var Player = class {
     if (!this.clock) return this.release(0);
     this.time = time === this.clock.end ? time : this.clock.within(time);
     this.seen = true;
-    const { place } = this, span = this.spans.find(({ end }) => place <= end) ?? this.spans.at(-1);
+    const { place } = this;
+    const span = this.spans.find(({ end }) => place <= end) ?? this.spans.at(-1);
     const shown = this.show(span.motion?.at(place) ?? null, place);
     this.moved();
     return shown;
@@ -253,8 +317,17 @@ var Player = class {
 };
 
 // timeline/main.js
-var EASINGS = [["linear", "Even"], ["in", "Ease in"], ["out", "Ease out"], ["in-out", "Ease in, out"]];
-var REPEATS = [["once", "Once"], ["loop", "Loop"], ["ping-pong", "Ping-pong"]];
+var EASINGS = [
+  ["linear", "Even"],
+  ["in", "Ease in"],
+  ["out", "Ease out"],
+  ["in-out", "Ease in, out"]
+];
+var REPEATS = [
+  ["once", "Once"],
+  ["loop", "Loop"],
+  ["ping-pong", "Ping-pong"]
+];
 var STEP = 1 / 30;
 var NUDGE = 0.1;
 var SNAP = 6;
@@ -269,16 +342,23 @@ function menu(label, rows, act) {
 }
 function render({ model, el, signal }) {
   const shown = () => model.get("shown");
-  let stage = null, hovered = "", span = 1, drag = null, layers = null;
+  let stage = null;
+  let hovered = "";
+  let span = 1;
+  let drag = null;
+  let layers = null;
   const whole = { className: "glid-skin glid-timeline", role: "group", "aria-label": "Timeline" };
   const root = make("div", whole);
   const link = new Link(model, root, signal, () => tell());
   const act = (type, content = {}) => link.put({ type, ...content });
-  const player = new Player((floats, time) => {
-    const shows = time === void 0 ? null : floats ?? true;
-    stage?.trigger("glid:motion", shows, release, shows && (layers?.at(time) ?? null));
-    if (shown().kernel && stage) return act("frame", { time: time ?? null, replaces: "frame" });
-  }, () => showHead());
+  const player = new Player(
+    (floats, time) => {
+      const shows = time === void 0 ? null : floats ?? true;
+      stage?.trigger("glid:motion", shows, release, shows && (layers?.at(time) ?? null));
+      if (shown().kernel && stage) return act("frame", { time: time ?? null, replaces: "frame" });
+    },
+    () => showHead()
+  );
   const active = () => shown().keyframes[shown().active];
   const release = () => player.release(active().time);
   const atKey = (time) => shown().keyframes.findIndex((key) => Math.abs(key.time - time) < 1e-9);
@@ -288,10 +368,22 @@ function render({ model, el, signal }) {
   };
   const edit = (type, content = {}) => act(type, { index: shown().active, ...content });
   const play = iconButton("play", "Play, pause (Space)", () => player.play());
-  const repeat = menu("Play once, in a loop, or there and back", REPEATS, (value) => act("set_repeat", { repeat: value }));
+  const repeat = menu(
+    "Play once, in a loop, or there and back",
+    REPEATS,
+    (value) => act("set_repeat", { repeat: value })
+  );
   const clock = make("span", { className: "glid-time", role: "timer" });
-  const record = iconButton("record", "Record: keep the next drag as keyframes", () => act("record", { on: !shown().recording }));
-  const onion = iconButton("onion", "Onion skin of the pose that is edited: outlines of those before (blue) and after (orange)", () => act("onion", { on: !shown().onion }));
+  const record = iconButton(
+    "record",
+    "Record: keep the next drag as keyframes",
+    () => act("record", { on: !shown().recording })
+  );
+  const onion = iconButton(
+    "onion",
+    "Onion skin of the pose that is edited: outlines of those before (blue) and after (orange)",
+    () => act("onion", { on: !shown().onion })
+  );
   const keep = make("button", {
     className: "glid-keep",
     title: "Keep this pose and go on with a copy; between poses, keep what is seen",
@@ -299,8 +391,18 @@ function render({ model, el, signal }) {
   });
   const copy = iconButton("copy", "Duplicate this pose", () => edit("duplicate_pose"));
   const remove = iconButton("trash", "Delete this pose (Delete)", () => edit("delete_pose"));
-  const name = make("input", { type: "text", "aria-label": "Name of the pose", title: "Name of the pose", maxLength: 200, onchange: () => edit("rename_pose", { name: name.value }) });
-  const easing = menu("How the motion leaves this pose", EASINGS, (value) => edit("set_easing", { easing: value }));
+  const name = make("input", {
+    type: "text",
+    "aria-label": "Name of the pose",
+    title: "Name of the pose",
+    maxLength: 200,
+    onchange: () => edit("rename_pose", { name: name.value })
+  });
+  const easing = menu(
+    "How the motion leaves this pose",
+    EASINGS,
+    (value) => edit("set_easing", { easing: value })
+  );
   const save = iconButton("export", "Export the motion", () => act("export"));
   const gap = () => make("span", { className: "glid-gap" });
   const bar = make(
@@ -320,12 +422,26 @@ function render({ model, el, signal }) {
     easing,
     save
   );
-  const ruler = make("div", { className: "glid-ruler", tabIndex: 0, role: "slider", "aria-label": "Time", "aria-valuemin": 0 });
+  const ruler = make("div", {
+    className: "glid-ruler",
+    tabIndex: 0,
+    role: "slider",
+    "aria-label": "Time",
+    "aria-valuemin": 0
+  });
   const keys = make("div", { className: "glid-keys" });
-  const strip = make("div", { className: "glid-strip", role: "img", onpointerleave: () => hover("") });
+  const strip = make("div", {
+    className: "glid-strip",
+    role: "img",
+    onpointerleave: () => hover("")
+  });
   const head = make("div", { className: "glid-playhead" });
   const track = make("div", { className: "glid-track" }, ruler, keys, strip, head);
-  const note = make("div", { className: "glid-timeline-note", role: "status", "aria-live": "polite" });
+  const note = make("div", {
+    className: "glid-timeline-note",
+    role: "status",
+    "aria-live": "polite"
+  });
   root.append(bar, track, note);
   root.dataset.lmSuppressShortcuts = "true";
   el.classList.add("glid-host");
@@ -339,13 +455,16 @@ function render({ model, el, signal }) {
   };
   function tell() {
     const { keyframes, recording, kernel } = shown();
-    const { spans } = model.get("motion"), bad = spans.find(({ reason }) => reason);
+    const { spans } = model.get("motion");
+    const bad = spans.find(({ reason }) => reason);
     const least = Math.min(...spans.flatMap(({ sigma2 }) => sigma2));
     let text = keyframes.length < 2 ? "Keep a second pose to see what lies between." : "";
     if (recording) text = "Recording: drag a pin; what it does becomes keyframes.";
     else if (bad) text = bad.reason;
-    else if (spans.some(({ status }) => status === "computing")) text = "Proving what lies between…";
-    else if (spans.length) text = `Proved at every instant of ${seconds(spans.at(-1).end - spans[0].start)}: σ₂ ≥ ${least.toFixed(3)}.`;
+    else if (spans.some(({ status }) => status === "computing"))
+      text = "Proving what lies between…";
+    else if (spans.length)
+      text = `Proved at every instant of ${seconds(spans.at(-1).end - spans[0].start)}: σ₂ ≥ ${least.toFixed(3)}.`;
     if (kernel && spans.length && !bad) text = KERNEL + text;
     note.title = note.textContent = link.refusal || hovered || text;
     note.dataset.tone = link.refusal || bad && !hovered ? "bad" : "";
@@ -356,7 +475,8 @@ function render({ model, el, signal }) {
   }
   function showHead() {
     if (!shown().keyframes) return;
-    const { place, seen, playing } = player, { keyframes } = shown();
+    const { place, seen, playing } = player;
+    const { keyframes } = shown();
     const end = model.get("motion").spans.at(-1)?.end ?? keyframes.at(-1).time;
     head.style.left = at(place);
     head.classList.toggle("glid-seen", seen);
@@ -371,25 +491,41 @@ function render({ model, el, signal }) {
   }
   function showKeys() {
     if (drag) return;
-    const { keyframes, active: index, repeat: repeats, back } = shown(), thumbnails = model.get("thumbnails");
-    const ends = repeats === "loop" && keyframes.length > 1 ? [{ ...keyframes[0], time: keyframes.at(-1).time + back, name: `Back to ${keyframes[0].name}` }] : [];
-    const all = [...keyframes, ...ends], room = (i) => Math.min(...[i, i + 1].map((j) => all[j - 1] && all[j] ? all[j].time - all[j - 1].time : span));
+    const { keyframes, active: index, repeat: repeats, back } = shown();
+    const thumbnails = model.get("thumbnails");
+    const ends = repeats === "loop" && keyframes.length > 1 ? [
+      {
+        ...keyframes[0],
+        time: keyframes.at(-1).time + back,
+        name: `Back to ${keyframes[0].name}`
+      }
+    ] : [];
+    const all = [...keyframes, ...ends];
+    const room = (i) => Math.min(
+      ...[i, i + 1].map((j) => all[j - 1] && all[j] ? all[j].time - all[j - 1].time : span)
+    );
     span = Math.max(1, all.at(-1).time) * LATER;
     ruler.setAttribute("aria-valuemax", span.toFixed(2));
     const focused = [...keys.children].indexOf(keys.getRootNode().activeElement);
-    keys.replaceChildren(...all.map((key, i) => {
-      const picture = thumbnails[key.thumbnail];
-      const title = `${key.name} at ${seconds(key.time)}`;
-      return make("button", {
-        className: i < keyframes.length ? "glid-key" : "glid-key glid-return",
-        title: `${title}; drag it to another time`,
-        "aria-label": title,
-        "aria-pressed": i === index,
-        style: `left: ${at(key.time)}; width: clamp(${SLIM}px, ${wide(room(i))} - 2px, 60px)`,
-        onpointerdown: (e) => grab(e, i),
-        onclick: (e) => e.detail || select(i % keyframes.length)
-      }, ...picture ? [make("img", { src: picture, alt: "", draggable: false })] : []);
-    }));
+    keys.replaceChildren(
+      ...all.map((key, i) => {
+        const picture = thumbnails[key.thumbnail];
+        const title = `${key.name} at ${seconds(key.time)}`;
+        return make(
+          "button",
+          {
+            className: i < keyframes.length ? "glid-key" : "glid-key glid-return",
+            title: `${title}; drag it to another time`,
+            "aria-label": title,
+            "aria-pressed": i === index,
+            style: `left: ${at(key.time)}; width: clamp(${SLIM}px, ${wide(room(i))} - 2px, 60px)`,
+            onpointerdown: (e) => grab(e, i),
+            onclick: (e) => e.detail || select(i % keyframes.length)
+          },
+          ...picture ? [make("img", { src: picture, alt: "", draggable: false })] : []
+        );
+      })
+    );
     keys.children[focused]?.focus();
   }
   function showSpans() {
@@ -400,24 +536,47 @@ function render({ model, el, signal }) {
       onpointerenter: () => hover(text),
       style: `left: ${at(start)}; width: calc(${wide(end - start)}); --glid-height: ${height}`
     });
-    strip.replaceChildren(...spans.flatMap(({ start, end, status, reason, times, sigma2 }) => {
-      const proved = sigma2.map((value, i) => part(
-        times[i],
-        times[i + 1],
-        "proved",
-        `σ₂ ≥ ${value.toFixed(3)} from ${seconds(times[i])} to ${seconds(times[i + 1])}`,
-        Math.min(Math.max(value, 0.06), 1)
-      ));
-      const from = status === "fails" ? times.at(-1) : start;
-      const rest = status === "proved" ? [] : [part(from, end, status, reason || `Not proved yet from ${seconds(start)} to ${seconds(end)}`)];
-      return [...proved, ...rest];
-    }));
+    strip.replaceChildren(
+      ...spans.flatMap(({ start, end, status, reason, times, sigma2 }) => {
+        const proved = sigma2.map(
+          (value, i) => part(
+            times[i],
+            times[i + 1],
+            "proved",
+            `σ₂ ≥ ${value.toFixed(3)} from ${seconds(times[i])} to ${seconds(times[i + 1])}`,
+            Math.min(Math.max(value, 0.06), 1)
+          )
+        );
+        const from = status === "fails" ? times.at(-1) : start;
+        const rest = status === "proved" ? [] : [
+          part(
+            from,
+            end,
+            status,
+            reason || `Not proved yet from ${seconds(start)} to ${seconds(end)}`
+          )
+        ];
+        return [...proved, ...rest];
+      })
+    );
     const every = [0.1, 0.2, 0.5, 1, 2, 5, 10, 30, 60, 300, 600].find((step2) => span / step2 <= 12) ?? 1800;
-    ruler.replaceChildren(...Array.from({ length: Math.floor(span / every) + 1 }, (_, i) => make("span", { style: `left: ${at(i * every)}` }, `${Number((i * every).toFixed(1))}`)));
+    ruler.replaceChildren(
+      ...Array.from(
+        { length: Math.floor(span / every) + 1 },
+        (_, i) => make("span", { style: `left: ${at(i * every)}` }, `${Number((i * every).toFixed(1))}`)
+      )
+    );
     strip.setAttribute("aria-label", note.textContent);
   }
   function showState() {
-    const { keyframes, active: index, repeat: repeats, recording, onion: on, exports: exported } = shown();
+    const {
+      keyframes,
+      active: index,
+      repeat: repeats,
+      recording,
+      onion: on,
+      exports: exported
+    } = shown();
     const moved = root.dataset.active !== `${index}/${keyframes.length}`;
     root.dataset.active = `${index}/${keyframes.length}`;
     repeat.value = repeats;
@@ -434,8 +593,12 @@ function render({ model, el, signal }) {
   }
   function showMotion() {
     const { spans } = model.get("motion");
-    player.set(spans.map((one) => ({ ...one, floats: toFloats(one.floats) })), shown().repeat);
-    if (shown().kernel && !player.playing && player.seen && spans.some(({ status }) => status === "computing")) release();
+    player.set(
+      spans.map((one) => ({ ...one, floats: toFloats(one.floats) })),
+      shown().repeat
+    );
+    if (shown().kernel && !player.playing && player.seen && spans.some(({ status }) => status === "computing"))
+      release();
     tell();
     showSpans();
     showHead();
@@ -445,16 +608,23 @@ function render({ model, el, signal }) {
     layers = times.length ? new Motion({ times, repeat: "once" }, toFloats(floats)) : null;
   }
   function landing(index, time) {
-    const { keyframes } = shown(), others = keyframes.filter((_, i) => i !== index).map((key) => key.time);
-    const gap2 = Math.ceil(100 * (SLIM / inside().width) * span) / 100, least = index < keyframes.length ? 0 : others.at(-1) + gap2;
+    const { keyframes } = shown();
+    const others = keyframes.filter((_, i) => i !== index).map((key) => key.time);
+    const gap2 = Math.ceil(100 * (SLIM / inside().width) * span) / 100;
+    const least = index < keyframes.length ? 0 : others.at(-1) + gap2;
     const free = (t) => t >= least && others.every((other) => Math.abs(t - other) > gap2 - 6e-3);
-    const places = [Math.max(time, least), ...others.flatMap((other) => [other - gap2, other + gap2])].map((t) => Math.round(100 * t) / 100);
+    const places = [
+      Math.max(time, least),
+      ...others.flatMap((other) => [other - gap2, other + gap2])
+    ].map((t) => Math.round(100 * t) / 100);
     return places.filter(free).sort((a, b) => Math.abs(a - time) - Math.abs(b - time))[0];
   }
   function grab(e, index) {
     if (e.button !== 0) return;
     e.stopPropagation();
-    const button = e.currentTarget, { keyframes, back } = shown(), count = keyframes.length;
+    const button = e.currentTarget;
+    const { keyframes, back } = shown();
+    const count = keyframes.length;
     const from = index < count ? keyframes[index].time : keyframes.at(-1).time + back;
     drag = { x: e.clientX, moved: false };
     button.setPointerCapture(e.pointerId);
@@ -483,7 +653,9 @@ function render({ model, el, signal }) {
   }
   function scrub(e) {
     if (drag?.scrubs !== e.pointerId) return;
-    const { left, width } = inside(), time = (e.clientX - left) / width * span, near = SNAP / width * span;
+    const { left, width } = inside();
+    const time = (e.clientX - left) / width * span;
+    const near = SNAP / width * span;
     const key = shown().keyframes.find((one) => Math.abs(one.time - time) < near);
     player.scrub(key?.time ?? time);
   }
@@ -500,10 +672,12 @@ function render({ model, el, signal }) {
     if (atKey(player.place) >= 0) select(atKey(player.place));
   });
   function step(e) {
-    const sign = e.key === "ArrowLeft" ? -1 : 1, { keyframes, active: index } = shown();
+    const sign = e.key === "ArrowLeft" ? -1 : 1;
+    const { keyframes, active: index } = shown();
     if (e.altKey) return edit("move_pose", { time: landing(index, active().time + sign * NUDGE) });
     if (!e.shiftKey) return player.scrub(player.place + sign * STEP);
-    const time = player.place, order = keyframes.map((key, i) => [key.time, i]).filter(([t]) => sign * (t - time) > 1e-9);
+    const time = player.place;
+    const order = keyframes.map((key, i) => [key.time, i]).filter(([t]) => sign * (t - time) > 1e-9);
     select((sign > 0 ? order[0] : order.at(-1))?.[1] ?? index);
   }
   const KEYS = {
@@ -528,8 +702,14 @@ function render({ model, el, signal }) {
     e.preventDefault();
     e.stopPropagation();
   });
-  root.addEventListener("keyup", (e) => e.key === " " && !bar.contains(e.target) && e.preventDefault());
-  bar.addEventListener("click", (e) => e.detail && e.target.closest("button") && ruler.focus({ preventScroll: true }));
+  root.addEventListener(
+    "keyup",
+    (e) => e.key === " " && !bar.contains(e.target) && e.preventDefault()
+  );
+  bar.addEventListener(
+    "click",
+    (e) => e.detail && e.target.closest("button") && ruler.focus({ preventScroll: true })
+  );
   const tapped = (e) => {
     if (e.target.closest(".glid-editor") === el.closest(".glid-editor")) player.play();
   };

@@ -1,14 +1,19 @@
 // pad/dom.js
 function make(tag, properties = {}, ...children) {
   const element = document.createElement(tag);
-  if (tag === "button") element.type = "button";
+  if (element instanceof HTMLButtonElement) element.type = "button";
   for (const [name, value] of Object.entries(properties)) {
     if (name.startsWith("on")) element.addEventListener(name.slice(2), value);
-    else if (name in element && name !== "list") element[name] = value;
+    else if (name in element && name !== "list") Reflect.set(element, name, value);
     else element.setAttribute(name, value);
   }
   element.append(...children);
   return element;
+}
+function penOf(canvas) {
+  const pen = canvas.getContext("2d");
+  if (!pen) throw new Error("this browser does not draw on canvases");
+  return pen;
 }
 function follow(model, listeners) {
   for (const [names, listener] of Object.entries(listeners)) {
@@ -24,464 +29,25 @@ function shield(element) {
   return element;
 }
 function help(sections) {
-  const row = ([keys, what]) => make("tr", {}, make("th", {}, keys), make("td", {}, what));
-  const section = ([title2, rows]) => make("section", {}, make("h4", {}, title2), make("table", {}, ...rows.map(row)));
-  const shown = { className: "glid-help", popover: "auto", autofocus: true, tabIndex: -1 };
-  const table = shield(make("div", shown, ...sections.map(section)));
+  const table = shield(
+    make(
+      "div",
+      { className: "glid-help", popover: "auto", autofocus: true, tabIndex: -1 },
+      ...sections.map(section)
+    )
+  );
+  table.addEventListener("click", () => table.hidePopover());
   const title = "Keys and gestures (?)";
   const look = { className: "glid-help-button", title, "aria-label": title };
   const button = shield(make("button", { ...look, popoverTargetElement: table }, "?"));
-  table.addEventListener("click", () => table.hidePopover());
-  return { table, button, toggle: () => table.togglePopover() };
+  return { table, button, toggle: () => void table.togglePopover() };
 }
-
-// pad/link.js
-var BUSY_AFTER = 250;
-var ACKNOWLEDGE_TIMEOUT = 2e3;
-function connectNoMoreComms(kernel) {
-  const status = kernel?.statusChanged, { connect } = status ?? {};
-  if (!connect || Object.hasOwn(status, "connect")) return;
-  status.connect = (slot, receiver) => !String(slot).includes("_cleanSubshells") && connect.call(status, slot, receiver);
+function section([title, rows]) {
+  return make("section", {}, make("h4", {}, title), make("table", {}, ...rows.map(row)));
 }
-var Link = class {
-  // report(): an answer came, or is overdue: `busy`, `refusal` and `idle` are others.
-  constructor(model, element, signal, report) {
-    Object.assign(this, { model, element, signal, report, busy: false, refusal: null });
-    connectNoMoreComms(model.widget_manager.kernel);
-    this.view = Math.random().toString(36).slice(2);
-    this.queue = [];
-    this.buffers = [];
-    this.answers = [];
-    this.waiting = false;
-    this.number = this.acknowledged = 0;
-    element.dataset.idle = true;
-    signal.addEventListener("abort", () => this.stop());
-    model.on("msg:custom", (message) => message.view === this.view && this.answered(message));
-  }
-  get idle() {
-    return this.acknowledged === this.number;
-  }
-  // An event replaces the last one that waits if both have the same `replaces`. Resolves to the
-  // kernel's refusal, or null, when the event was handled.
-  put(event, buffers = []) {
-    const seq = ++this.number;
-    const last = this.queue.at(-1);
-    if (last?.replaces && last.replaces === event.replaces) this.queue.pop();
-    this.queue.push({ ...event, seq });
-    this.buffers.push(...buffers);
-    this.element.dataset.idle = false;
-    this.flush();
-    return new Promise((resolve) => this.answers.push({ seq, resolve }));
-  }
-  flush() {
-    if (this.waiting || !this.queue.length) return;
-    this.waiting = true;
-    this.awaited = this.number;
-    try {
-      const { kernel } = this.model.widget_manager;
-      if (kernel === null || kernel?.isDisposed) throw new Error("the kernel was shut down");
-      this.model.send({ view: this.view, events: this.queue }, void 0, this.buffers);
-    } catch {
-      const [host, editor] = [".glid-host", ".glid-editor"].map((one) => this.element.closest(one));
-      (editor ?? host).classList.add("jupyter-widgets-disconnected");
-      return;
-    }
-    [this.queue, this.buffers] = [[], []];
-    this.overdue = setTimeout(() => {
-      this.busy = true;
-      this.report();
-    }, BUSY_AFTER);
-    this.timeout = setTimeout(() => this.release(), ACKNOWLEDGE_TIMEOUT);
-  }
-  answered({ ack, refusal }) {
-    if (ack === this.awaited) clearTimeout(this.overdue);
-    this.acknowledged = Math.max(this.acknowledged, ack);
-    Object.assign(this, { busy: false, refusal });
-    this.element.dataset.idle = this.idle;
-    const due = this.answers.filter(({ seq }) => seq <= ack);
-    this.answers = this.answers.filter(({ seq }) => seq > ack);
-    for (const { resolve } of due) resolve(refusal);
-    this.report();
-    if (ack < this.awaited) return;
-    if (document.hidden) this.release();
-    else this.drawing = requestAnimationFrame(() => this.release());
-  }
-  release() {
-    this.stop();
-    this.waiting = false;
-    this.flush();
-  }
-  stop() {
-    clearTimeout(this.overdue);
-    clearTimeout(this.timeout);
-    cancelAnimationFrame(this.drawing);
-  }
-};
-
-// pad/pen.js
-function painter(canvas, view, signal, draw) {
-  let due = 0;
-  signal.addEventListener("abort", () => cancelAnimationFrame(due));
-  return () => {
-    due ||= requestAnimationFrame(() => {
-      due = 0;
-      draw(clearedContext(canvas, view));
-    });
-  };
+function row([keys, what]) {
+  return make("tr", {}, make("th", {}, keys), make("td", {}, what));
 }
-function clearedContext(canvas, { width, height }) {
-  const ratio = window.devicePixelRatio || 1;
-  const size = [Math.round(width * ratio), Math.round(height * ratio)];
-  if (canvas.width !== size[0] || canvas.height !== size[1]) [canvas.width, canvas.height] = size;
-  const ctx = canvas.getContext("2d");
-  ctx.setTransform(ratio, 0, 0, ratio, 0, 0);
-  ctx.clearRect(0, 0, width, height);
-  return ctx;
-}
-function circle(ctx, [x, y], radius, styles, dash) {
-  ctx.beginPath();
-  ctx.arc(x, y, radius, 0, 2 * Math.PI);
-  strokePath(ctx, styles, dash);
-}
-function disk(ctx, place, radius, fill, stroke, width) {
-  circle(ctx, place, radius, []);
-  ctx.fillStyle = fill;
-  ctx.fill();
-  if (stroke) strokePath(ctx, [[width, stroke]]);
-}
-function tracePath(ctx, lines, closed = true) {
-  ctx.beginPath();
-  for (const line of lines) {
-    line.forEach(([x, y], i) => i ? ctx.lineTo(x, y) : ctx.moveTo(x, y));
-    if (closed) ctx.closePath();
-  }
-}
-function rectangle([left, top], [right, bottom]) {
-  return [[left, top], [right, top], [right, bottom], [left, bottom]];
-}
-function fillPath(ctx, lines, style, rule = "evenodd") {
-  tracePath(ctx, lines);
-  ctx.fillStyle = style;
-  ctx.fill(rule);
-}
-function strokePath(ctx, styles, dash = []) {
-  ctx.setLineDash(dash);
-  for (const [lineWidth, strokeStyle] of styles) {
-    Object.assign(ctx, { lineWidth, strokeStyle });
-    ctx.stroke();
-  }
-  ctx.setLineDash([]);
-}
-
-// pad/view.js
-var WHEEL_SPEED = 15e-4;
-var WHEEL_LINE = 33;
-var distance = ([x, y], [u, v]) => Math.hypot(x - u, y - v);
-var View = class {
-  // up: 1 if the world's y points up, -1 if down. changed(): called after every change.
-  constructor(changed, { up = 1, nearest: nearest2, farthest }) {
-    Object.assign(this, { changed, up, nearest: nearest2, farthest });
-    Object.assign(this, { x: 0, y: 0, unit: 1, width: 0, height: 0 });
-  }
-  toWorld([px, py]) {
-    const { x, y, unit, up } = this;
-    return [x + (px - this.width / 2) * unit, y - up * (py - this.height / 2) * unit];
-  }
-  toScreen([x, y]) {
-    const { unit, up } = this;
-    return [(x - this.x) / unit + this.width / 2, up * (this.y - y) / unit + this.height / 2];
-  }
-  line(points) {
-    return points.map((point) => this.toScreen(point));
-  }
-  pan(dx, dy) {
-    this.x -= dx * this.unit;
-    this.y += this.up * dy * this.unit;
-    this.changed();
-  }
-  // Zooms about a place on the screen, by default its middle.
-  zoom(factor, place = [this.width / 2, this.height / 2]) {
-    const [x, y] = this.toWorld(place);
-    const unit = Math.min(this.farthest, Math.max(this.nearest, this.unit * factor));
-    this.x = x + (this.x - x) * (unit / this.unit);
-    this.y = y + (this.y - y) * (unit / this.unit);
-    this.unit = unit;
-    this.changed();
-  }
-  // A pinch on a touchpad is a wheel with Ctrl.
-  wheel(e, place) {
-    e.preventDefault();
-    const step = e.deltaMode === WheelEvent.DOM_DELTA_LINE ? e.deltaY * WHEEL_LINE : e.deltaY;
-    this.zoom(Math.exp(step * WHEEL_SPEED * (e.ctrlKey ? 5 : 1)), place);
-  }
-  // Follows one of the pressed pointers, whose last places are known; two of them zoom as well.
-  follow(pointers, id, place) {
-    const before = pointers.get(id), other = [...pointers].find(([one]) => one !== id)?.[1];
-    const share = other ? 0.5 : 1;
-    pointers.set(id, place);
-    this.pan(share * (place[0] - before[0]), share * (place[1] - before[1]));
-    if (!other) return;
-    const apart = (one) => Math.max(distance(one, other), 1);
-    this.zoom(apart(before) / apart(place), [(place[0] + other[0]) / 2, (place[1] + other[1]) / 2]);
-  }
-};
-
-// pad/pad.js
-var CLICK = 4;
-var LONG_PRESS = 600;
-var LONG_PRESS_GRACE = 100;
-var LONG_PRESS_SLACK = 8;
-var PATH_STEP = 3;
-function undoOrRedo(e) {
-  const key = (e.ctrlKey || e.metaKey) && e.key.toLowerCase();
-  if (key === "z" || key === "y") return key === "z" && !e.shiftKey ? "undo" : "redo";
-}
-var TEXT = "textarea, [contenteditable], input:not([type=checkbox], [type=range], [type=radio])";
-function keysAround(element, act, signal, whole = element) {
-  const on = (e) => {
-    const editor = element.closest(".glid-editor") ?? whole, { target } = e;
-    if (!editor.contains(target) || !element.checkVisibility()) return;
-    if (e.type !== "keydown") {
-      editor.tabIndex = -1;
-      const lost = e.type === "focusout" ? target.disabled : target.closest("[role=tab]");
-      return void (lost && editor.focus({ preventScroll: true }));
-    }
-    const command = e.ctrlKey || e.metaKey, outside = !element.contains(target);
-    const ours = undoOrRedo(e) || !(command || outside && e.shiftKey && e.key === "Enter");
-    target.toggleAttribute("data-lm-suppress-shortcuts", Boolean(ours));
-    editor.onkeydown = ours && ((bubbled) => bubbled.stopPropagation());
-    if (!outside || target.matches(TEXT)) return;
-    const free = target.closest(".glid-timeline") ? /^[^ ]$/ : /^([^ ]|Escape|Delete)$/;
-    const chosen = !command && free.test(e.key) && !target.matches("select");
-    if (undoOrRedo(e) ? !e.altKey : chosen) act(e);
-  };
-  for (const name of ["pointerdown", "focusout", "keydown"]) {
-    window.addEventListener(name, on, { capture: true, signal });
-  }
-}
-var Pad = class {
-  // Options in `canvas`:
-  //   reach: the radius that a pointer hits, CSS pixels, by its type
-  //   keys: matches those that go to the kernel; the others go on to the notebook
-  //   actions: functions of the page, by their key in lower case
-  //   find(point, reach): what is there, or null; with `mark` if it can be dragged
-  //   held(found): the points that a drag moves, by their marks
-  //   pans(found), painting: whether the left button moves the view, or paints a path
-  //   encloses(found, e): whether it draws a "box" or a "lasso" around things
-  //   tapped(): the space bar was pressed and let go, and nothing was dragged
-  //   cursor(found): the pointer's shape
-  //   menu(place, found): opens the menu of what is there, by the right button or a long touch
-  //   wheelNeedsFocus: whether the wheel zooms only while the element has the focus
-  //   changed(): called when something is to be drawn again
-  constructor(element, view, link, canvas) {
-    Object.assign(this, { element, view, link, canvas });
-    this.pointers = /* @__PURE__ */ new Map();
-    this.mode = null;
-    this.grip = null;
-    this.held = /* @__PURE__ */ new Map();
-    this.path = [];
-    this.found = this.rests = null;
-    this.space = false;
-    element.tabIndex = 0;
-    link.signal.addEventListener("abort", () => clearTimeout(this.longPress));
-    const listeners = {
-      pointerdown: (e) => this.down(e),
-      pointermove: (e) => this.move(e),
-      pointerup: (e) => this.up(e, "up"),
-      pointercancel: (e) => this.up(e, "cancel"),
-      lostpointercapture: (e) => this.up(e, "cancel"),
-      pointerleave: () => this.hover(null),
-      wheel: (e) => this.wheel(e),
-      contextmenu: (e) => {
-        e.preventDefault();
-        e.stopPropagation();
-        if (e.button === 2 && e.pointerType !== "touch") this.menu(this.place(e), "mouse");
-      },
-      keydown: (e) => this.keydown(e),
-      keyup: (e) => {
-        if (e.key !== " ") return;
-        this.setSpace(false);
-        if (this.tap) this.canvas.tapped?.();
-      },
-      focus: () => canvas.changed(),
-      blur: () => {
-        this.setSpace(false);
-        canvas.changed();
-      }
-    };
-    for (const [name, act] of Object.entries(listeners)) {
-      element.addEventListener(name, act, { passive: false });
-    }
-  }
-  get focused() {
-    return this.element.matches(":focus");
-  }
-  place(e) {
-    const box = this.element.getBoundingClientRect();
-    return [e.clientX - box.left, e.clientY - box.top];
-  }
-  reach(type) {
-    return this.canvas.reach[type] ?? this.canvas.reach.mouse;
-  }
-  send(type, place, e = {}, more = {}) {
-    const [x, y] = this.view.toWorld(place);
-    const { unit } = this.view;
-    return this.link.put({
-      type,
-      x,
-      y,
-      unit,
-      reach: this.reach(e.pointerType) * unit,
-      button: e.button ?? 0,
-      shift: Boolean(e.shiftKey),
-      time: e.timeStamp ?? performance.now(),
-      ...more
-    });
-  }
-  find(place, type) {
-    return this.canvas.find(this.view.toWorld(place), this.reach(type) * this.view.unit);
-  }
-  down(e) {
-    if (this.pointers.has(e.pointerId) || this.pointers.size > 1) return;
-    e.preventDefault();
-    this.element.focus({ preventScroll: true });
-    this.tap = false;
-    const place = this.place(e);
-    this.pointers.set(e.pointerId, place);
-    this.element.setPointerCapture(e.pointerId);
-    const second = this.pointers.size === 2;
-    if (second) this.takeBack(e);
-    this.start = place;
-    this.mode = second || e.button === 1 || e.button === 0 && this.space ? "pan" : "hand";
-    if (this.mode === "pan") return this.shape();
-    const found = this.find(place, e.pointerType), left = e.button === 0;
-    const mark = found?.mark;
-    if (left && !e.shiftKey && mark !== void 0) {
-      this.grip = { from: this.view.toWorld(place), points: this.canvas.held(found) };
-    }
-    this.pans = left && this.canvas.pans?.(found);
-    this.encloses = left && !this.canvas.painting && this.canvas.encloses?.(found, e);
-    this.path = left ? [this.view.toWorld(place)] : [];
-    this.send("down", place, e, { part: found?.part });
-    if (e.pointerType === "touch" && this.canvas.menu && !this.canvas.painting) this.longPress = setTimeout(() => this.pressedLong(e, place), LONG_PRESS);
-    this.shape();
-    this.canvas.changed();
-  }
-  pressedLong(e, place) {
-    this.longPress = setTimeout(() => {
-      this.takeBack(e);
-      this.mode = null;
-      this.menu(place, "touch");
-    }, LONG_PRESS_GRACE);
-  }
-  menu(place, type) {
-    this.canvas.menu?.(place, this.find(place, type));
-  }
-  // Cancels the gesture that the kernel knows of.
-  takeBack(e) {
-    if (this.mode === "hand") this.send("cancel", this.start, e);
-    this.drop();
-  }
-  move(e) {
-    const place = this.place(e), touch = e.pointerType === "touch";
-    if (!this.pointers.has(e.pointerId)) return void (touch || this.hover(place));
-    if (!touch) this.rests = place;
-    const far = distance(place, this.start);
-    if (far > LONG_PRESS_SLACK) clearTimeout(this.longPress);
-    if (this.mode === "hand" && this.pans && far > CLICK) {
-      this.takeBack(e);
-      this.mode = "pan";
-      this.shape();
-    }
-    if (this.mode === "pan") return this.view.follow(this.pointers, e.pointerId, place);
-    this.pointers.set(e.pointerId, place);
-    if (this.mode === "hand") this.handMoved(place, e, far);
-  }
-  handMoved(place, e, far) {
-    const point = this.view.toWorld(place);
-    if (this.encloses === "box") {
-      const [corner] = this.path;
-      this.path = far > CLICK ? rectangle(corner, point) : [corner];
-    } else if (this.path.length) {
-      const last = this.view.toScreen(this.path.at(-1));
-      if (distance(place, last) >= PATH_STEP) this.path.push(point);
-    }
-    if (!this.encloses && !this.canvas.painting) this.send("move", place, e, { replaces: `move ${e.pointerId}` });
-    if (this.grip) {
-      const [dx, dy] = [point[0] - this.grip.from[0], point[1] - this.grip.from[1]];
-      for (const [mark, [x, y]] of this.grip.points) this.held.set(mark, [x + dx, y + dy]);
-    }
-    this.canvas.changed();
-  }
-  up(e, type) {
-    if (!this.pointers.has(e.pointerId)) return;
-    const place = this.place(e);
-    this.pointers.delete(e.pointerId);
-    if (this.mode === "hand") {
-      const { path } = this;
-      this.send(type, place, e, { path, encloses: Boolean(this.encloses) }).then(() => {
-        if (!this.grip) this.held.clear();
-        if (this.path === path) this.path = [];
-        this.canvas.changed();
-      });
-    }
-    this.letGo();
-    if (!this.pointers.size) this.mode = null;
-    this.shape();
-  }
-  letGo() {
-    clearTimeout(this.longPress);
-    this.grip = null;
-    this.canvas.changed();
-  }
-  // Lets go of what is held and forgets where it was moved.
-  drop() {
-    this.letGo();
-    this.held.clear();
-    this.path = [];
-  }
-  wheel(e) {
-    if (this.canvas.wheelNeedsFocus && !this.focused && !e.ctrlKey) return;
-    e.stopPropagation();
-    this.view.wheel(e, this.place(e));
-  }
-  keydown(e) {
-    const command = e.ctrlKey || e.metaKey;
-    const action = !command && this.canvas.actions[e.key.toLowerCase()], history = undoOrRedo(e);
-    if (!history && !action && e.key !== " ") {
-      if (e.altKey || !this.canvas.keys.test(e.key) || command && e.key !== "a") return;
-    }
-    e.preventDefault();
-    e.stopPropagation();
-    if (e.key === " ") {
-      this.tap ||= !e.repeat;
-      return this.setSpace(true);
-    }
-    if (action) return action();
-    if (e.key === "Escape" || history) this.drop();
-    this.press(history ?? e.key, e);
-  }
-  // Has the kernel do what a key does.
-  press(key, e) {
-    this.send("key", [this.view.width / 2, this.view.height / 2], e, { key });
-  }
-  // Updates what is below the pointer.
-  hover(place = this.rests) {
-    this.rests = place;
-    if (this.mode !== null) return;
-    this.found = place && this.find(place, "mouse");
-    this.shape();
-    this.canvas.changed();
-  }
-  setSpace(pressed) {
-    this.space = pressed;
-    this.shape();
-  }
-  shape() {
-    const held = this.mode === "pan" || this.grip;
-    this.element.style.cursor = held ? "grabbing" : this.space ? "grab" : this.canvas.cursor(this.found);
-  }
-};
 
 // pad/icons.js
 var PATHS = {
@@ -513,6 +79,191 @@ function iconButton(name, title, onclick, className = "glid-icon") {
   return make("button", { title, "aria-label": title, className, onclick, innerHTML: icon(name) });
 }
 
+// pad/link.js
+var BUSY_AFTER = 250;
+var ACKNOWLEDGE_TIMEOUT = 2e3;
+var Link = class {
+  busy = false;
+  // an answer is overdue
+  /** @type {string | null} why the kernel refused the last batch */
+  refusal = null;
+  view = Math.random().toString(36).slice(2);
+  /** @type {(KernelEvent & { seq: number })[]} */
+  #queue = [];
+  /** @type {ArrayBuffer[]} */
+  #buffers = [];
+  /** @type {Promised[]} */
+  #promised = [];
+  #waiting = false;
+  // for the answer to a batch, or for its frame
+  #awaited = 0;
+  // the number of the last event of that batch
+  #number = 0;
+  // of the last event
+  #acknowledged = 0;
+  // the number of the last event that was answered
+  /** @type {ReturnType<typeof setTimeout> | undefined} */
+  #overdue;
+  /** @type {ReturnType<typeof setTimeout> | undefined} */
+  #timeout;
+  #drawing = 0;
+  /**
+   * @param {Model<any>} model
+   * @param {HTMLElement} element its `data-idle` says whether all is answered
+   * @param {AbortSignal} signal ends it
+   * @param {() => void} report called when an answer came, or is overdue
+   */
+  constructor(model, element, signal, report) {
+    this.model = model;
+    this.element = element;
+    this.signal = signal;
+    this.report = report;
+    connectNoMoreComms(model.widget_manager.kernel);
+    element.dataset.idle = "true";
+    signal.addEventListener("abort", () => this.#stop());
+    model.on("msg:custom", (message) => {
+      if (message.view === this.view) this.#answered(message);
+    });
+  }
+  /** Whether all events were answered. */
+  get idle() {
+    return this.#acknowledged === this.#number;
+  }
+  /**
+   * Sends an event, or has it wait. It replaces the last one that waits if both have the same
+   * `replaces`.
+   *
+   * @param {KernelEvent} event
+   * @param {ArrayBuffer[]} buffers
+   * @returns {Promise<string | null>} the kernel's refusal, or null, when the event was handled
+   */
+  put(event, buffers = []) {
+    this.#number += 1;
+    const number = this.#number;
+    const last = this.#queue.at(-1);
+    if (last?.replaces && last.replaces === event.replaces) this.#queue.pop();
+    this.#queue.push({ ...event, seq: number });
+    this.#buffers.push(...buffers);
+    this.element.dataset.idle = "false";
+    this.#flush();
+    return new Promise((resolve) => this.#promised.push({ number, resolve }));
+  }
+  #flush() {
+    if (this.#waiting || !this.#queue.length) return;
+    this.#waiting = true;
+    this.#awaited = this.#number;
+    try {
+      const { kernel } = this.model.widget_manager;
+      if (kernel === null || kernel?.isDisposed) throw new Error("the kernel was shut down");
+      this.model.send({ view: this.view, events: this.#queue }, void 0, this.#buffers);
+    } catch {
+      this.#markDisconnected();
+      return;
+    }
+    this.#queue = [];
+    this.#buffers = [];
+    this.#overdue = setTimeout(() => {
+      this.busy = true;
+      this.report();
+    }, BUSY_AFTER);
+    this.#timeout = setTimeout(() => this.#release(), ACKNOWLEDGE_TIMEOUT);
+  }
+  // The kernel is gone. Nothing is sent any more, and the page says so if it does not yet.
+  #markDisconnected() {
+    const around = this.element.closest(".glid-editor") ?? this.element.closest(".glid-host");
+    around?.classList.add("jupyter-widgets-disconnected");
+  }
+  /** @param {Answer} answer */
+  #answered({ ack, refusal }) {
+    if (ack === this.#awaited) clearTimeout(this.#overdue);
+    this.#acknowledged = Math.max(this.#acknowledged, ack);
+    this.busy = false;
+    this.refusal = refusal;
+    this.element.dataset.idle = String(this.idle);
+    const due = this.#promised.filter(({ number }) => number <= ack);
+    this.#promised = this.#promised.filter(({ number }) => number > ack);
+    for (const { resolve } of due) resolve(refusal);
+    this.report();
+    if (ack < this.#awaited) return;
+    if (document.hidden) this.#release();
+    else this.#drawing = requestAnimationFrame(() => this.#release());
+  }
+  #release() {
+    this.#stop();
+    this.#waiting = false;
+    this.#flush();
+  }
+  #stop() {
+    clearTimeout(this.#overdue);
+    clearTimeout(this.#timeout);
+    cancelAnimationFrame(this.#drawing);
+  }
+};
+function connectNoMoreComms(kernel) {
+  const status = kernel?.statusChanged;
+  const connect = status?.connect;
+  if (!connect || Object.hasOwn(status, "connect")) return;
+  status.connect = (slot, receiver) => !String(slot).includes("_cleanSubshells") && connect.call(status, slot, receiver);
+}
+
+// pad/keys.js
+var TEXT = "textarea, [contenteditable], input:not([type=checkbox], [type=range], [type=radio])";
+function undoOrRedo(e) {
+  if (!e.ctrlKey && !e.metaKey) return null;
+  const key = e.key.toLowerCase();
+  if (key === "z") return e.shiftKey ? "redo" : "undo";
+  return key === "y" ? "redo" : null;
+}
+function keysAround(element, act, signal, whole = element) {
+  const editorAround = (e) => {
+    const editor = (
+      /** @type {HTMLElement} */
+      element.closest(".glid-editor") ?? whole
+    );
+    const inside = editor.contains(
+      /** @type {Node} */
+      e.target
+    ) && element.checkVisibility();
+    return inside ? editor : null;
+  };
+  const refocus = (e) => {
+    const editor = editorAround(e);
+    if (!editor) return;
+    editor.tabIndex = -1;
+    const target = (
+      /** @type {HTMLButtonElement} */
+      e.target
+    );
+    const lost = e.type === "focusout" ? target.disabled : target.closest("[role=tab]");
+    if (lost) editor.focus({ preventScroll: true });
+  };
+  const keydown = (e) => {
+    const editor = editorAround(e);
+    if (!editor) return;
+    const target = (
+      /** @type {Element} */
+      e.target
+    );
+    const command = e.ctrlKey || e.metaKey;
+    const outside = !element.contains(target);
+    const runsTheCell = outside && e.shiftKey && e.key === "Enter";
+    const ours = undoOrRedo(e) !== null || !(command || runsTheCell);
+    target.toggleAttribute("data-lm-suppress-shortcuts", ours);
+    editor.onkeydown = ours ? (bubbled) => bubbled.stopPropagation() : null;
+    if (outside && !target.matches(TEXT) && isForThePad(e, target)) act(e);
+  };
+  const options = { capture: true, signal };
+  window.addEventListener("pointerdown", refocus, options);
+  window.addEventListener("focusout", refocus, options);
+  window.addEventListener("keydown", keydown, options);
+}
+function isForThePad(e, target) {
+  if (undoOrRedo(e)) return !e.altKey;
+  if (e.ctrlKey || e.metaKey || target.matches("select")) return false;
+  const free = target.closest(".glid-timeline") ? /^[^ ]$/ : /^([^ ]|Escape|Delete)$/;
+  return free.test(e.key);
+}
+
 // tracer/panel.js
 var METHODS = [
   ["auto", "Auto", "Chosen for the picture"],
@@ -537,7 +288,8 @@ var OUTLINES = [
 var STEPS = 1e3;
 var MOST_LISTED = 50;
 function numberControl([name, label, unit, title, share, power, digits], choose) {
-  let most = 1, gesture = null;
+  let most = 1;
+  let gesture = null;
   const slider = make("input", { type: "range", min: 0, max: STEPS, step: 1, "aria-label": label });
   const number = make("input", {
     type: "number",
@@ -559,7 +311,8 @@ function numberControl([name, label, unit, title, share, power, digits], choose)
   number.onchange = () => choose({ [name]: number.value === "" ? null : Number(number.value) });
   auto.onclick = () => choose({ [name]: null });
   function update({ options, automatic, size, component_area: area }) {
-    const value = options[name], seen = value ?? automatic?.[name] ?? null;
+    const value = options[name];
+    const seen = value ?? automatic?.[name] ?? null;
     most = Math.max(share * { "0–1": 1, px: Math.max(...size), "px²": area }[unit], 1e-9);
     auto.ariaPressed = value === null;
     if (gesture) return;
@@ -581,7 +334,7 @@ function numberControl([name, label, unit, title, share, power, digits], choose)
 }
 function makePanel(act, stage) {
   const choose = (changes, gesture) => act("set_options", { changes, gesture, replaces: gesture });
-  const row = (...parts) => make("div", { className: "glid-row" }, ...parts);
+  const row2 = (...parts) => make("div", { className: "glid-row" }, ...parts);
   const numbers = NUMBERS.map((one) => numberControl(one, choose));
   const [threshold, smoothing, offset, simplify, leastHole] = numbers.map(({ element: element2 }) => element2);
   const methods = METHODS.map(([method, label, title]) => {
@@ -590,10 +343,15 @@ function makePanel(act, stage) {
   });
   const swap = () => choose({ invert: invert.checked });
   const invert = make("input", { type: "checkbox", onchange: swap });
-  const inverts = make("label", { className: "glid-row" }, invert, "Swap foreground and background");
+  const inverts = make(
+    "label",
+    { className: "glid-row" },
+    invert,
+    "Swap foreground and background"
+  );
   const pickColor = make("button", { "data-tool": "color" }, "Pick the background's colour");
   const brush = (name, label) => make("button", { className: `glid-brush glid-${name}`, "data-tool": name }, label);
-  const scribbles = row(
+  const scribbles = row2(
     brush("foreground", "Shape"),
     brush("background", "Background"),
     make("button", { onclick: () => act("clear_scribbles") }, "Clear")
@@ -602,7 +360,7 @@ function makePanel(act, stage) {
     "aria-label": "Component",
     onchange: () => choose({ component: Number(component.value), component_at: null })
   });
-  const components = row(
+  const components = row2(
     make("span", { className: "glid-grow" }, "Component"),
     component,
     make("button", { "data-tool": "component" }, "Pick")
@@ -613,8 +371,10 @@ function makePanel(act, stage) {
   });
   const doubt = make("p");
   const byHand = make("div", { className: "glid-by-hand" }, doubt, ...hand);
-  const holes = make("div", { className: "glid-holes" }), holesTitle = make("h4");
-  const notes = make("ul"), summary = make("summary", {}, "Notes");
+  const holes = make("div", { className: "glid-holes" });
+  const holesTitle = make("h4");
+  const notes = make("ul");
+  const summary = make("summary", {}, "Notes");
   const notesBox = make("details", { className: "glid-notes" }, summary, notes);
   const group = { className: "glid-methods", role: "radiogroup", "aria-label": "Method" };
   const element = make(
@@ -643,7 +403,8 @@ function makePanel(act, stage) {
     element.hidden = !shown.size;
     if (!shown.size) return;
     for (const control of numbers) control.update(shown);
-    const { method } = options, used = method === "auto" ? automatic?.method : method;
+    const { method } = options;
+    const used = method === "auto" ? automatic?.method : method;
     for (const button of methods) {
       button.ariaChecked = button.dataset.value === method;
       button.classList.toggle("glid-used", button.dataset.value === used);
@@ -686,7 +447,8 @@ function makePanel(act, stage) {
     const kept = Math.max(loops.length - 1, 0) || "no";
     const small = filled ? `, ${filled} small filled` : "";
     holesTitle.textContent = `${kept} ${kept === 1 ? "hole" : "holes"} in the cage${small}`;
-    const rows = listed.map(holeRow), left = count - listed.length;
+    const rows = listed.map(holeRow);
+    const left = count - listed.length;
     if (left) rows.push(make("div", { className: "glid-unit" }, `and ${left} smaller ones`));
     const focused = holes.getRootNode().activeElement;
     const at = [...holes.children].findIndex((one) => one.contains(focused));
@@ -696,33 +458,572 @@ function makePanel(act, stage) {
   return { element, update };
 }
 
+// pad/view.js
+var WHEEL_SPEED = 15e-4;
+var WHEEL_LINE = 33;
+var LINES = 1;
+var PINCH = 5;
+function distance([x, y], [u, v]) {
+  return Math.hypot(x - u, y - v);
+}
+var View = class {
+  x = 0;
+  // the centre, world units
+  y = 0;
+  unit = 1;
+  // world units per CSS pixel
+  width = 0;
+  // CSS pixels
+  height = 0;
+  /**
+   * @param {() => void} changed called after every change by a hand
+   * @param {object} options
+   * @param {1 | -1} [options.up] 1 if the world's y points up, -1 if down
+   * @param {number} options.nearest the least unit
+   * @param {number} options.farthest the greatest unit
+   */
+  constructor(changed, { up = 1, nearest: nearest2, farthest }) {
+    this.changed = changed;
+    this.up = up;
+    this.nearest = nearest2;
+    this.farthest = farthest;
+  }
+  /**
+   * @param {Point} place
+   * @returns {Point}
+   */
+  toWorld([px, py]) {
+    const x = this.x + (px - this.width / 2) * this.unit;
+    const y = this.y - this.up * (py - this.height / 2) * this.unit;
+    return [x, y];
+  }
+  /**
+   * @param {Point} point
+   * @returns {Point}
+   */
+  toScreen([x, y]) {
+    const px = (x - this.x) / this.unit + this.width / 2;
+    const py = this.up * (this.y - y) / this.unit + this.height / 2;
+    return [px, py];
+  }
+  /** @param {Point[]} points */
+  line(points) {
+    return points.map((point) => this.toScreen(point));
+  }
+  /**
+   * @param {Point} point
+   */
+  centreOn([x, y]) {
+    this.x = x;
+    this.y = y;
+    this.changed();
+  }
+  /**
+   * @param {number} dx CSS pixels
+   * @param {number} dy
+   */
+  pan(dx, dy) {
+    this.x -= dx * this.unit;
+    this.y += this.up * dy * this.unit;
+    this.changed();
+  }
+  /**
+   * Zooms about a place on the screen, by default its middle.
+   *
+   * @param {number} factor
+   * @param {Point} place
+   */
+  zoom(factor, place = [this.width / 2, this.height / 2]) {
+    const [x, y] = this.toWorld(place);
+    const unit = Math.min(this.farthest, Math.max(this.nearest, this.unit * factor));
+    this.x = x + (this.x - x) * (unit / this.unit);
+    this.y = y + (this.y - y) * (unit / this.unit);
+    this.unit = unit;
+    this.changed();
+  }
+  /**
+   * @param {WheelEvent} e
+   * @param {Point} place
+   */
+  wheel(e, place) {
+    e.preventDefault();
+    const step = e.deltaMode === LINES ? e.deltaY * WHEEL_LINE : e.deltaY;
+    this.zoom(Math.exp(step * WHEEL_SPEED * (e.ctrlKey ? PINCH : 1)), place);
+  }
+  /**
+   * Follows one of the pressed pointers to a place. Two of them zoom as well.
+   *
+   * @param {Map<number, Point>} pointers their last places
+   * @param {number} id
+   * @param {Point} place
+   */
+  follow(pointers, id, place) {
+    const before = pointers.get(id) ?? place;
+    const other = [...pointers].find(([one]) => one !== id)?.[1];
+    const share = other ? 0.5 : 1;
+    pointers.set(id, place);
+    this.pan(share * (place[0] - before[0]), share * (place[1] - before[1]));
+    if (!other) return;
+    const apart = (one) => Math.max(distance(one, other), 1);
+    const middle = (
+      /** @type {Point} */
+      [(place[0] + other[0]) / 2, (place[1] + other[1]) / 2]
+    );
+    this.zoom(apart(before) / apart(place), middle);
+  }
+};
+
 // pad/hit.js
-var probe = document.createElement("canvas").getContext("2d");
 function nearest(things, reach) {
-  const far = ({ d, loss = 0 }) => d + loss;
-  return things.filter(({ d }) => d <= reach).sort((a, b) => far(a) - far(b))[0] ?? null;
+  let best = null;
+  let least = Infinity;
+  for (const thing of things) {
+    const far = thing.d + (thing.loss ?? 0);
+    if (thing.d > reach || far >= least) continue;
+    best = thing;
+    least = far;
+  }
+  return best;
 }
 function nearestVertex(loops, point, reach) {
-  const vertices = loops.flatMap((loop, i) => loop.map((vertex, j) => ({ loop: i, index: j, d: distance(vertex, point) })));
+  const vertices = loops.flatMap(
+    (loop, i) => loop.map((vertex, j) => ({ loop: i, index: j, d: distance(vertex, point) }))
+  );
   return nearest(vertices, reach);
 }
 function nearestEdge(loops, point, reach) {
-  const edges = loops.flatMap((loop) => loop.map((a, j) => {
-    const b = loop[(j + 1) % loop.length], along = [b[0] - a[0], b[1] - a[1]];
-    const dot = (point[0] - a[0]) * along[0] + (point[1] - a[1]) * along[1];
-    const t = Math.min(Math.max(dot / (distance(a, b) ** 2 || 1e-30), 0), 1);
-    const foot = [a[0] + t * along[0], a[1] + t * along[1]];
-    return { foot, d: distance(foot, point) };
-  }));
+  const edges = loops.flatMap(
+    (loop) => loop.map((start, j) => {
+      const foot = footOn(start, loop[(j + 1) % loop.length], point);
+      return { foot, d: distance(foot, point) };
+    })
+  );
   return nearest(edges, reach);
 }
-function holeAt(holes, [x, y]) {
-  const around = holes.filter((hole) => {
-    tracePath(probe, [hole.loop]);
-    return probe.isPointInPath(x, y);
-  });
-  return holes.indexOf(around.sort((a, b) => a.area - b.area)[0]);
+function footOn(start, end, point) {
+  const along = [end[0] - start[0], end[1] - start[1]];
+  const dot = (point[0] - start[0]) * along[0] + (point[1] - start[1]) * along[1];
+  const share = Math.min(Math.max(dot / (distance(start, end) ** 2 || 1e-30), 0), 1);
+  return [start[0] + share * along[0], start[1] + share * along[1]];
 }
+function holeAt(holes, point) {
+  let found = -1;
+  holes.forEach((hole, i) => {
+    if ((found < 0 || hole.area < holes[found].area) && encloses(hole.loop, point)) found = i;
+  });
+  return found;
+}
+function encloses(loop, [x, y]) {
+  let winding = 0;
+  loop.forEach(([x0, y0], i) => {
+    const [x1, y1] = loop[(i + 1) % loop.length];
+    const left = (x1 - x0) * (y - y0) - (x - x0) * (y1 - y0);
+    if (y0 <= y && y1 > y && left > 0) winding += 1;
+    if (y0 > y && y1 <= y && left < 0) winding -= 1;
+  });
+  return winding !== 0;
+}
+
+// pad/pen.js
+function painter(canvas, view, signal, draw) {
+  let due = 0;
+  signal.addEventListener("abort", () => cancelAnimationFrame(due));
+  return () => {
+    if (due) return;
+    due = requestAnimationFrame(() => {
+      due = 0;
+      draw(clearedPen(canvas, view));
+    });
+  };
+}
+function clearedPen(canvas, { width, height }) {
+  const ratio = window.devicePixelRatio || 1;
+  const wide = Math.round(width * ratio);
+  const high = Math.round(height * ratio);
+  if (canvas.width !== wide || canvas.height !== high) {
+    canvas.width = wide;
+    canvas.height = high;
+  }
+  const pen = penOf(canvas);
+  pen.setTransform(ratio, 0, 0, ratio, 0, 0);
+  pen.clearRect(0, 0, width, height);
+  return pen;
+}
+function circle(pen, [x, y], radius, strokes, dash) {
+  pen.beginPath();
+  pen.arc(x, y, radius, 0, 2 * Math.PI);
+  strokePath(pen, strokes, dash);
+}
+function disk(pen, place, radius, fill, stroke, width = 1) {
+  circle(pen, place, radius, []);
+  pen.fillStyle = fill;
+  pen.fill();
+  if (stroke) strokePath(pen, [[width, stroke]]);
+}
+function tracePath(pen, lines, closed = true) {
+  pen.beginPath();
+  for (const line of lines) {
+    line.forEach(([x, y], i) => {
+      if (i) pen.lineTo(x, y);
+      else pen.moveTo(x, y);
+    });
+    if (closed) pen.closePath();
+  }
+}
+function rectangle([left, top], [right, bottom]) {
+  return [
+    [left, top],
+    [right, top],
+    [right, bottom],
+    [left, bottom]
+  ];
+}
+function fillPath(pen, lines, style, rule = "evenodd") {
+  tracePath(pen, lines);
+  pen.fillStyle = style;
+  pen.fill(rule);
+}
+function strokePath(pen, strokes, dash = []) {
+  pen.setLineDash(dash);
+  for (const [width, style] of strokes) {
+    pen.lineWidth = width;
+    pen.strokeStyle = style;
+    pen.stroke();
+  }
+  pen.setLineDash([]);
+}
+
+// pad/pad.js
+var CLICK = 4;
+var LONG_PRESS = 600;
+var LONG_PRESS_GRACE = 100;
+var LONG_PRESS_SLACK = 8;
+var PATH_STEP = 3;
+var Pad = class {
+  /** @type {Map<number, Point>} last places of pressed pointers */
+  pointers = /* @__PURE__ */ new Map();
+  /** @type {"hand" | "pan" | null} what pressed pointers do */
+  mode = null;
+  /** @type {{ from: Point, points: Map<Mark, Point> } | null} where a drag began, what it moves */
+  grip = null;
+  /** @type {Map<Mark, Point>} places of dragged marks */
+  held = /* @__PURE__ */ new Map();
+  /** @type {Point[]} of the left button, world points */
+  path = [];
+  /** @type {"box" | "lasso" | null | undefined} what the path draws around things */
+  encloses = null;
+  /** @type {Found | null} what is below a pointer that hovers */
+  found = null;
+  /** @type {Point | null} where it hovers */
+  rests = null;
+  /** @type {Point} where the present gesture began */
+  #start = [0, 0];
+  #pans = false;
+  // moving farther moves the view
+  #space = false;
+  // the space bar is pressed
+  #tap = false;
+  // and nothing was dragged since
+  /** @type {ReturnType<typeof setTimeout> | undefined} */
+  #longPress;
+  /**
+   * @param {HTMLElement} element
+   * @param {View} view
+   * @param {Link} link
+   * @param {Behaviour} behaviour
+   */
+  constructor(element, view, link, behaviour) {
+    this.element = element;
+    this.view = view;
+    this.link = link;
+    this.behaviour = behaviour;
+    element.tabIndex = 0;
+    link.signal.addEventListener("abort", () => clearTimeout(this.#longPress));
+    element.addEventListener("pointerdown", (e) => this.#down(e));
+    element.addEventListener("pointermove", (e) => this.#move(e));
+    element.addEventListener("pointerup", (e) => this.#up(e, "up"));
+    element.addEventListener("pointercancel", (e) => this.#up(e, "cancel"));
+    element.addEventListener("lostpointercapture", (e) => this.#up(e, "cancel"));
+    element.addEventListener("pointerleave", () => this.hover(null));
+    element.addEventListener("wheel", (e) => this.#wheel(e), { passive: false });
+    element.addEventListener("contextmenu", (e) => this.#contextMenu(e));
+    element.addEventListener("keydown", (e) => this.keydown(e));
+    element.addEventListener("keyup", (e) => this.#keyup(e));
+    element.addEventListener("focus", () => behaviour.changed());
+    element.addEventListener("blur", () => {
+      this.#setSpace(false);
+      behaviour.changed();
+    });
+  }
+  get focused() {
+    return this.element.matches(":focus");
+  }
+  /**
+   * Where a pointer is, in CSS pixels of the element.
+   *
+   * @param {MouseEvent} e
+   * @returns {Point}
+   */
+  place(e) {
+    const box = this.element.getBoundingClientRect();
+    return [e.clientX - box.left, e.clientY - box.top];
+  }
+  /**
+   * Sends the kernel an event at a place on the screen.
+   *
+   * @param {string} type
+   * @param {Point} place
+   * @param {Pressed} e
+   * @param {Record<string, unknown>} more
+   */
+  send(type, place, e = {}, more = {}) {
+    const [x, y] = this.view.toWorld(place);
+    const { unit } = this.view;
+    return this.link.put({
+      type,
+      x,
+      y,
+      unit,
+      reach: this.#reach(e.pointerType) * unit,
+      button: e.button ?? 0,
+      shift: Boolean(e.shiftKey),
+      time: e.timeStamp ?? performance.now(),
+      ...more
+    });
+  }
+  /**
+   * Has the kernel do what a key does.
+   *
+   * @param {string} key
+   * @param {Pressed} [e]
+   */
+  press(key, e) {
+    this.send("key", [this.view.width / 2, this.view.height / 2], e, { key });
+  }
+  /**
+   * Updates what is below the pointer.
+   *
+   * @param {Point | null} place
+   */
+  hover(place = this.rests) {
+    this.rests = place;
+    if (this.mode !== null) return;
+    this.found = place && this.#find(place, "mouse");
+    this.#showCursor();
+    this.behaviour.changed();
+  }
+  /** @param {KeyboardEvent} e */
+  keydown(e) {
+    const command = e.ctrlKey || e.metaKey;
+    const action = command ? void 0 : this.behaviour.actions[e.key.toLowerCase()];
+    const history = undoOrRedo(e);
+    if (!history && !action && e.key !== " ") {
+      if (e.altKey || !this.behaviour.keys.test(e.key) || command && e.key !== "a") return;
+    }
+    e.preventDefault();
+    e.stopPropagation();
+    if (e.key === " ") {
+      if (!e.repeat) this.#tap = true;
+      this.#setSpace(true);
+    } else if (action) {
+      action();
+    } else {
+      if (e.key === "Escape" || history) this.#drop();
+      this.press(history ?? e.key, e);
+    }
+  }
+  /** @param {KeyboardEvent} e */
+  #keyup(e) {
+    if (e.key !== " ") return;
+    this.#setSpace(false);
+    if (this.#tap) this.behaviour.tapped?.();
+  }
+  /** @param {string} [type] of the pointer */
+  #reach(type) {
+    return this.behaviour.reach[type ?? "mouse"] ?? this.behaviour.reach.mouse;
+  }
+  /**
+   * @param {Point} place
+   * @param {string} type of the pointer
+   */
+  #find(place, type) {
+    return this.behaviour.find(this.view.toWorld(place), this.#reach(type) * this.view.unit);
+  }
+  /** @param {PointerEvent} e */
+  #down(e) {
+    if (this.pointers.has(e.pointerId) || this.pointers.size > 1) return;
+    e.preventDefault();
+    this.element.focus({ preventScroll: true });
+    this.#tap = false;
+    const place = this.place(e);
+    this.pointers.set(e.pointerId, place);
+    this.element.setPointerCapture(e.pointerId);
+    const second = this.pointers.size === 2;
+    if (second) this.#takeBack(e);
+    this.#start = place;
+    this.mode = second || e.button === 1 || e.button === 0 && this.#space ? "pan" : "hand";
+    if (this.mode === "hand") this.#handDown(place, e);
+    this.#showCursor();
+  }
+  /**
+   * @param {Point} place
+   * @param {PointerEvent} e
+   */
+  #handDown(place, e) {
+    const { behaviour } = this;
+    const found = this.#find(place, e.pointerType);
+    const left = e.button === 0;
+    if (left && !e.shiftKey && found?.mark !== void 0) {
+      this.grip = { from: this.view.toWorld(place), points: behaviour.held(found) };
+    }
+    this.#pans = left && Boolean(behaviour.pans?.(found));
+    this.encloses = left && !behaviour.painting ? behaviour.encloses?.(found, e) : null;
+    this.path = left ? [this.view.toWorld(place)] : [];
+    this.send("down", place, e, { part: found?.part });
+    if (e.pointerType === "touch" && behaviour.menu && !behaviour.painting) {
+      this.#longPress = setTimeout(() => this.#pressedLong(e, place), LONG_PRESS);
+    }
+    behaviour.changed();
+  }
+  /**
+   * @param {PointerEvent} e
+   * @param {Point} place
+   */
+  #pressedLong(e, place) {
+    this.#longPress = setTimeout(() => {
+      this.#takeBack(e);
+      this.mode = null;
+      this.#menu(place, "touch");
+    }, LONG_PRESS_GRACE);
+  }
+  /**
+   * @param {Point} place
+   * @param {string} type of the pointer
+   */
+  #menu(place, type) {
+    this.behaviour.menu?.(place, this.#find(place, type));
+  }
+  /** @param {MouseEvent} e */
+  #contextMenu(e) {
+    e.preventDefault();
+    e.stopPropagation();
+    const touch = e instanceof PointerEvent && e.pointerType === "touch";
+    if (e.button === 2 && !touch) this.#menu(this.place(e), "mouse");
+  }
+  /**
+   * Cancels the gesture that the kernel knows of.
+   *
+   * @param {PointerEvent} e
+   */
+  #takeBack(e) {
+    if (this.mode === "hand") this.send("cancel", this.#start, e);
+    this.#drop();
+  }
+  /** @param {PointerEvent} e */
+  #move(e) {
+    const place = this.place(e);
+    const touch = e.pointerType === "touch";
+    if (!this.pointers.has(e.pointerId)) {
+      if (!touch) this.hover(place);
+      return;
+    }
+    if (!touch) this.rests = place;
+    const far = distance(place, this.#start);
+    if (far > LONG_PRESS_SLACK) clearTimeout(this.#longPress);
+    if (this.mode === "hand" && this.#pans && far > CLICK) {
+      this.#takeBack(e);
+      this.mode = "pan";
+      this.#showCursor();
+    }
+    if (this.mode === "pan") {
+      this.view.follow(this.pointers, e.pointerId, place);
+      return;
+    }
+    this.pointers.set(e.pointerId, place);
+    if (this.mode === "hand") this.#handMoved(place, e, far);
+  }
+  /**
+   * @param {Point} place
+   * @param {PointerEvent} e
+   * @param {number} far from where it was pressed, CSS pixels
+   */
+  #handMoved(place, e, far) {
+    const point = this.view.toWorld(place);
+    this.#lengthenPath(place, point, far);
+    if (!this.encloses && !this.behaviour.painting) {
+      this.send("move", place, e, { replaces: `move ${e.pointerId}` });
+    }
+    if (this.grip) {
+      const dx = point[0] - this.grip.from[0];
+      const dy = point[1] - this.grip.from[1];
+      for (const [mark, [x, y]] of this.grip.points) this.held.set(mark, [x + dx, y + dy]);
+    }
+    this.behaviour.changed();
+  }
+  /**
+   * @param {Point} place
+   * @param {Point} point the same in the world
+   * @param {number} far
+   */
+  #lengthenPath(place, point, far) {
+    if (this.encloses === "box") {
+      const [corner] = this.path;
+      this.path = far > CLICK ? rectangle(corner, point) : [corner];
+      return;
+    }
+    const last = this.path.at(-1);
+    if (last && distance(place, this.view.toScreen(last)) >= PATH_STEP) this.path.push(point);
+  }
+  /**
+   * @param {PointerEvent} e
+   * @param {"up" | "cancel"} type
+   */
+  #up(e, type) {
+    if (!this.pointers.has(e.pointerId)) return;
+    const place = this.place(e);
+    this.pointers.delete(e.pointerId);
+    if (this.mode === "hand") {
+      const { path } = this;
+      this.send(type, place, e, { path, encloses: Boolean(this.encloses) }).then(() => {
+        if (!this.grip) this.held.clear();
+        if (this.path === path) this.path = [];
+        this.behaviour.changed();
+      });
+    }
+    this.#letGo();
+    if (!this.pointers.size) this.mode = null;
+    this.#showCursor();
+  }
+  #letGo() {
+    clearTimeout(this.#longPress);
+    this.grip = null;
+    this.behaviour.changed();
+  }
+  // Lets go of what is held and forgets where it was moved.
+  #drop() {
+    this.#letGo();
+    this.held.clear();
+    this.path = [];
+  }
+  /** @param {WheelEvent} e */
+  #wheel(e) {
+    if (this.behaviour.wheelNeedsFocus && !this.focused && !e.ctrlKey) return;
+    e.stopPropagation();
+    this.view.wheel(e, this.place(e));
+  }
+  /** @param {boolean} pressed */
+  #setSpace(pressed) {
+    this.#space = pressed;
+    this.#showCursor();
+  }
+  #showCursor() {
+    this.element.style.cursor = this.#cursor();
+  }
+  #cursor() {
+    if (this.mode === "pan" || this.grip) return "grabbing";
+    return this.#space ? "grab" : this.behaviour.cursor(this.found);
+  }
+};
 
 // tracer/draw.js
 var HALO = "rgba(255, 255, 255, 0.9)";
@@ -730,7 +1031,8 @@ var SPECK = 12;
 var CHECK = 8;
 function drawStage(ctx, stage, hover) {
   const { view, colors, shown, bitmap, painting } = stage;
-  const corner = view.toScreen([0, 0]), extent = shown.size.map((n) => n / view.unit);
+  const corner = view.toScreen([0, 0]);
+  const extent = shown.size.map((n) => n / view.unit);
   ctx.fillStyle = checks(ctx, colors);
   ctx.fillRect(...corner, ...extent);
   if (bitmap) {
@@ -753,7 +1055,11 @@ function drawStage(ctx, stage, hover) {
   if (loops.length && !(stage.drawing && shown.doubt)) drawCage(ctx, stage, loops, hover);
   if (stage.drawing) drawOutline(ctx, stage);
   for (const problem of shown.problems) {
-    if (problem.point) circle(ctx, view.toScreen(problem.point), 13, [[5, HALO], [2.25, colors.warn]]);
+    if (problem.point)
+      circle(ctx, view.toScreen(problem.point), 13, [
+        [5, HALO],
+        [2.25, colors.warn]
+      ]);
   }
 }
 function checks(ctx, colors) {
@@ -778,14 +1084,21 @@ function drawStrokes(ctx, { view, colors, shown, brushing, tool, pad: { path } }
   for (const [lines, color] of pairs) {
     for (const line of lines) {
       tracePath(ctx, [view.line([...line, line.at(-1)])], false);
-      strokePath(ctx, [[8, HALO], [5, color]]);
+      strokePath(ctx, [
+        [8, HALO],
+        [5, color]
+      ]);
     }
   }
 }
 function drawOutline(ctx, stage) {
-  const { view, shown } = stage, color = stage.colors.foreground;
+  const { view, shown } = stage;
+  const color = stage.colors.foreground;
   tracePath(ctx, [view.line(stage.drawn())], false);
-  strokePath(ctx, [[4.5, HALO], [2, color]]);
+  strokePath(ctx, [
+    [4.5, HALO],
+    [2, color]
+  ]);
   for (const corner of shown.corners) disk(ctx, view.toScreen(corner), 4, "white", color, 2);
 }
 function drawCage(ctx, { view, colors, shown, painting }, loops, hover) {
@@ -796,7 +1109,8 @@ function drawCage(ctx, { view, colors, shown, painting }, loops, hover) {
   const strong = /* @__PURE__ */ new Set([hover?.mark, ...shown.selected.map((vertex) => vertex.join(":"))]);
   loops.forEach(
     (loop, i) => loop.forEach((vertex, j) => {
-      const seen = strong.has(`${i}:${j}`), r = seen ? radius + 1.75 : radius;
+      const seen = strong.has(`${i}:${j}`);
+      const r = seen ? radius + 1.75 : radius;
       disk(ctx, vertex, r + 1, HALO);
       disk(ctx, vertex, r, seen ? color : "white", color, 1.5);
     })
@@ -810,7 +1124,20 @@ function vertexRadius(loops) {
 }
 function drawPlus(ctx, [x, y], color) {
   disk(ctx, [x, y], 7, "white", color, 1.5);
-  tracePath(ctx, [[[x - 3.5, y], [x + 3.5, y]], [[x, y - 3.5], [x, y + 3.5]]], false);
+  tracePath(
+    ctx,
+    [
+      [
+        [x - 3.5, y],
+        [x + 3.5, y]
+      ],
+      [
+        [x, y - 3.5],
+        [x, y + 3.5]
+      ]
+    ],
+    false
+  );
   ctx.stroke();
 }
 
@@ -853,20 +1180,39 @@ var Stage = class {
   // root defines the colours as CSS variables; upload(file) takes a dropped picture.
   constructor(root, link, upload, signal) {
     this.root = root;
-    this.canvas = make("canvas", { className: "glid-canvas", role: "application", "aria-label": "Picture and cage" });
+    this.canvas = make("canvas", {
+      className: "glid-canvas",
+      role: "application",
+      "aria-label": "Picture and cage"
+    });
     this.callout = make("div", { className: "glid-callout", role: "alert", hidden: true });
     this.hintText = make("div", { className: "glid-hint" });
     this.drop = make("div", { className: "glid-drop", hidden: true }, "Drop a picture here");
-    this.empty = make("div", { className: "glid-empty" }, make("p", {}, "Drop a picture here, or open one from a file."));
-    this.element = make("div", { className: "glid-stage" }, this.canvas, this.empty, this.callout, this.hintText, this.drop);
+    this.empty = make(
+      "div",
+      { className: "glid-empty" },
+      make("p", {}, "Drop a picture here, or open one from a file.")
+    );
+    this.element = make(
+      "div",
+      { className: "glid-stage" },
+      this.canvas,
+      this.empty,
+      this.callout,
+      this.hintText,
+      this.drop
+    );
     this.shown = this.bitmap = null;
     this.tool = "edit";
     this.listed = null;
     this.fitted = true;
-    this.view = new View(() => {
-      this.fitted = false;
-      this.changed();
-    }, { up: -1, nearest: 1 / MOST_ZOOM, farthest: 1e3 });
+    this.view = new View(
+      () => {
+        this.fitted = false;
+        this.changed();
+      },
+      { up: -1, nearest: 1 / MOST_ZOOM, farthest: 1e3 }
+    );
     this.changed = painter(this.canvas, this.view, signal, (ctx) => this.draw(ctx));
     this.pad = new Pad(this.canvas, this.view, link, this);
     this.takeFiles(upload);
@@ -929,9 +1275,16 @@ var Stage = class {
     const [w, h] = this.shown.size;
     this.hintText.textContent = this.hint();
     const below = Math.max(this.hintText.offsetHeight + 2 * HINT, MARGIN);
-    const room = [element.clientWidth - 2 * MARGIN, element.clientHeight - MARGIN - below].map((n) => Math.max(n, 1));
+    const room = [element.clientWidth - 2 * MARGIN, element.clientHeight - MARGIN - below].map(
+      (n) => Math.max(n, 1)
+    );
     const unit = Math.min(Math.max(w / room[0], h / room[1]), 1e3);
-    Object.assign(view, { x: w / 2, y: h / 2 + unit * (below - MARGIN) / 2, unit, farthest: 4 * unit });
+    Object.assign(view, {
+      x: w / 2,
+      y: h / 2 + unit * (below - MARGIN) / 2,
+      unit,
+      farthest: 4 * unit
+    });
     this.fitted = true;
     this.changed();
   }
@@ -972,7 +1325,8 @@ var Stage = class {
   };
   find(point, reach) {
     if (this.tool !== "edit" || !this.shown?.size) return null;
-    const { holes, reach_shares: shares } = this.shown, hole = holeAt(holes, point);
+    const { holes, reach_shares: shares } = this.shown;
+    const hole = holeAt(holes, point);
     const near = hole < 0 ? reach : shares.in_hole * reach;
     const vertex = nearestVertex(this.loops, point, near);
     if (vertex) return { vertex, mark: `${vertex.loop}:${vertex.index}` };
@@ -1019,13 +1373,13 @@ var Stage = class {
   }
   // The theme's colours, as a canvas takes them.
   readColors() {
-    const probe2 = this.root.appendChild(make("span"));
+    const probe = this.root.appendChild(make("span"));
     const color = (name) => {
-      probe2.style.color = `var(--glid-${name})`;
-      return getComputedStyle(probe2).color;
+      probe.style.color = `var(--glid-${name})`;
+      return getComputedStyle(probe).color;
     };
     const colors = Object.fromEntries(COLORS.map((name) => [name, color(name)]));
-    probe2.remove();
+    probe.remove();
     return colors;
   }
   // The first problem's message, beside its place.
@@ -1034,7 +1388,8 @@ var Stage = class {
     this.callout.hidden = !problem || this.pad.mode === "pan";
     if (!problem) return;
     this.callout.textContent = problem.message;
-    const { width, height } = this.view, { offsetWidth: w, offsetHeight: h } = this.callout;
+    const { width, height } = this.view;
+    const { offsetWidth: w, offsetHeight: h } = this.callout;
     const [x, y] = problem.point ? this.view.toScreen(problem.point) : [width / 2, -16];
     const below = problem.point && y + 24 + h > height ? y - 24 - h : y + 24;
     const left = Math.min(Math.max(x - w / 2, 8), width - w - 8);
@@ -1045,22 +1400,34 @@ var Stage = class {
 
 // tracer/main.js
 var HELP = [
-  ["Outline", [
-    ["V", "edit: drag a vertex, double-click an edge to add one, click a hole to drop or keep it"],
-    ["Right-click, Delete", "remove a vertex"],
-    ["[ ]", "select the vertex before, the next vertex"],
-    ["Arrow keys", "nudge the selected vertex, with Shift farther"],
-    ["Ctrl+Z, Ctrl+Shift+Z", "undo, redo"]
-  ]],
-  ["By hand", [
-    ["B, N", "paint over the shape, over the background"],
-    ["I, C", "pick the background's colour, the component"],
-    ["P, R", "draw the outline, a rectangle; Enter closes an outline, Esc gives it up"]
-  ]],
-  ["View", [
-    ["Wheel, + -, F", "zoom after a click on the picture, fit the picture"],
-    ["Drag beside the outline", "move the view"]
-  ]]
+  [
+    "Outline",
+    [
+      [
+        "V",
+        "edit: drag a vertex, double-click an edge to add one, click a hole to drop or keep it"
+      ],
+      ["Right-click, Delete", "remove a vertex"],
+      ["[ ]", "select the vertex before, the next vertex"],
+      ["Arrow keys", "nudge the selected vertex, with Shift farther"],
+      ["Ctrl+Z, Ctrl+Shift+Z", "undo, redo"]
+    ]
+  ],
+  [
+    "By hand",
+    [
+      ["B, N", "paint over the shape, over the background"],
+      ["I, C", "pick the background's colour, the component"],
+      ["P, R", "draw the outline, a rectangle; Enter closes an outline, Esc gives it up"]
+    ]
+  ],
+  [
+    "View",
+    [
+      ["Wheel, + -, F", "zoom after a click on the picture, fit the picture"],
+      ["Drag beside the outline", "move the view"]
+    ]
+  ]
 ];
 var PART = 1 << 20;
 function render({ model, el, signal }) {
@@ -1072,7 +1439,8 @@ function render({ model, el, signal }) {
   const act = (type, content = {}, buffers = []) => link.put({ type, ...content }, buffers);
   async function upload(file) {
     const name = file.name || "the picture";
-    let start = 0, refused = null;
+    let start = 0;
+    let refused = null;
     do {
       const data = await file.slice(start, start + PART).arrayBuffer();
       refused = await act("upload", { name, size: file.size, start, buffered: true }, [data]);
@@ -1087,7 +1455,12 @@ function render({ model, el, signal }) {
   const redo = iconButton("redo", "Redo (Ctrl+Shift+Z)", () => act("redo"));
   const back = { title: "Go back to the outline as traced", onclick: () => act("discard_edits") };
   const discard = make("button", back, "Discard edits");
-  const input = make("input", { type: "file", accept: "image/*", hidden: true, onchange: () => input.files[0] && upload(input.files[0]) });
+  const input = make("input", {
+    type: "file",
+    accept: "image/*",
+    hidden: true,
+    onchange: () => input.files[0] && upload(input.files[0])
+  });
   const open = iconButton("open", "Open a picture", () => {
     input.value = "";
     input.click();
@@ -1114,7 +1487,11 @@ function render({ model, el, signal }) {
     keys.button
   );
   const status = make("div", { className: "glid-status", role: "status", "aria-live": "polite" });
-  root.append(toolbar, make("div", { className: "glid-body" }, stage.element, panel.element), status);
+  root.append(
+    toolbar,
+    make("div", { className: "glid-body" }, stage.element, panel.element),
+    status
+  );
   keysAround(stage.element, (e) => stage.pad.keydown(e), signal, root);
   el.classList.add("glid-host");
   el.append(root);
@@ -1133,14 +1510,19 @@ function render({ model, el, signal }) {
   function showStatus() {
     const { size, loops, problems, component, discarded, doubt } = model.get("shown");
     if (!loops) return;
-    const n = loops.flat().length, count = model.get("shown").n_components;
+    const n = loops.flat().length;
+    const count = model.get("shown").n_components;
     const holes = Math.max(loops.length - 1, 0);
-    let kind = "ok", text = `Cage with ${n} vertices and ${holes || "no"} ${holes === 1 ? "hole" : "holes"}`;
+    let kind = "ok";
+    let text = `Cage with ${n} vertices and ${holes || "no"} ${holes === 1 ? "hole" : "holes"}`;
     if (link.refusal) [kind, text] = ["bad", link.refusal];
     else if (link.busy) [kind, text] = ["busy", "Working…"];
     else if (!size) [kind, text] = ["idle", "No picture yet"];
     else if (problems.length) {
-      [kind, text] = ["bad", loops.length ? "This is not a valid cage; the last valid cage is kept" : "There is no cage yet"];
+      [kind, text] = [
+        "bad",
+        loops.length ? "This is not a valid cage; the last valid cage is kept" : "There is no cage yet"
+      ];
     } else if (discarded) {
       text += " · your edits were lost with the old outline; Undo brings them back";
     } else if (count > 1) {

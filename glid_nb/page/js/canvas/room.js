@@ -2,82 +2,119 @@
 
 import { save } from "../pad/dom.js";
 
-const PAGE = 120;
-const PARTS = 330; // CSS pixels: what a notebook's page and an editor's parts need above and below
-const LEAST = 480;
-const GAP = 16; // CSS pixels: of the height, and of the width beside the plots
-const SLACK = 20; // CSS pixels: a scroll bar that comes and goes changes nothing
+/** @import { Model } from "../types.js" */
+/** @import { CanvasTraits } from "./traits.js" */
+
+// CSS pixels.
+const PAGE = 120; // what a notebook's page needs above and below
+const PARTS = 330; // what an editor's parts need
+const LEAST = 480; // of the height, and of the width beside the plots
+const GAP = 16; // between canvas and plots
+const SLACK = 20; // a scroll bar that comes and goes changes nothing
 const SETTLE = 80; // ms
 
 export class Room {
-  // The signal ends it.
+  /** @type {HTMLElement | null} the editor */
+  #root = null;
+  #last = { width: 0, height: 0, alone: 0 };
+  /** @type {ReturnType<typeof setTimeout> | undefined} */
+  #timer;
+
+  /**
+   * @param {HTMLElement} pad
+   * @param {Model<CanvasTraits>} model
+   * @param {AbortSignal} signal ends it
+   */
   constructor(pad, model, signal) {
-    Object.assign(this, { pad, model, root: null, last: [0, 0, 0] }); // width, height, alone
-    this.later = () => {
-      clearTimeout(this.timer);
-      this.timer = setTimeout(() => this.measure(), SETTLE);
-    };
-    this.observer = new ResizeObserver(this.later);
+    this.pad = pad;
+    this.model = model;
+    this.observer = new ResizeObserver(() => this.#measureSoon());
     this.observer.observe(pad);
-    const escape = (e) => {
-      if (
-        e.key !== "Escape" ||
-        !this.last[2] ||
-        pad.matches(":active, :has(.glid-menu, :popover-open)")
-      )
-        return;
-      e.stopPropagation();
-      this.alone(false);
+    window.addEventListener("resize", () => this.#measureSoon(), { signal });
+    window.addEventListener("keydown", (e) => this.#escape(e), { signal, capture: true });
+    const left = () => {
+      if (!document.fullscreenElement) this.alone(false);
     };
-    window.addEventListener("resize", this.later, { signal });
-    window.addEventListener("keydown", escape, { signal, capture: true });
-    document.addEventListener(
-      "fullscreenchange",
-      () => {
-        if (!document.fullscreenElement) this.alone(false);
-      },
-      { signal },
-    );
+    document.addEventListener("fullscreenchange", left, { signal });
     signal.addEventListener("abort", () => {
-      clearTimeout(this.timer);
+      clearTimeout(this.#timer);
       this.observer.disconnect();
     });
   }
 
-  measure() {
-    const { pad, last } = this;
-    const root = pad.closest(".glid-editor");
-    const column = pad.closest(".glid-column");
-    if (!column?.clientWidth) return;
-    if (!this.root) this.observer.observe(column.parentElement);
-    this.root = root;
-    const whole = column.parentElement.clientWidth;
-    const beside = whole - column.nextElementSibling.offsetWidth - GAP;
-    const alone = Number(root.classList.contains("glid-alone"));
-    const page = document.fullscreenElement === root ? 0 : PAGE;
-    const room = alone
-      ? [root.clientWidth, window.innerHeight - page, 1]
-      : [beside >= LEAST ? beside : whole, Math.max(LEAST, window.innerHeight - page - PARTS), 0];
-    const wider = room[0] - last[0];
-    if (wider >= 0 && wider < SLACK && room[1] === last[1] && alone === last[2]) return;
-    this.last = room;
-    save(this.model, { room: room.map(Math.floor) });
-  }
-
-  // Shows nothing but the picture, or everything again.
-  alone(on = !this.last[2]) {
-    const { root, pad, last } = this;
-    if (!root || (!on && !last[2])) return this.later();
+  /**
+   * Shows nothing but the picture, or everything again.
+   *
+   * @param {boolean} on
+   */
+  alone(on = !this.#last.alone) {
+    const root = this.#root;
+    if (!root || (!on && !this.#last.alone)) {
+      this.#measureSoon();
+      return;
+    }
     root.classList.toggle("glid-alone", on);
-    this.measure();
+    this.#measure();
     root.scrollIntoView({ block: on ? "start" : "nearest" });
-    pad.focus({ preventScroll: true });
+    this.pad.focus({ preventScroll: true });
     if (!on && document.fullscreenElement) document.exitFullscreen();
   }
 
   fullScreen() {
-    const say = (why) => save(this.model, { notice: `There is no full screen here: ${why}` });
-    if (document.fullscreenElement) document.exitFullscreen();
-    else this.root?.requestFullscreen().catch((error) => say(error.message));
+    if (document.fullscreenElement) {
+      document.exitFullscreen();
+      return;
+    }
+    this.#root?.requestFullscreen().catch((error) => {
+      save(this.model, { notice: `There is no full screen here: ${error.message}` });
+    });
+  }
+
+  /** @param {KeyboardEvent} e */
+  #escape(e) {
+    if (e.key !== "Escape" || !this.#last.alone) return;
+    if (this.pad.matches(":active, :has(.glid-menu, :popover-open)")) return; // it ends those
+    e.stopPropagation();
+    this.alone(false);
+  }
+
+  #measureSoon() {
+    clearTimeout(this.#timer);
+    this.#timer = setTimeout(() => this.#measure(), SETTLE);
+  }
+
+  #measure() {
+    /** @type {HTMLElement | null} */
+    const root = this.pad.closest(".glid-editor");
+    const column = this.pad.closest(".glid-column");
+    const around = column?.parentElement;
+    if (!root || !around || !column.clientWidth) return;
+    if (!this.#root) this.observer.observe(around);
+    this.#root = root;
+    const room = this.#roomIn(root, column, around);
+    const last = this.#last;
+    const wider = room.width - last.width;
+    const same = room.height === last.height && room.alone === last.alone;
+    if (same && wider >= 0 && wider < SLACK) return;
+    this.#last = room;
+    const numbers = [room.width, room.height, room.alone];
+    save(this.model, { room: numbers.map(Math.floor) });
+  }
+
+  /**
+   * @param {HTMLElement} root
+   * @param {Element} column with the canvas
+   * @param {HTMLElement} around the column and the plots
+   */
+  #roomIn(root, column, around) {
+    const page = document.fullscreenElement === root ? 0 : PAGE;
+    const below = window.innerHeight - page;
+    if (root.classList.contains("glid-alone")) {
+      return { width: root.clientWidth, height: below, alone: 1 };
+    }
+    const plots = /** @type {HTMLElement | null} */ (column.nextElementSibling);
+    const beside = around.clientWidth - (plots?.offsetWidth ?? 0) - GAP;
+    const width = beside >= LEAST ? beside : around.clientWidth;
+    return { width, height: Math.max(LEAST, below - PARTS), alone: 0 };
   }
 }

@@ -1,6 +1,10 @@
 // Text into the clipboard, in pages served securely and in others.
 
-// Whether the browser allowed it.
+/**
+ * Whether the browser allowed it.
+ *
+ * @param {string} text
+ */
 export async function copied(text) {
   try {
     await navigator.clipboard.writeText(text);
@@ -10,6 +14,7 @@ export async function copied(text) {
   }
 }
 
+/** @param {string} text */
 function copiedBySelection(text) {
   const focused = document.activeElement;
   const area = document.createElement("textarea");
@@ -24,6 +29,6 @@ function copiedBySelection(text) {
     return false;
   } finally {
     area.remove();
-    focused?.focus({ preventScroll: true });
+    if (focused instanceof HTMLElement) focused.focus({ preventScroll: true });
   }
 }

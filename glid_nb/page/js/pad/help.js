@@ -2,24 +2,44 @@
 
 import { make } from "./dom.js";
 
+/** @typedef {[keys: string, whatTheyDo: string]} Row */
+/** @typedef {[title: string, rows: Row[]]} Section */
+
 const OF_THE_PAD = ["pointerdown", "pointermove", "wheel", "keydown", "keyup", "contextmenu"];
 
-// Keeps an element's events from the pad below it.
+/**
+ * Keeps an element's events from the pad below it.
+ *
+ * @template {HTMLElement} T
+ * @param {T} element
+ */
 export function shield(element) {
   for (const name of OF_THE_PAD) element.addEventListener(name, (e) => e.stopPropagation());
   return element;
 }
 
-// The sections of the table are [title, rows], its rows [keys, what they do].
+/** @param {Section[]} sections */
 export function help(sections) {
-  const row = ([keys, what]) => make("tr", {}, make("th", {}, keys), make("td", {}, what));
-  const section = ([title, rows]) =>
-    make("section", {}, make("h4", {}, title), make("table", {}, ...rows.map(row)));
-  const shown = { className: "glid-help", popover: "auto", autofocus: true, tabIndex: -1 };
-  const table = shield(make("div", shown, ...sections.map(section)));
+  const table = shield(
+    make(
+      "div",
+      { className: "glid-help", popover: "auto", autofocus: true, tabIndex: -1 },
+      ...sections.map(section),
+    ),
+  );
+  table.addEventListener("click", () => table.hidePopover());
   const title = "Keys and gestures (?)";
   const look = { className: "glid-help-button", title, "aria-label": title };
   const button = shield(make("button", { ...look, popoverTargetElement: table }, "?"));
-  table.addEventListener("click", () => table.hidePopover());
-  return { table, button, toggle: () => table.togglePopover() };
+  return { table, button, toggle: () => void table.togglePopover() };
+}
+
+/** @param {Section} section */
+function section([title, rows]) {
+  return make("section", {}, make("h4", {}, title), make("table", {}, ...rows.map(row)));
+}
+
+/** @param {Row} row */
+function row([keys, what]) {
+  return make("tr", {}, make("th", {}, keys), make("td", {}, what));
 }

@@ -1,3 +1,5 @@
+// The icons of the buttons.
+
 import { make } from "./dom.js";
 
 // Outlines on a 16 x 16 grid.
@@ -28,10 +30,18 @@ const PATHS = {
   trash: "M3 4.5h10 M6.5 4.5v-2h3v2 M4.5 4.5l.6 9h5.8l.6-9",
 };
 
+/** @typedef {keyof typeof PATHS} Icon */
+
+/** @param {Icon} name */
 export function icon(name) {
   return `<svg viewBox="0 0 16 16" aria-hidden="true"><path d="${PATHS[name]}"/></svg>`;
 }
 
+/**
+ * @param {Icon} name
+ * @param {string} title
+ * @param {((e: MouseEvent) => void) | undefined} onclick
+ */
 export function iconButton(name, title, onclick, className = "glid-icon") {
   return make("button", { title, "aria-label": title, className, onclick, innerHTML: icon(name) });
 }

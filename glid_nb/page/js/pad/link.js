@@ -2,99 +2,150 @@
 // yet drawn. {view, events, buffers} goes to the kernel, {view, ack, refusal} comes back: ack is the
 // number of the last event, refusal says why it was refused.
 
+/** @import { KernelEvent, Model } from "../types.js" */
+
+/** @typedef {{ view: string, ack: number, refusal: string | null }} Answer */
+/** @typedef {{ number: number, resolve: (refusal: string | null) => void }} Promised */
+
 const BUSY_AFTER = 250; // ms without an answer until the page says that it waits
 const ACKNOWLEDGE_TIMEOUT = 2000; // ms until events are sent without an answer
 
-// Each comm of JupyterLab connects to its kernel's status for good (CommHandler in
-// @jupyterlab/services), which keeps closed widgets, their views and elements in the page. All of
-// them then do the same, so those that are connected already are enough.
-function connectNoMoreComms(kernel) {
-  const status = kernel?.statusChanged;
-  const { connect } = status ?? {};
-  if (!connect || Object.hasOwn(status, "connect")) return;
-  status.connect = (slot, receiver) =>
-    !String(slot).includes("_cleanSubshells") && connect.call(status, slot, receiver);
-}
-
 export class Link {
-  // report(): an answer came, or is overdue: `busy`, `refusal` and `idle` are others.
+  busy = false; // an answer is overdue
+  /** @type {string | null} why the kernel refused the last batch */
+  refusal = null;
+
+  view = Math.random().toString(36).slice(2);
+  /** @type {(KernelEvent & { seq: number })[]} */
+  #queue = [];
+  /** @type {ArrayBuffer[]} */
+  #buffers = [];
+  /** @type {Promised[]} */
+  #promised = [];
+  #waiting = false; // for the answer to a batch, or for its frame
+  #awaited = 0; // the number of the last event of that batch
+  #number = 0; // of the last event
+  #acknowledged = 0; // the number of the last event that was answered
+  /** @type {ReturnType<typeof setTimeout> | undefined} */
+  #overdue;
+  /** @type {ReturnType<typeof setTimeout> | undefined} */
+  #timeout;
+  #drawing = 0;
+
+  /**
+   * @param {Model<any>} model
+   * @param {HTMLElement} element its `data-idle` says whether all is answered
+   * @param {AbortSignal} signal ends it
+   * @param {() => void} report called when an answer came, or is overdue
+   */
   constructor(model, element, signal, report) {
-    Object.assign(this, { model, element, signal, report, busy: false, refusal: null });
+    this.model = model;
+    this.element = element;
+    this.signal = signal;
+    this.report = report;
     connectNoMoreComms(model.widget_manager.kernel);
-    this.view = Math.random().toString(36).slice(2);
-    this.queue = [];
-    this.buffers = [];
-    this.answers = [];
-    this.waiting = false;
-    this.number = this.acknowledged = 0;
-    element.dataset.idle = true; // all is answered
-    signal.addEventListener("abort", () => this.stop());
-    model.on("msg:custom", (message) => message.view === this.view && this.answered(message));
+    element.dataset.idle = "true";
+    signal.addEventListener("abort", () => this.#stop());
+    model.on("msg:custom", (/** @type {Answer} */ message) => {
+      if (message.view === this.view) this.#answered(message);
+    });
   }
 
+  /** Whether all events were answered. */
   get idle() {
-    return this.acknowledged === this.number;
+    return this.#acknowledged === this.#number;
   }
 
-  // An event replaces the last one that waits if both have the same `replaces`. Resolves to the
-  // kernel's refusal, or null, when the event was handled.
+  /**
+   * Sends an event, or has it wait. It replaces the last one that waits if both have the same
+   * `replaces`.
+   *
+   * @param {KernelEvent} event
+   * @param {ArrayBuffer[]} buffers
+   * @returns {Promise<string | null>} the kernel's refusal, or null, when the event was handled
+   */
   put(event, buffers = []) {
-    const seq = ++this.number;
-    const last = this.queue.at(-1);
-    if (last?.replaces && last.replaces === event.replaces) this.queue.pop();
-    this.queue.push({ ...event, seq });
-    this.buffers.push(...buffers);
-    this.element.dataset.idle = false;
-    this.flush();
-    return new Promise((resolve) => this.answers.push({ seq, resolve }));
+    this.#number += 1;
+    const number = this.#number;
+    const last = this.#queue.at(-1);
+    if (last?.replaces && last.replaces === event.replaces) this.#queue.pop();
+    this.#queue.push({ ...event, seq: number });
+    this.#buffers.push(...buffers);
+    this.element.dataset.idle = "false";
+    this.#flush();
+    return new Promise((resolve) => this.#promised.push({ number, resolve }));
   }
 
-  flush() {
-    if (this.waiting || !this.queue.length) return;
-    this.waiting = true;
-    this.awaited = this.number;
+  #flush() {
+    if (this.#waiting || !this.#queue.length) return;
+    this.#waiting = true;
+    this.#awaited = this.#number;
     try {
       const { kernel } = this.model.widget_manager; // undefined where the page does not tell
       if (kernel === null || kernel?.isDisposed) throw new Error("the kernel was shut down");
-      this.model.send({ view: this.view, events: this.queue }, undefined, this.buffers);
+      this.model.send({ view: this.view, events: this.#queue }, undefined, this.#buffers);
     } catch {
-      // The kernel is gone. Nothing is sent any more, and the page says so if it does not yet.
-      const [host, editor] = [".glid-host", ".glid-editor"].map((one) => this.element.closest(one));
-      (editor ?? host).classList.add("jupyter-widgets-disconnected");
+      this.#markDisconnected();
       return;
     }
-    [this.queue, this.buffers] = [[], []];
-    this.overdue = setTimeout(() => {
+    this.#queue = [];
+    this.#buffers = [];
+    this.#overdue = setTimeout(() => {
       this.busy = true;
       this.report();
     }, BUSY_AFTER);
-    this.timeout = setTimeout(() => this.release(), ACKNOWLEDGE_TIMEOUT);
+    this.#timeout = setTimeout(() => this.#release(), ACKNOWLEDGE_TIMEOUT);
   }
 
-  answered({ ack, refusal }) {
-    if (ack === this.awaited) clearTimeout(this.overdue);
-    this.acknowledged = Math.max(this.acknowledged, ack);
-    Object.assign(this, { busy: false, refusal });
-    this.element.dataset.idle = this.idle;
-    const due = this.answers.filter(({ seq }) => seq <= ack);
-    this.answers = this.answers.filter(({ seq }) => seq > ack);
+  // The kernel is gone. Nothing is sent any more, and the page says so if it does not yet.
+  #markDisconnected() {
+    const around = this.element.closest(".glid-editor") ?? this.element.closest(".glid-host");
+    around?.classList.add("jupyter-widgets-disconnected");
+  }
+
+  /** @param {Answer} answer */
+  #answered({ ack, refusal }) {
+    if (ack === this.#awaited) clearTimeout(this.#overdue);
+    this.#acknowledged = Math.max(this.#acknowledged, ack);
+    this.busy = false;
+    this.refusal = refusal;
+    this.element.dataset.idle = String(this.idle);
+    const due = this.#promised.filter(({ number }) => number <= ack);
+    this.#promised = this.#promised.filter(({ number }) => number > ack);
     for (const { resolve } of due) resolve(refusal);
     this.report();
-    if (ack < this.awaited) return;
+    if (ack < this.#awaited) return;
     // The frame arrived before this answer; the page's next drawing shows it.
-    if (document.hidden) this.release();
-    else this.drawing = requestAnimationFrame(() => this.release());
+    if (document.hidden) this.#release();
+    else this.#drawing = requestAnimationFrame(() => this.#release());
   }
 
-  release() {
-    this.stop();
-    this.waiting = false;
-    this.flush();
+  #release() {
+    this.#stop();
+    this.#waiting = false;
+    this.#flush();
   }
 
-  stop() {
-    clearTimeout(this.overdue);
-    clearTimeout(this.timeout);
-    cancelAnimationFrame(this.drawing);
+  #stop() {
+    clearTimeout(this.#overdue);
+    clearTimeout(this.#timeout);
+    cancelAnimationFrame(this.#drawing);
   }
+}
+
+/**
+ * Keeps comms from connecting to their kernel's status for good.
+ *
+ * Each comm of JupyterLab does so (CommHandler in @jupyterlab/services), which keeps closed widgets,
+ * their views and elements in the page. All of them then do the same, so those that are connected
+ * already are enough.
+ *
+ * @param {any} kernel
+ */
+function connectNoMoreComms(kernel) {
+  const status = kernel?.statusChanged;
+  const connect = status?.connect;
+  if (!connect || Object.hasOwn(status, "connect")) return;
+  status.connect = (/** @type {unknown} */ slot, /** @type {unknown} */ receiver) =>
+    !String(slot).includes("_cleanSubshells") && connect.call(status, slot, receiver);
 }

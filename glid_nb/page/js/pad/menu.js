@@ -1,23 +1,40 @@
-// A context menu in an element. Its rows are [label, key to show, act]; null draws a line.
+// A context menu in an element.
 
 import { make } from "./dom.js";
 import { shield } from "./help.js";
 
+/** @import { Point } from "../types.js" */
+/** @typedef {[label: string, key: string, act: () => void] | null} MenuRow null draws a line */
+
+/**
+ * @param {HTMLElement} element
+ * @param {Point} place
+ * @param {MenuRow[]} rows
+ */
 export function openMenu(element, [x, y], rows) {
   const ending = new AbortController();
+  let pressed = false; // the end of the long touch that opens the menu chooses nothing
+
   const close = () => {
     ending.abort();
     menu.remove();
     element.focus({ preventScroll: true });
   };
-  let pressed = false; // the end of the long touch that opens the menu chooses nothing
-  const step = (by) => {
+  const step = (/** @type {number} */ by) => {
     const items = [...menu.querySelectorAll("button")];
-    items.at((items.indexOf(document.activeElement) + by) % items.length).focus();
+    const present = items.indexOf(/** @type {HTMLButtonElement} */ (document.activeElement));
+    items.at((present + by) % items.length)?.focus();
   };
+  /** @type {Record<string, () => void>} */
   const keys = { ArrowDown: () => step(1), ArrowUp: () => step(-1), Escape: close, Tab: close };
-  const row = ([label, key, act]) => {
-    const onclick = (e) => (pressed || !e.detail) && [close(), act()];
+  const item = (/** @type {MenuRow} */ row) => {
+    if (!row) return make("hr");
+    const [label, key, act] = row;
+    const onclick = (/** @type {MouseEvent} */ e) => {
+      if (!pressed && e.detail) return; // by a hand that did not press here
+      close();
+      act();
+    };
     return make("button", { role: "menuitem", onclick }, label, make("kbd", {}, key));
   };
   const menu = shield(
@@ -26,26 +43,40 @@ export function openMenu(element, [x, y], rows) {
       {
         className: "glid-menu",
         role: "menu",
-        onpointerdown: () => (pressed = true),
-        oncontextmenu: (e) => e.preventDefault(),
-        onkeydown: (e) => keys[e.key] && [e.preventDefault(), keys[e.key]()],
+        onpointerdown: () => {
+          pressed = true;
+        },
+        oncontextmenu: (/** @type {Event} */ e) => e.preventDefault(),
+        onkeydown: (/** @type {KeyboardEvent} */ e) => {
+          if (!keys[e.key]) return;
+          e.preventDefault();
+          keys[e.key]();
+        },
       },
-      ...rows.map((one) => (one ? row(one) : make("hr"))),
+      ...rows.map(item),
     ),
   );
   element.querySelector(".glid-menu")?.remove();
   element.append(menu);
-  const within = (at, room) => `${Math.max(0, Math.min(at, room))}px`;
   menu.style.left = within(x, element.clientWidth - menu.offsetWidth);
   menu.style.top = within(y, element.clientHeight - menu.offsetHeight);
-  window.addEventListener(
-    "pointerdown",
-    (e) => {
-      if (menu.contains(e.target)) return;
-      close();
-      if (e.button === 0 && element.contains(e.target)) e.stopPropagation(); // it does no more
-    },
-    { capture: true, signal: ending.signal },
-  );
+  const pressedElsewhere = (/** @type {PointerEvent} */ e) => {
+    const target = /** @type {Node} */ (e.target);
+    if (menu.contains(target)) return;
+    close();
+    if (e.button === 0 && element.contains(target)) e.stopPropagation(); // it does no more
+  };
+  window.addEventListener("pointerdown", pressedElsewhere, {
+    capture: true,
+    signal: ending.signal,
+  });
   step(1);
+}
+
+/**
+ * @param {number} at CSS pixels
+ * @param {number} room
+ */
+function within(at, room) {
+  return `${Math.max(0, Math.min(at, room))}px`;
 }

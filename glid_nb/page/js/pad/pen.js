@@ -1,49 +1,102 @@
-// A function that has draw(context) fill a canvas in the next frame, in the CSS pixels of a view,
-// however often it is called until then.
+// Drawing on a 2D canvas, in CSS pixels.
+
+import { penOf } from "./dom.js";
+
+/** @import { Point, Strokes } from "../types.js" */
+/** @typedef {CanvasRenderingContext2D} Pen */
+
+/**
+ * A function that has draw(pen) fill a canvas in the next frame, in the CSS pixels of a view,
+ * however often it is called until then.
+ *
+ * @param {HTMLCanvasElement} canvas
+ * @param {{ width: number, height: number }} view
+ * @param {AbortSignal} signal ends it
+ * @param {(pen: Pen) => void} draw
+ */
 export function painter(canvas, view, signal, draw) {
   let due = 0;
   signal.addEventListener("abort", () => cancelAnimationFrame(due));
   return () => {
-    due ||= requestAnimationFrame(() => {
+    if (due) return;
+    due = requestAnimationFrame(() => {
       due = 0;
-      draw(clearedContext(canvas, view));
+      draw(clearedPen(canvas, view));
     });
   };
 }
 
-function clearedContext(canvas, { width, height }) {
+/**
+ * @param {HTMLCanvasElement} canvas
+ * @param {{ width: number, height: number }} view
+ */
+function clearedPen(canvas, { width, height }) {
   const ratio = window.devicePixelRatio || 1;
-  const size = [Math.round(width * ratio), Math.round(height * ratio)];
-  if (canvas.width !== size[0] || canvas.height !== size[1]) [canvas.width, canvas.height] = size;
-  const ctx = canvas.getContext("2d");
-  ctx.setTransform(ratio, 0, 0, ratio, 0, 0);
-  ctx.clearRect(0, 0, width, height);
-  return ctx;
+  const wide = Math.round(width * ratio);
+  const high = Math.round(height * ratio);
+  if (canvas.width !== wide || canvas.height !== high) {
+    canvas.width = wide;
+    canvas.height = high;
+  }
+  const pen = penOf(canvas);
+  pen.setTransform(ratio, 0, 0, ratio, 0, 0);
+  pen.clearRect(0, 0, width, height);
+  return pen;
 }
 
-export function circle(ctx, [x, y], radius, styles, dash) {
-  ctx.beginPath();
-  ctx.arc(x, y, radius, 0, 2 * Math.PI);
-  strokePath(ctx, styles, dash);
+/**
+ * @param {Pen} pen
+ * @param {Point} centre
+ * @param {number} radius
+ * @param {Strokes} strokes
+ * @param {number[]} [dash]
+ */
+export function circle(pen, [x, y], radius, strokes, dash) {
+  pen.beginPath();
+  pen.arc(x, y, radius, 0, 2 * Math.PI);
+  strokePath(pen, strokes, dash);
 }
 
-export function disk(ctx, place, radius, fill, stroke, width) {
-  circle(ctx, place, radius, []);
-  ctx.fillStyle = fill;
-  ctx.fill();
-  if (stroke) strokePath(ctx, [[width, stroke]]);
+/**
+ * @param {Pen} pen
+ * @param {Point} place
+ * @param {number} radius
+ * @param {string} fill
+ * @param {string} [stroke]
+ * @param {number} width
+ */
+export function disk(pen, place, radius, fill, stroke, width = 1) {
+  circle(pen, place, radius, []);
+  pen.fillStyle = fill;
+  pen.fill();
+  if (stroke) strokePath(pen, [[width, stroke]]);
 }
 
-// Begins a path along lines of points, by default closed.
-export function tracePath(ctx, lines, closed = true) {
-  ctx.beginPath();
+/**
+ * Begins a path along lines of points, by default closed.
+ *
+ * @param {Pen} pen
+ * @param {Point[][]} lines
+ * @param {boolean} closed
+ */
+export function tracePath(pen, lines, closed = true) {
+  pen.beginPath();
   for (const line of lines) {
-    line.forEach(([x, y], i) => (i ? ctx.lineTo(x, y) : ctx.moveTo(x, y)));
-    if (closed) ctx.closePath();
+    line.forEach(([x, y], i) => {
+      if (i) pen.lineTo(x, y);
+      else pen.moveTo(x, y);
+    });
+    if (closed) pen.closePath();
   }
 }
 
-// The corners of a rectangle between two opposite ones.
+/**
+ * The corners of a rectangle between two opposite ones.
+ *
+ * @param {Point} corner
+ * @param {Point} opposite
+ * @returns {Point[]}
+ */
 export function rectangle([left, top], [right, bottom]) {
   return [
     [left, top],
@@ -53,19 +106,33 @@ export function rectangle([left, top], [right, bottom]) {
   ];
 }
 
-// Fills the inside of lines of points, by default with their holes left out, and keeps their path.
-export function fillPath(ctx, lines, style, rule = "evenodd") {
-  tracePath(ctx, lines);
-  ctx.fillStyle = style;
-  ctx.fill(rule);
+/**
+ * Fills the inside of lines of points, by default with their holes left out, and keeps their path.
+ *
+ * @param {Pen} pen
+ * @param {Point[][]} lines
+ * @param {string | CanvasPattern} style
+ * @param {CanvasFillRule} rule
+ */
+export function fillPath(pen, lines, style, rule = "evenodd") {
+  tracePath(pen, lines);
+  pen.fillStyle = style;
+  pen.fill(rule);
 }
 
-// Strokes the present path in widths and colours, the lowest first.
-export function strokePath(ctx, styles, dash = []) {
-  ctx.setLineDash(dash);
-  for (const [lineWidth, strokeStyle] of styles) {
-    Object.assign(ctx, { lineWidth, strokeStyle });
-    ctx.stroke();
+/**
+ * Strokes the present path.
+ *
+ * @param {Pen} pen
+ * @param {Strokes} strokes
+ * @param {number[]} dash
+ */
+export function strokePath(pen, strokes, dash = []) {
+  pen.setLineDash(dash);
+  for (const [width, style] of strokes) {
+    pen.lineWidth = width;
+    pen.strokeStyle = style;
+    pen.stroke();
   }
-  ctx.setLineDash([]);
+  pen.setLineDash([]);
 }

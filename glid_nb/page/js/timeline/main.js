@@ -4,7 +4,7 @@ import { Motion } from "../motion/motion.js";
 import { follow, make, toFloats } from "../pad/dom.js";
 import { icon, iconButton } from "../pad/icons.js";
 import { Link } from "../pad/link.js";
-import { undoOrRedo } from "../pad/pad.js";
+import { undoOrRedo } from "../pad/keys.js";
 import { Player } from "./player.js";
 
 const EASINGS = [

@@ -4,7 +4,7 @@ import { follow, make } from "../pad/dom.js";
 import { help } from "../pad/help.js";
 import { iconButton } from "../pad/icons.js";
 import { Link } from "../pad/link.js";
-import { keysAround } from "../pad/pad.js";
+import { keysAround } from "../pad/keys.js";
 import { makePanel } from "./panel.js";
 import { Stage, TOOLS } from "./stage.js";
 
