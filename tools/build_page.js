@@ -38,6 +38,9 @@ export async function bundles() {
     bundle: true,
     write: false,
     charset: "utf8",
+    // Every widget's model and every exported page holds its script.
+    minifyWhitespace: true,
+    lineLimit: 100,
     target: "es2022",
     logLevel: "warning",
   };

@@ -38,7 +38,11 @@ export interface Model<Traits = Record<string, any>> {
   save_changes(): void;
   send(content: unknown, callbacks?: unknown, buffers?: ArrayBuffer[]): void;
   on(names: string, listener: (...values: any[]) => void, context?: unknown): void;
-  off(names: string | null, listener?: ((...values: any[]) => void) | null, context?: unknown): void;
+  off(
+    names: string | null,
+    listener?: ((...values: any[]) => void) | null,
+    context?: unknown,
+  ): void;
   trigger(name: string, ...values: unknown[]): void;
   widget_manager: any;
 }

@@ -13,8 +13,7 @@ import { bytesOf, cornersOf, restored, unpacked } from "./unpack.js";
 /** @import { Course } from "./course.js" */
 /** @import { PageData } from "./data.js" */
 
-// What the colours say, by the number in picture.frag.
-/** @type {Record<string, string>} */
+/** @type {Record<string, string>} what the colours say, by the number in picture.frag */
 const LABELS = { 2: "Stretch σ₁", 3: "Stretch σ₂", 4: "Dilatation k" };
 const LOWER = "3"; // the one whose bound is a lower one
 const PLAIN = "0"; // the picture alone

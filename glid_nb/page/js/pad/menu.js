@@ -22,7 +22,8 @@ export function openMenu(element, [x, y], rows) {
   };
   const step = (/** @type {number} */ by) => {
     const items = [...menu.querySelectorAll("button")];
-    const present = items.indexOf(/** @type {HTMLButtonElement} */ (document.activeElement));
+    const focused = /** @type {HTMLButtonElement} */ (document.activeElement);
+    const present = items.indexOf(focused);
     items.at((present + by) % items.length)?.focus();
   };
   /** @type {Record<string, () => void>} */

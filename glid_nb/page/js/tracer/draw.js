@@ -1,73 +1,132 @@
 // Draws the stage: picture, cage, vertices, holes, strokes and the places of problems.
 
-import { make } from "../pad/dom.js";
+import { make, penOf } from "../pad/dom.js";
 import { circle, disk, fillPath, rectangle, strokePath, tracePath } from "../pad/pen.js";
+
+/** @import { Found, Point } from "../types.js" */
+/** @import { Pen } from "../pad/pen.js" */
+/** @import { Stage } from "./stage.js" */
+/** @import { Shown } from "./traits.js" */
+
+/**
+ * What is drawn, with the cage's loops on the screen.
+ *
+ * @typedef {{ shown: Shown, colors: Record<string, string>, loops: Point[][] }} Scene
+ */
 
 const HALO = "rgba(255, 255, 255, 0.9)";
 const SPECK = 12; // CSS pixels; dropped holes smaller than this show under the pointer only
 const CHECK = 8; // CSS pixels per square of the checkerboard under transparent pictures
 
-export function drawStage(ctx, stage, hover) {
-  const { view, colors, shown, bitmap, painting } = stage;
+/**
+ * @param {Pen} pen
+ * @param {Stage} stage
+ * @param {Scene} scene
+ * @param {Found | null} hover
+ */
+export function drawStage(pen, stage, scene, hover) {
+  const { shown, colors, loops } = scene;
+  const { view } = stage;
+  const [width, height] = shown.size ?? [0, 0];
   const corner = view.toScreen([0, 0]);
-  const extent = shown.size.map((n) => n / view.unit);
-  ctx.fillStyle = checks(ctx, colors);
-  ctx.fillRect(...corner, ...extent);
-  if (bitmap) {
-    ctx.imageSmoothingEnabled = 6 * view.unit > 1;
-    ctx.imageSmoothingQuality = "high";
-    ctx.drawImage(bitmap, ...corner, ...extent);
+  drawPicture(pen, stage, colors, corner, [width / view.unit, height / view.unit]);
+  if (loops.length && !stage.painting) {
+    const frame = rectangle(corner, view.toScreen([width, height]));
+    fillPath(pen, [...loops, frame], colors.veil); // what lies outside the cage fades
   }
-  const loops = stage.loops.map((loop) => view.line(loop));
-  if (loops.length && !painting) {
-    // what lies outside the cage fades
-    fillPath(ctx, [...loops, rectangle(corner, view.toScreen(shown.size))], colors.veil);
+  drawHoles(pen, stage, scene, hover);
+  if (stage.brushing || shown.options.method === "scribbles") drawStrokes(pen, stage, scene);
+  if (loops.length && !(stage.drawing && shown.doubt)) drawCage(pen, stage, scene, hover);
+  if (stage.drawing) drawOutline(pen, stage, scene);
+  for (const { point } of shown.problems) {
+    if (!point) continue;
+    circle(pen, view.toScreen(point), 13, [
+      [5, HALO],
+      [2.25, colors.warn],
+    ]);
   }
+}
+
+/**
+ * @param {Pen} pen
+ * @param {Stage} stage
+ * @param {Record<string, string>} colors
+ * @param {Point} corner the upper left one, on the screen
+ * @param {Point} extent
+ */
+function drawPicture(pen, { bitmap, view }, colors, corner, extent) {
+  pen.fillStyle = checks(pen, colors);
+  pen.fillRect(...corner, ...extent);
+  if (!bitmap) return;
+  pen.imageSmoothingEnabled = 6 * view.unit > 1;
+  pen.imageSmoothingQuality = "high";
+  pen.drawImage(bitmap, ...corner, ...extent);
+}
+
+/**
+ * @param {Pen} pen
+ * @param {Record<string, string>} colors
+ */
+function checks(pen, colors) {
+  const tile = make("canvas", { width: 2 * CHECK, height: 2 * CHECK });
+  const ink = penOf(tile);
+  ink.fillStyle = colors["check-light"];
+  ink.fillRect(0, 0, tile.width, tile.height);
+  ink.fillStyle = colors["check-dark"];
+  for (const at of [0, CHECK]) ink.fillRect(at, at, CHECK, CHECK);
+  return pen.createPattern(tile, "repeat") ?? colors["check-light"];
+}
+
+/**
+ * Strokes loops over wider pale lines, which are seen on dark pictures.
+ *
+ * @param {Pen} pen
+ * @param {Point[][]} loops
+ * @param {string} style
+ * @param {number} width
+ * @param {number[]} [dash]
+ */
+function strokeLoops(pen, loops, style, width, dash) {
+  pen.lineJoin = "round";
+  tracePath(pen, loops);
+  strokePath(pen, [[width + 2.25, HALO]]);
+  strokePath(pen, [[width, style]], dash);
+}
+
+/**
+ * @param {Pen} pen
+ * @param {Stage} stage
+ * @param {Scene} scene
+ * @param {Found | null} hover
+ */
+function drawHoles(pen, { view }, { shown, colors }, hover) {
   shown.holes.forEach((hole, i) => {
     const loop = view.line(hole.loop);
     const hovered = hover?.hole === i;
-    if (hovered) fillPath(ctx, [loop], colors[hole.kept ? "warn-soft" : "accent-soft"]);
+    if (hovered) fillPath(pen, [loop], colors[hole.kept ? "warn-soft" : "accent-soft"]);
     const visible = Math.sqrt(hole.area) > SPECK * view.unit;
-    if (hovered || (!hole.kept && visible)) strokeLoops(ctx, [loop], colors.faint, 1.25, [4, 3]);
+    if (hovered || (!hole.kept && visible)) strokeLoops(pen, [loop], colors.faint, 1.25, [4, 3]);
   });
-  if (stage.brushing || shown.options.method === "scribbles") drawStrokes(ctx, stage);
-  if (loops.length && !(stage.drawing && shown.doubt)) drawCage(ctx, stage, loops, hover);
-  if (stage.drawing) drawOutline(ctx, stage);
-  for (const problem of shown.problems) {
-    if (problem.point)
-      circle(ctx, view.toScreen(problem.point), 13, [
-        [5, HALO],
-        [2.25, colors.warn],
-      ]);
-  }
 }
 
-function checks(ctx, colors) {
-  const tile = make("canvas", { width: 2 * CHECK, height: 2 * CHECK });
-  const pen = tile.getContext("2d");
-  pen.fillStyle = colors["check-light"];
-  pen.fillRect(0, 0, tile.width, tile.height);
-  pen.fillStyle = colors["check-dark"];
-  for (const at of [0, CHECK]) pen.fillRect(at, at, CHECK, CHECK);
-  return ctx.createPattern(tile, "repeat");
-}
-
-// Strokes loops over wider pale lines, which are seen on dark pictures.
-function strokeLoops(ctx, loops, style, width, dash = []) {
-  ctx.lineJoin = "round";
-  tracePath(ctx, loops);
-  strokePath(ctx, [[width + 2.25, HALO]]);
-  strokePath(ctx, [[width, style]], dash);
-}
-
-function drawStrokes(ctx, { view, colors, shown, brushing, tool, pad: { path } }) {
-  const pairs = ["background", "foreground"].map((brush) => [shown.strokes[brush], colors[brush]]);
-  if (brushing && path.length) pairs.push([[path], colors[tool]]);
-  ctx.lineCap = ctx.lineJoin = "round";
-  for (const [lines, color] of pairs) {
+/**
+ * @param {Pen} pen
+ * @param {Stage} stage
+ * @param {Scene} scene
+ */
+function drawStrokes(pen, { view, brushing, tool, pad: { path } }, { shown, colors }) {
+  /** @type {[lines: Point[][], color: string][]} */
+  const painted = [
+    [shown.strokes.background, colors.background],
+    [shown.strokes.foreground, colors.foreground],
+  ];
+  if (brushing && path.length) painted.push([[path], colors[tool]]);
+  pen.lineCap = "round";
+  pen.lineJoin = "round";
+  for (const [lines, color] of painted) {
     for (const line of lines) {
-      tracePath(ctx, [view.line([...line, line.at(-1)])], false); // a dot too
-      strokePath(ctx, [
+      tracePath(pen, [view.line([...line, line[line.length - 1]])], false); // a dot too
+      strokePath(pen, [
         [8, HALO],
         [5, color],
       ]);
@@ -75,56 +134,80 @@ function drawStrokes(ctx, { view, colors, shown, brushing, tool, pad: { path } }
   }
 }
 
-function drawOutline(ctx, stage) {
-  const { view, shown } = stage;
-  const color = stage.colors.foreground;
-  tracePath(ctx, [view.line(stage.drawn())], false);
-  strokePath(ctx, [
+/**
+ * @param {Pen} pen
+ * @param {Stage} stage
+ * @param {Scene} scene
+ */
+function drawOutline(pen, stage, { shown, colors }) {
+  const { view } = stage;
+  const color = colors.foreground;
+  tracePath(pen, [view.line(stage.drawn())], false);
+  strokePath(pen, [
     [4.5, HALO],
     [2, color],
   ]);
-  for (const corner of shown.corners) disk(ctx, view.toScreen(corner), 4, "white", color, 2);
+  for (const corner of shown.corners) disk(pen, view.toScreen(corner), 4, "white", color, 2);
 }
 
-function drawCage(ctx, { view, colors, shown, painting }, loops, hover) {
+/**
+ * @param {Pen} pen
+ * @param {Stage} stage
+ * @param {Scene} scene
+ * @param {Found | null} hover
+ */
+function drawCage(pen, { view, painting }, { shown, colors, loops }, hover) {
   const color = shown.problems.length ? colors.warn : colors.accent;
-  strokeLoops(ctx, loops, color, 1.75);
+  strokeLoops(pen, loops, color, 1.75);
   if (painting) return;
   const radius = vertexRadius(loops);
   const strong = new Set([hover?.mark, ...shown.selected.map((vertex) => vertex.join(":"))]);
-  loops.forEach((loop, i) =>
+  loops.forEach((loop, i) => {
     loop.forEach((vertex, j) => {
       const seen = strong.has(`${i}:${j}`);
       const r = seen ? radius + 1.75 : radius;
-      disk(ctx, vertex, r + 1, HALO);
-      disk(ctx, vertex, r, seen ? color : "white", color, 1.5);
-    }),
-  );
-  if (hover?.edge) drawPlus(ctx, view.toScreen(hover.edge.foot), color);
+      disk(pen, vertex, r + 1, HALO);
+      disk(pen, vertex, r, seen ? color : "white", color, 1.5);
+    });
+  });
+  if (hover?.edge) drawPlus(pen, view.toScreen(hover.edge.foot), color);
 }
 
-// Smaller where vertices are close together.
-function vertexRadius(loops) {
-  const edges = loops.flatMap((loop) => loop.map((a, i) => [a, loop[(i + 1) % loop.length]]));
-  const total = edges.reduce((sum, [[x, y], [u, v]]) => sum + Math.hypot(u - x, v - y), 0);
-  return Math.min(4, Math.max(1.75, (total / Math.max(edges.length, 1)) * 0.16));
+/**
+ * Smaller where vertices are close together.
+ *
+ * @param {Point[][]} loops
+ */
+export function vertexRadius(loops) {
+  let total = 0;
+  let count = 0;
+  for (const loop of loops) {
+    loop.forEach(([x, y], i) => {
+      const [u, v] = loop[(i + 1) % loop.length];
+      total += Math.hypot(u - x, v - y);
+    });
+    count += loop.length;
+  }
+  return Math.min(4, Math.max(1.75, (total / Math.max(count, 1)) * 0.16));
 }
 
-function drawPlus(ctx, [x, y], color) {
-  disk(ctx, [x, y], 7, "white", color, 1.5);
-  tracePath(
-    ctx,
-    [
-      [
-        [x - 3.5, y],
-        [x + 3.5, y],
-      ],
-      [
-        [x, y - 3.5],
-        [x, y + 3.5],
-      ],
-    ],
-    false,
-  );
-  ctx.stroke();
+/**
+ * @param {Pen} pen
+ * @param {Point} place
+ * @param {string} color
+ */
+function drawPlus(pen, [x, y], color) {
+  disk(pen, [x, y], 7, "white", color, 1.5);
+  /** @type {Point[]} */
+  const across = [
+    [x - 3.5, y],
+    [x + 3.5, y],
+  ];
+  /** @type {Point[]} */
+  const upright = [
+    [x, y - 3.5],
+    [x, y + 3.5],
+  ];
+  tracePath(pen, [across, upright], false);
+  pen.stroke();
 }

@@ -6,12 +6,22 @@ import { Pad } from "../pad/pad.js";
 import { painter, rectangle } from "../pad/pen.js";
 import { View } from "../pad/view.js";
 import { drawStage } from "./draw.js";
+import { TOOLS } from "./tools.js";
+
+/** @import { Found, Mark, Point } from "../types.js" */
+/** @import { Link } from "../pad/link.js" */
+/** @import { Behaviour } from "../pad/pad.js" */
+/** @import { Pen } from "../pad/pen.js" */
+/** @import { Shown, Tool } from "./traits.js" */
 
 const REACH = { mouse: 9, pen: 12, touch: 18 }; // CSS pixels around the pointer
 const ZOOM = 1.25; // by a button or a key
-const MARGIN = 24;
-const HINT = 8; // CSS pixels around a picture that fits, and below the hint
+const MARGIN = 24; // CSS pixels around a picture that fits
+const HINT = 8; // CSS pixels above and below the hint
+const CALLOUT = 24; // CSS pixels between a problem's place and its message
+const EDGE = 8; // CSS pixels between the message and the edge
 const MOST_ZOOM = 40; // CSS pixels per pixel of the picture
+const FARTHEST = 1e3; // pixels of the picture per CSS pixel
 const COLORS = [
   "accent",
   "accent-soft",
@@ -24,65 +34,58 @@ const COLORS = [
   "check-light",
   "check-dark",
 ];
-export const TOOLS = {
-  // what their buttons say, and a hint over the picture
-  edit: [
-    "Edit vertices and holes (V)",
-    "Drag a vertex · double-click an edge to add one · right-click a vertex to delete it · click a hole to drop it",
-  ],
-  foreground: ["Paint over the shape (B)", "Paint over the shape"],
-  background: ["Paint over the background (N)", "Paint over what is around the shape"],
-  color: ["Pick the background's colour (I)", "Click a pixel that shows the background's colour"],
-  component: ["Pick the component to trace (C)", "Click the part of the picture to trace"],
-  polygon: [
-    "Draw the outline by hand (P)",
-    "Click corner after corner, or draw around the shape · double-click or Enter closes it · Esc starts anew",
-  ],
-  rectangle: ["Draw a rectangle (R)", "Drag a rectangle over the shape"],
-};
 const KEYS = /^(Arrow\w+|Delete|Backspace|Escape|Enter|[[\]vbnicpr])$/i;
 
+/** @implements {Behaviour} */
 export class Stage {
-  // root defines the colours as CSS variables; upload(file) takes a dropped picture.
+  canvas = make("canvas", {
+    className: "glid-canvas",
+    role: "application",
+    "aria-label": "Picture and cage",
+  });
+  callout = make("div", { className: "glid-callout", role: "alert", hidden: true });
+  hintText = make("div", { className: "glid-hint" });
+  drop = make("div", { className: "glid-drop", hidden: true }, "Drop a picture here");
+  empty = make(
+    "div",
+    { className: "glid-empty" },
+    make("p", {}, "Drop a picture here, or open one from a file."),
+  );
+
+  /** @type {Shown | null} */
+  shown = null;
+  /** @type {ImageBitmap | null} */
+  bitmap = null;
+  /** @type {Tool} */
+  tool = "edit";
+  /** @type {Record<string, string> | null} the theme's, as a canvas takes them */
+  colors = null;
+
+  #turn = 0; // counts the pictures, to tell the newest
+  #closed = false;
+  /** @type {Found | null} the hole below the pointer in the list */
+  #listed = null;
+  #fitted = true; // until a hand moves the view
+
+  /**
+   * @param {HTMLElement} root defines the colours as CSS variables
+   * @param {Link} link
+   * @param {(file: File) => void} upload takes a dropped picture
+   * @param {AbortSignal} signal
+   */
   constructor(root, link, upload, signal) {
     this.root = root;
-    this.canvas = make("canvas", {
-      className: "glid-canvas",
-      role: "application",
-      "aria-label": "Picture and cage",
-    });
-    this.callout = make("div", { className: "glid-callout", role: "alert", hidden: true });
-    this.hintText = make("div", { className: "glid-hint" });
-    this.drop = make("div", { className: "glid-drop", hidden: true }, "Drop a picture here");
-    this.empty = make(
-      "div",
-      { className: "glid-empty" },
-      make("p", {}, "Drop a picture here, or open one from a file."),
-    );
-    this.element = make(
-      "div",
-      { className: "glid-stage" },
-      this.canvas,
-      this.empty,
-      this.callout,
-      this.hintText,
-      this.drop,
-    );
-    this.shown = this.bitmap = null;
-    this.tool = "edit";
-    this.listed = null; // the hole below the pointer in the list
-    this.fitted = true; // until a hand moves the view
-    this.view = new View(
-      () => {
-        this.fitted = false;
-        this.changed();
-      },
-      { up: -1, nearest: 1 / MOST_ZOOM, farthest: 1e3 },
-    );
-    this.changed = painter(this.canvas, this.view, signal, (ctx) => this.draw(ctx));
+    const parts = [this.canvas, this.empty, this.callout, this.hintText, this.drop];
+    this.element = make("div", { className: "glid-stage" }, ...parts);
+    const moved = () => {
+      this.#fitted = false;
+      this.changed();
+    };
+    this.view = new View(moved, { up: -1, nearest: 1 / MOST_ZOOM, farthest: FARTHEST });
+    this.changed = painter(this.canvas, this.view, signal, (pen) => this.#draw(pen));
     this.pad = new Pad(this.canvas, this.view, link, this);
-    this.takeFiles(upload);
-    this.resizer = new ResizeObserver(() => this.resize());
+    this.#takeFiles(upload);
+    this.resizer = new ResizeObserver(() => this.#resize());
     this.resizer.observe(this.element);
     // JupyterLab changes its theme by attributes of the body.
     const themeChanged = () => {
@@ -91,32 +94,47 @@ export class Stage {
     };
     this.themes = new MutationObserver(themeChanged);
     this.themes.observe(document.body, { attributes: true });
-    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", themeChanged, { signal });
+    const dark = matchMedia("(prefers-color-scheme: dark)");
+    dark.addEventListener("change", themeChanged, { signal });
   }
 
   close() {
     this.resizer.disconnect();
     this.themes.disconnect();
-    this.turn = null; // a picture that is still decoded comes too late
-    this.bitmap = this.bitmap?.close(); // none: a redraw may still come
+    this.#closed = true; // a picture that is still decoded comes too late
+    this.bitmap?.close();
+    this.bitmap = null; // a redraw may still come
   }
 
-  takeFiles(upload) {
-    const on = (name, act) =>
-      this.element.addEventListener(name, (e) => {
+  /** @param {(file: File) => void} upload */
+  #takeFiles(upload) {
+    const { drop, element } = this;
+    const on = (
+      /** @type {"dragenter" | "dragover" | "dragleave" | "drop"} */ name,
+      /** @type {(e: DragEvent) => void} */ act,
+    ) =>
+      element.addEventListener(name, (e) => {
         e.preventDefault();
         e.stopPropagation();
         act(e);
       });
-    for (const name of ["dragenter", "dragover"]) on(name, () => (this.drop.hidden = false));
-    on("dragleave", (e) => (this.drop.hidden ||= !this.element.contains(e.relatedTarget)));
+    const invite = () => {
+      drop.hidden = false;
+    };
+    on("dragenter", invite);
+    on("dragover", invite);
+    on("dragleave", (e) => {
+      const inside = element.contains(/** @type {Node | null} */ (e.relatedTarget));
+      if (!inside) drop.hidden = true;
+    });
     on("drop", (e) => {
-      this.drop.hidden = true;
-      const file = e.dataTransfer.files[0];
+      drop.hidden = true;
+      const file = e.dataTransfer?.files[0];
       if (file) upload(file);
     });
   }
 
+  /** @param {Shown} shown */
   update(shown) {
     const before = this.shown?.size;
     this.shown = shown;
@@ -125,22 +143,29 @@ export class Stage {
     this.pad.hover(); // something else may lie below the pointer now
   }
 
+  /** @param {DataView<ArrayBuffer> | null} bytes */
   async setPicture(bytes) {
-    const turn = (this.turn = (this.turn ?? 0) + 1);
+    this.#turn += 1;
+    const turn = this.#turn;
     const bitmap = bytes?.byteLength ? await createImageBitmap(new Blob([bytes])) : null;
-    if (turn !== this.turn) return bitmap?.close(); // a newer one has come
+    if (turn !== this.#turn || this.#closed) {
+      bitmap?.close(); // a newer one has come
+      return;
+    }
     this.bitmap?.close();
     this.bitmap = bitmap;
     this.changed();
   }
 
+  /** @param {Tool} tool */
   setTool(tool) {
     this.tool = tool;
     this.pad.hover();
   }
 
+  /** @param {number | null} index */
   highlightHole(index) {
-    this.listed = index === null ? null : { hole: index };
+    this.#listed = index === null ? null : { hole: index };
     this.changed();
   }
 
@@ -148,39 +173,39 @@ export class Stage {
     const { view, element } = this;
     if (!this.shown?.size) return;
     const [w, h] = this.shown.size;
-    this.hintText.textContent = this.hint(); // it takes two lines where it is narrow
+    this.hintText.textContent = this.#hint(null); // it takes two lines where it is narrow
     const below = Math.max(this.hintText.offsetHeight + 2 * HINT, MARGIN);
-    const room = [element.clientWidth - 2 * MARGIN, element.clientHeight - MARGIN - below].map(
-      (n) => Math.max(n, 1),
-    );
-    const unit = Math.min(Math.max(w / room[0], h / room[1]), 1e3);
-    Object.assign(view, {
-      x: w / 2,
-      y: h / 2 + (unit * (below - MARGIN)) / 2,
-      unit,
-      farthest: 4 * unit,
-    });
-    this.fitted = true;
+    const wide = Math.max(element.clientWidth - 2 * MARGIN, 1);
+    const high = Math.max(element.clientHeight - MARGIN - below, 1);
+    const unit = Math.min(Math.max(w / wide, h / high), FARTHEST);
+    view.x = w / 2;
+    view.y = h / 2 + (unit * (below - MARGIN)) / 2;
+    view.unit = unit;
+    view.farthest = 4 * unit;
+    this.#fitted = true;
     this.changed();
   }
 
+  /** @param {boolean} closer */
   zoom(closer) {
     this.view.zoom(closer ? 1 / ZOOM : ZOOM);
   }
 
-  resize() {
-    const { clientWidth: width, clientHeight: height } = this.element;
-    if (!width || !height) return;
-    if (this.fitted) this.fit();
-    Object.assign(this.view, { width, height });
+  #resize() {
+    const { clientWidth, clientHeight } = this.element;
+    if (!clientWidth || !clientHeight) return;
+    if (this.#fitted) this.fit();
+    this.view.width = clientWidth;
+    this.view.height = clientHeight;
     this.changed();
   }
 
-  // The loops, with vertices that are dragged where the pointer is.
+  /** The loops, with vertices that are dragged where the pointer is. */
   get loops() {
     const loops = this.shown?.loops ?? [];
-    if (!this.pad.held.size) return loops;
-    return loops.map((loop, i) => loop.map((point, j) => this.pad.held.get(`${i}:${j}`) ?? point));
+    const { held } = this.pad;
+    if (!held.size) return loops;
+    return loops.map((loop, i) => loop.map((point, j) => held.get(`${i}:${j}`) ?? point));
   }
 
   get brushing() {
@@ -191,15 +216,12 @@ export class Stage {
     return this.tool === "polygon" || this.tool === "rectangle";
   }
 
-  get painting() {
-    return this.brushing || this.drawing;
-  }
-
-  // The pad's options
+  // The pad's behaviour
 
   reach = REACH;
   keys = KEYS;
   wheelNeedsFocus = true;
+  /** @type {Record<string, () => void>} */
   actions = {
     "+": () => this.zoom(true),
     "=": () => this.zoom(true),
@@ -207,6 +229,15 @@ export class Stage {
     f: () => this.fit(),
   };
 
+  get painting() {
+    return this.brushing || this.drawing;
+  }
+
+  /**
+   * @param {Point} point
+   * @param {number} reach
+   * @returns {Found | null}
+   */
   find(point, reach) {
     if (this.tool !== "edit" || !this.shown?.size) return null;
     const { holes, reach_shares: shares } = this.shown;
@@ -219,60 +250,77 @@ export class Stage {
     return hole < 0 ? null : { hole };
   }
 
-  held({ vertex: { loop, index }, mark }) {
-    return new Map([[mark, this.loops[loop][index]]]);
+  /**
+   * @param {Found} found
+   * @returns {Map<Mark, Point>}
+   */
+  held({ vertex, mark }) {
+    if (!vertex || mark === undefined) return new Map();
+    return new Map([[mark, this.loops[vertex.loop][vertex.index]]]);
   }
 
+  /** @param {Found | null} found */
   pans(found) {
     return !found?.vertex && !this.painting;
   }
 
+  /** @param {Found | null} found */
   cursor(found) {
-    if (this.tool !== "edit") return this.tool === "component" ? "pointer" : "crosshair";
-    return found?.vertex
-      ? "grab"
-      : found?.edge
-        ? "copy"
-        : found?.hole !== undefined
-          ? "pointer"
-          : "default";
+    if (this.tool === "component") return "pointer";
+    if (this.tool !== "edit") return "crosshair";
+    if (found?.vertex) return "grab";
+    if (found?.edge) return "copy";
+    return found?.hole === undefined ? "default" : "pointer";
   }
 
   // Drawing
 
-  draw(ctx) {
+  /** @param {Pen} pen */
+  #draw(pen) {
     const { shown, pad, view } = this;
     if (!shown || !view.width) return;
-    this.colors ??= this.readColors();
-    const hover = this.listed ?? (pad.mode === "pan" ? null : pad.found);
-    if (shown.size) drawStage(ctx, this, hover);
+    this.colors ??= this.#readColors();
+    const below = pad.mode === "pan" ? null : pad.found;
+    const hover = this.#listed ?? below;
+    if (shown.size) drawStage(pen, this, this.#scene(shown, this.colors), hover);
     const [left, top] = view.toScreen([0, 0]);
     this.element.dataset.viewport = `${1 / view.unit} ${left} ${top}`; // for tests and assistive tools
-    this.placeCallout();
-    this.hintText.textContent = shown.size ? this.hint(hover) : "";
+    this.#placeCallout(shown);
+    this.hintText.textContent = shown.size ? this.#hint(hover) : "";
   }
 
-  // The outline that is being drawn, as far as it goes.
+  /**
+   * @param {Shown} shown
+   * @param {Record<string, string>} colors
+   */
+  #scene(shown, colors) {
+    return { shown, colors, loops: this.loops.map((loop) => this.view.line(loop)) };
+  }
+
+  /** The outline that is being drawn, as far as it goes. */
   drawn() {
     const { path, rests } = this.pad;
     const now = rests ? [this.view.toWorld(rests)] : [];
-    if (this.tool === "polygon") return this.shown.corners.concat(path.length ? path : now);
+    if (this.tool === "polygon") {
+      const corners = this.shown?.corners ?? [];
+      return corners.concat(path.length ? path : now);
+    }
     if (!path.length || !now.length) return [];
     return [...rectangle(path[0], now[0]), path[0]];
   }
 
-  hint(hover) {
-    const hole = this.shown.holes[hover?.hole];
+  /** @param {Found | null} hover */
+  #hint(hover) {
+    const hole = hover?.hole === undefined ? undefined : this.shown?.holes[hover.hole];
     if (hole) return hole.kept ? "Click to drop this hole" : "Click to keep this hole";
     if (hover?.edge) return "Double-click to add a vertex here";
     if (hover?.vertex) return "Drag to move · right-click or Delete to delete";
-    return TOOLS[this.tool][1];
+    return TOOLS[this.tool].hint;
   }
 
-  // The theme's colours, as a canvas takes them.
-  readColors() {
+  #readColors() {
     const probe = this.root.appendChild(make("span"));
-    const color = (name) => {
+    const color = (/** @type {string} */ name) => {
       probe.style.color = `var(--glid-${name})`;
       return getComputedStyle(probe).color;
     };
@@ -281,18 +329,23 @@ export class Stage {
     return colors;
   }
 
-  // The first problem's message, beside its place.
-  placeCallout() {
-    const problem = this.shown.problems[0];
-    this.callout.hidden = !problem || this.pad.mode === "pan";
+  /**
+   * The first problem's message, beside its place.
+   *
+   * @param {Shown} shown
+   */
+  #placeCallout(shown) {
+    const { callout, view } = this;
+    const problem = shown.problems[0];
+    callout.hidden = !problem || this.pad.mode === "pan";
     if (!problem) return;
-    this.callout.textContent = problem.message;
-    const { width, height } = this.view;
-    const { offsetWidth: w, offsetHeight: h } = this.callout;
-    const [x, y] = problem.point ? this.view.toScreen(problem.point) : [width / 2, -16];
-    const below = problem.point && y + 24 + h > height ? y - 24 - h : y + 24;
-    const left = Math.min(Math.max(x - w / 2, 8), width - w - 8);
-    const top = Math.min(Math.max(below, 8), height - h - 8);
-    this.callout.style.transform = `translate(${left}px, ${top}px)`;
+    callout.textContent = problem.message;
+    const { offsetWidth: w, offsetHeight: h } = callout;
+    const [x, y] = problem.point ? view.toScreen(problem.point) : [view.width / 2, -16];
+    const fitsBelow = !problem.point || y + CALLOUT + h <= view.height;
+    const beside = fitsBelow ? y + CALLOUT : y - CALLOUT - h;
+    const left = Math.min(Math.max(x - w / 2, EDGE), view.width - w - EDGE);
+    const top = Math.min(Math.max(beside, EDGE), view.height - h - EDGE);
+    callout.style.transform = `translate(${left}px, ${top}px)`;
   }
 }
