@@ -1,4 +1,4 @@
-// What the modules share and anywidget hands them. Their own types stand beside their code, in JSDoc.
+// What several modules share, and what anywidget hands them. Other types are JSDoc beside the code.
 
 /** (x, y), in the coordinates that the name or the comment tells. */
 export type Point = [number, number];

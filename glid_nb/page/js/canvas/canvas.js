@@ -175,8 +175,8 @@ export class Canvas {
     this.view.centreOn(targets[now]);
   }
 
-  // While the timeline shows a motion, the first touch goes back to the pose that is edited. A click
-  // on an arrow at the edge brings its pin into view. The pad hears of neither.
+  // Handles two kinds of input before the pad does. While a motion is seen, the first touch goes
+  // back to the pose that is edited. A click on an arrow at the edge brings its pin into view.
   #takeFirst() {
     const goBack = (/** @type {Event} */ e) => {
       if (!this.shapes.motion) return;
@@ -208,7 +208,7 @@ export class Canvas {
     );
   }
 
-  // A refusal becomes the notice; an error is none yet.
+  // Shows a refusal as the notice.
   #report() {
     const { busy, refusal } = this.link;
     if (!busy && refusal && refusal !== this.model.get("notice")) this.say(refusal);

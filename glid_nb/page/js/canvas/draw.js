@@ -1,6 +1,6 @@
 // What is drawn over the shape: pins, other poses' outlines, stiff areas, the brush, the lasso.
 //
-// A pin's target is a cyan disk, its image a black dot, and a line leads from one to the other. Those
+// A pin's target is a cyan disk, its image a black dot, and a line leads from one to the other. Pins
 // that another part of the shape covers are faint rings.
 
 import { make, penOf } from "../pad/dom.js";

@@ -25,7 +25,8 @@ export const HELP = [
       ["Shift and drag, Ctrl and drag", "select the pins in a box, in a lasso"],
       [
         ", .",
-        "select the pin before, the next pin, and bring it into view; so does a click on an arrow at the edge",
+        "select the pin before, the next pin, and bring it into view; " +
+          "so does a click on an arrow at the edge",
       ],
       ["Esc", "cancel a drag; select nothing"],
     ],

@@ -96,8 +96,8 @@ function pinAt(marks, reached, point, reach) {
  *
  * @param {View} view
  * @param {Point[]} targets
- * @returns {{ at: Point, target: Point, angle: number }[]} where an arrow is on the screen, the point
- *   in the world, and the arrow's direction
+ * @returns {{ at: Point, target: Point, angle: number }[]} where an arrow is on the screen, the
+ *   point in the world, and the arrow's direction
  */
 export function arrowsTo(view, targets) {
   return targets

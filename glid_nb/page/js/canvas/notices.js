@@ -1,4 +1,4 @@
-// What the canvas says in words: a refusal, else what the hand can do now; how far the warming up is.
+// What the canvas says in words: a refusal, or what the hand can do now; how far it has warmed up.
 
 import { make } from "../pad/dom.js";
 

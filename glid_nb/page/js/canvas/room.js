@@ -73,7 +73,8 @@ export class Room {
   /** @param {KeyboardEvent} e */
   #escape(e) {
     if (e.key !== "Escape" || !this.#last.alone) return;
-    if (this.pad.matches(":active, :has(.glid-menu, :popover-open)")) return; // it ends those
+    // Escape ends a drag or closes a menu first.
+    if (this.pad.matches(":active, :has(.glid-menu, :popover-open)")) return;
     e.stopPropagation();
     this.alone(false);
   }

@@ -7,8 +7,8 @@ import { make, penOf, toFloats } from "../pad/dom.js";
 /** @import { CanvasTraits } from "./traits.js" */
 
 /**
- * What the timeline shows instead of the pose that is edited: coefficients, or true for the kernel's
- * frames; null for that pose.
+ * What the timeline shows instead of the pose that is edited: coefficients, or true where the kernel
+ * sends the frames; null for that pose.
  *
  * @typedef {Float32Array | true | null} Seen
  */

@@ -2,7 +2,7 @@
 
 import type { Point } from "../types.js";
 
-/** Angle and scale of the ring around the pin that was selected last, and whether each is wanted. */
+/** Angle and scale of the pin that was selected last, and whether each is wanted. */
 export type Ring = [angle: number, scale: number, turned: boolean, scaled: boolean];
 
 export interface Marks {

@@ -1,11 +1,12 @@
-// A motion as `playing` in `glid_nb.export.page` describes it: arrays at knots in time, mixed between
-// them. A map depends linearly on its coefficients, so the mixed ones show exactly what is proved.
+// A motion as `playing` in `glid_nb.export.page` describes it: arrays at knots in time, and mixed ones
+// in between. A map depends linearly on its coefficients, so they show exactly what is proved.
 
 /** @typedef {"once" | "loop" | "ping-pong"} Repeat */
 
 export class Motion {
   /**
-   * @param {{ times: number[], repeat: Repeat }} values the knots' times, of a ping-pong's way there
+   * @param {{ times: number[], repeat: Repeat }} values the knots' times; of a ping-pong, those of
+   *   the way there
    * @param {Float32Array} floats the arrays of all knots, one after the other
    */
   constructor({ times, repeat }, floats) {

@@ -31,8 +31,8 @@ export function keysAround(element, act, signal, whole = element) {
     return inside ? editor : null;
   };
 
-  // A click on any part of the editor focuses it; after one on a tab, so does this, and when Undo,
-  // which has the focus, runs out.
+  // Keeps the focus in the editor: a click on any part can focus it. A click on a tab focuses it.
+  // So does a button that has the focus and is disabled, such as Undo when nothing is left.
   const refocus = (/** @type {Event} */ e) => {
     const editor = editorAround(e);
     if (!editor) return;

@@ -1,6 +1,6 @@
-// Messages to the kernel. Events are gathered while the last batch is not answered, or its frame not
-// yet drawn. {view, events, buffers} goes to the kernel, {view, ack, refusal} comes back: ack is the
-// number of the last event, refusal says why it was refused.
+// Messages to the kernel. Events wait while the last batch is not answered, or its frame not drawn.
+// {view, events} goes to the kernel with buffers, {view, ack, refusal} comes back: `ack` is the number
+// of the last event, `refusal` says why it was refused.
 
 /** @import { KernelEvent, Model } from "../types.js" */
 
@@ -136,9 +136,8 @@ export class Link {
 /**
  * Keeps comms from connecting to their kernel's status for good.
  *
- * Each comm of JupyterLab does so (CommHandler in @jupyterlab/services), which keeps closed widgets,
- * their views and elements in the page. All of them then do the same, so those that are connected
- * already are enough.
+ * Each comm of JupyterLab connects (CommHandler in @jupyterlab/services), which keeps closed widgets,
+ * their views and elements in the page. All of them do the same then, so those of now are enough.
  *
  * @param {any} kernel
  */

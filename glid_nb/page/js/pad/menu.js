@@ -32,7 +32,7 @@ export function openMenu(element, [x, y], rows) {
     if (!row) return make("hr");
     const [label, key, act] = row;
     const onclick = (/** @type {MouseEvent} */ e) => {
-      if (!pressed && e.detail) return; // by a hand that did not press here
+      if (!pressed && e.detail) return; // the pointer was pressed elsewhere
       close();
       act();
     };

@@ -26,9 +26,9 @@ import { distance } from "./view.js";
  * @property {(found: Found | null, e: PointerEvent) => "box" | "lasso" | null} [encloses] what the
  *   left button draws around things
  * @property {() => void} [tapped] the space bar was pressed and let go, and nothing was dragged
- * @property {(place: Point, found: Found | null) => void} [menu] opens the menu of what is there, by
- *   the right button or a long touch
- * @property {boolean} [wheelNeedsFocus] whether the wheel zooms only while the element has the focus
+ * @property {(place: Point, found: Found | null) => void} [menu] opens the menu of what is there,
+ *   by the right button or a long touch
+ * @property {boolean} [wheelNeedsFocus] whether the wheel zooms only while the pad has the focus
  */
 
 /** @typedef {Partial<PointerEvent & KeyboardEvent>} Pressed what of an event the kernel reads */

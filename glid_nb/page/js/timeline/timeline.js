@@ -1,4 +1,4 @@
-// The timeline below the canvas: keyframes with thumbnails, what is proved between them, a playhead.
+// The timeline below the canvas: keyframes with thumbnails, the proof between them, a playhead.
 
 import { Motion } from "../motion/motion.js";
 import { make, toFloats } from "../pad/dom.js";

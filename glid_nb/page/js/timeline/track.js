@@ -260,7 +260,7 @@ export class Track {
   }
 
   /**
-   * It snaps to keyframes.
+   * Goes to the time below the pointer; near a keyframe to its time.
    *
    * @param {PointerEvent} e
    */

@@ -284,7 +284,8 @@ export class Stage {
     const hover = this.#listed ?? below;
     if (shown.size) drawStage(pen, this, this.#scene(shown, this.colors), hover);
     const [left, top] = view.toScreen([0, 0]);
-    this.element.dataset.viewport = `${1 / view.unit} ${left} ${top}`; // for tests and assistive tools
+    // For tests and assistive tools.
+    this.element.dataset.viewport = `${1 / view.unit} ${left} ${top}`;
     this.#placeCallout(shown);
     this.hintText.textContent = shown.size ? this.#hint(hover) : "";
   }

@@ -3,11 +3,13 @@
 /** @import { Section } from "../pad/help.js" */
 /** @import { Tool } from "./traits.js" */
 
-/** @type {Record<Tool, { label: string, hint: string }>} what buttons say, and a hint over the picture */
+/** @type {Record<Tool, { label: string, hint: string }>} the button's title, and a hint */
 export const TOOLS = {
   edit: {
     label: "Edit vertices and holes (V)",
-    hint: "Drag a vertex · double-click an edge to add one · right-click a vertex to delete it · click a hole to drop it",
+    hint:
+      "Drag a vertex · double-click an edge to add one · " +
+      "right-click a vertex to delete it · click a hole to drop it",
   },
   foreground: { label: "Paint over the shape (B)", hint: "Paint over the shape" },
   background: {
@@ -24,7 +26,9 @@ export const TOOLS = {
   },
   polygon: {
     label: "Draw the outline by hand (P)",
-    hint: "Click corner after corner, or draw around the shape · double-click or Enter closes it · Esc starts anew",
+    hint:
+      "Click corner after corner, or draw around the shape · " +
+      "double-click or Enter closes it · Esc starts anew",
   },
   rectangle: { label: "Draw a rectangle (R)", hint: "Drag a rectangle over the shape" },
 };

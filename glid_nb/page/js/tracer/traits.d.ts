@@ -1,5 +1,5 @@
-// What the kernel says of a tracing: the traits of `CageTracer` in glid_nb/widgets/tracer.py. Points
-// are in pixels of the picture.
+// What the kernel says of a tracing: the traits of `CageTracer` in glid_nb/widgets/tracer.py.
+// Points are in pixels of the picture.
 
 import type { Point } from "../types.js";
 
