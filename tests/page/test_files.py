@@ -51,6 +51,8 @@ def test_shaders_without_three_js_say_their_version_first() -> None:
 
 def test_no_file_holds_the_marks_of_a_merge() -> None:
     files = [path for path in Path(glid_nb.__file__).parent.rglob("*") if path.suffix in _TEXTS]
-    marked = [path for path in files if re.search("^(<{7}|>{7}) ", path.read_text(), re.MULTILINE)]
+    marked = [
+        path for path in files if re.search("^(<{7}|>{7}) ", path.read_text("utf-8"), re.MULTILINE)
+    ]
     assert files
     assert marked == []
