@@ -4,7 +4,8 @@
 # make pythons  the fast tests, the demo and a chapter on every other Python of this machine, and on
 #               the oldest one with the oldest libraries that pyproject.toml allows
 # make leaks  half an hour in a browser: memory in long sessions, cells that run again, a new user's walk
-# make lint   ruff, pyright, and the linters of the workflows
+# make lint   ruff, pyright, biome and tsc for JavaScript, and the linters of the workflows
+# make page   bundles the JavaScript of glid_nb/page anew; make page-tests tests it
 # make install-tests  builds the distributions, installs them and the course, and runs them; needs the package index
 # make dev    the development environment with everything
 # make compare  the paper's comparisons measured anew (half an hour); ARGUMENTS=--help tells more
@@ -24,16 +25,23 @@ WORKERS = $(shell expr $$(nproc) + 1)
 # Without bytecode every process of the tests compiles the package and the test files anew.
 unexport PYTHONDONTWRITEBYTECODE
 
-.PHONY: demo test unit install-tests pythons chapter leaks lint format dev compare bench gpu docs notebooks browser clean
+.PHONY: demo test unit page page-tests install-tests pythons chapter leaks lint format dev compare bench gpu docs notebooks browser clean
 .DEFAULT_GOAL := demo
 
 demo: $(VENV)/.demo
 	$(VENV)/bin/glid-nb demo --out glid-nb-demo
 
 # --no-skip: a test that would be skipped because something is missing fails instead.
-test: $(VENV)/.test browser
+test: $(VENV)/.test browser page-tests
 	$(PYTEST) -p no:nbval --no-skip -n $(WORKERS) --dist worksteal --durations 25 --ignore tests/notebooks
 	$(PYTEST) --nbval --nbval-current-env --no-skip -n $(WORKERS) --dist loadfile notebooks tests/notebooks
+
+# Needs node, which the extra `page` brings; all else uses the bundles that lie in the repository.
+page: node_modules/.package-lock.json
+	tools/npm.sh run --silent build
+
+page-tests: node_modules/.package-lock.json
+	tools/npm.sh test --silent
 
 unit: $(VENV)/.test
 	$(PYTEST) -p no:nbval --no-skip -m "not slow and not browser" -n auto tests
@@ -50,17 +58,19 @@ install-tests: $(VENV)/.test
 leaks: $(VENV)/.test browser
 	$(PYTEST) -p no:nbval --no-skip -s --minutes 10 -m long tests/widgets
 
-lint: $(VENV)/.dev
+lint: $(VENV)/.dev node_modules/.package-lock.json
 	$(VENV)/bin/ruff check .
 	$(VENV)/bin/ruff format --check .
 	$(VENV)/bin/pyright --pythonpath $(VENV)/bin/python
+	tools/npm.sh run --silent lint
 	$(VENV)/bin/check-jsonschema --builtin-schema vendor.github-workflows .github/workflows/*.yml
 	$(VENV)/bin/check-jsonschema --builtin-schema vendor.dependabot .github/dependabot.yml
 	$(VENV)/bin/zizmor --offline --quiet .github
 
-format: $(VENV)/.dev
+format: $(VENV)/.dev node_modules/.package-lock.json
 	$(VENV)/bin/ruff check --fix .
 	$(VENV)/bin/ruff format .
+	tools/npm.sh run --silent format
 
 dev: $(VENV)/.dev
 
@@ -104,7 +114,15 @@ $(VENV)/.docs: pyproject.toml checker/pyproject.toml tools/environment.sh tools/
 
 $(VENV)/.dev: pyproject.toml checker/pyproject.toml tools/environment.sh tools/pythons.sh
 	tools/environment.sh dev
-	touch $@ $(VENV)/.test $(VENV)/.docs $(VENV)/.studies $(VENV)/.demo
+	touch $@ $(VENV)/.test $(VENV)/.docs $(VENV)/.page $(VENV)/.studies $(VENV)/.demo
+
+$(VENV)/.page: pyproject.toml checker/pyproject.toml tools/environment.sh tools/pythons.sh
+	tools/environment.sh page
+	touch $@ $(VENV)/.demo
+
+node_modules/.package-lock.json: package.json package-lock.json | $(VENV)/.page
+	tools/npm.sh ci
+	touch $@
 
 clean:
-	rm -rf $(VENV) glid-nb-demo artefacts build dist site
+	rm -rf $(VENV) node_modules glid-nb-demo artefacts build dist site

@@ -20,7 +20,7 @@ LAYERS = (
     ("certificate", "imaging"),
     ("solvers",),
     ("methods", "motion"),
-    ("figures",),
+    ("figures", "page"),
     ("samples", "export"),
     ("session",),
     ("widgets",),

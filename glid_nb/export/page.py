@@ -6,7 +6,6 @@ import json
 import re
 import zlib
 from collections.abc import Callable, Sequence
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -15,22 +14,21 @@ from numpy.typing import ArrayLike
 from glid_nb._arguments import check_type
 from glid_nb._arrays import Array
 from glid_nb._errors import InputError
-from glid_nb._scripts import bundle, glsl
 from glid_nb.certificate import Certificate, global_injectivity
 from glid_nb.certificate.rounding import rounded_down, rounded_up
 from glid_nb.export.moving import MovingMesh, check_picture
 from glid_nb.figures.style import COLORS, rgb
 from glid_nb.geometry import Domain
-from glid_nb.harmonic import FixedPoints, HarmonicMap, ShaderMap
+from glid_nb.harmonic import FixedPoints, HarmonicMap
 from glid_nb.imaging import PixelFrame, as_rgba8, png
 from glid_nb.imaging.bleed import bled
 from glid_nb.imaging.progress import Progress, report
 from glid_nb.imaging.render import MARGIN
 from glid_nb.motion import Motion, MotionCertificate
 from glid_nb.motion.settings import checked
+from glid_nb.page import ShaderMap, bundle, stylesheet, template, webgl2_shaders
 from glid_nb.pose import Pose
 
-_FOLDER = Path(__file__).parent
 _VERTICES = 4000
 _TOLERANCE = 0.004  # world units; the picture is 20 long
 _GRID_LINES = 20  # along the longer side
@@ -45,21 +43,6 @@ _OVERLAPS = {
     "no": "parts of the shape lie over one another",
     "undecided": "whether parts lie over one another is not known",
 }
-# What three.js puts before the shaders of the canvas.
-_VERTEX = """#version 300 es
-#define attribute in
-#define varying out
-uniform mat4 projectionMatrix;
-const mat4 modelViewMatrix = mat4(1.0);
-in vec3 position;
-"""
-_FRAGMENT = f"""#version 300 es
-#define varying in
-#define texture2D texture
-#define gl_FragColor shown
-#define N_COLORS {len(COLORS)}
-#define ENERGY_DENSITY 0.0
-"""
 
 
 def page_html(
@@ -106,12 +89,12 @@ def page_html(
     parts = {
         "title": html.escape(title),
         "caption": html.escape(_caption(map, proof)),
-        "style": _read("page.css"),
-        "script": bundle("../../export/page.js"),
+        "style": stylesheet("exported"),
+        "script": bundle("exported"),
         "data": json.dumps(data, allow_nan=False),
     }
     # One pass, so that inserted text is not searched for placeholders.
-    page = re.sub(r"\{\{(\w+)\}\}", lambda found: parts[found[1]], _read("page.html"))
+    page = re.sub(r"\{\{(\w+)\}\}", lambda found: parts[found[1]], template("exported"))
     report(progress, 3, 3)
     return page
 
@@ -134,11 +117,9 @@ def _shape(mesh: MovingMesh, step: float) -> dict[str, Any]:
 def _shaders(mesh: MovingMesh, shown: HarmonicMap | Motion, step: float) -> dict[str, Any]:
     domain = shown.domain
     shader = ShaderMap(domain)
-    wire, head = shader.wire, shader.defines() + glsl("harmonic.glsl")
-    # Blocks hold more than plain uniforms do.
-    head = re.sub(r"uniform vec4 (\w+)(\[\w+\]);", r"uniform \1_block { vec4 \1\2; };", head)
+    wire = shader.wire
     if in_kernel := shader.n_chain > _LONGEST_CHAIN:
-        points, head = FixedPoints(domain, mesh.vertices), glsl("image_buffer.glsl")
+        points = FixedPoints(domain, mesh.vertices)
 
         def wire(map: HarmonicMap) -> bytes:
             return np.concatenate(points(map), axis=1).astype("<f4").tobytes()
@@ -151,10 +132,10 @@ def _shaders(mesh: MovingMesh, shown: HarmonicMap | Motion, step: float) -> dict
     undeformed = wire(HarmonicMap.identity(domain))
     rows = np.frombuffer(undeformed + arrays, "<f4").reshape(-1, len(undeformed) // 4)
     step = max(step, float(np.linalg.norm(rows, axis=1).max()) / _MOST_STEPS)
-    parts = (glsl(name) for name in ("colors.glsl", "energy.glsl", "picture.frag"))
+    vertex, fragment = webgl2_shaders("picture", None if in_kernel else shader, len(COLORS))
     return {
-        "vertex": _VERTEX + head + glsl("picture.vert"),
-        "fragment": _FRAGMENT + "\n".join(["precision highp float; out vec4 shown;", *parts]),
+        "vertex": vertex,
+        "fragment": fragment,
         "motion": motion,
         "coefficients": _factored(rows, step, 6 if in_kernel else 4),
         "width": rows.shape[1],
@@ -163,7 +144,7 @@ def _shaders(mesh: MovingMesh, shown: HarmonicMap | Motion, step: float) -> dict
 
 
 def playing(motion: Motion, wire: Callable[[HarmonicMap], bytes]) -> tuple[dict[str, Any], bytes]:
-    """What ``widgets/js/motion/motion.js`` plays: JSON values, and the float32 arrays of knots.
+    """What ``page/js/motion/motion.js`` plays: JSON values, and the float32 arrays of knots.
 
     ``wire`` writes the array of a map, on which it depends linearly; between two knots all moves on
     straight lines. ``times`` are the knots', of a ping-pong's way there only, with the easing in
@@ -254,7 +235,3 @@ def _packed(values: Array, step: float) -> dict[str, Any]:
 
 def _base64(data: Any) -> str:
     return base64.b64encode(data).decode("ascii")
-
-
-def _read(name: str) -> str:
-    return (_FOLDER / name).read_text(encoding="utf-8")

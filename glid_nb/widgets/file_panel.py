@@ -13,9 +13,9 @@ import traitlets
 
 from glid_nb._errors import InputError
 from glid_nb._files import zipped
-from glid_nb._scripts import bundle
 from glid_nb.export.formats import FORMATS, MOTION_FORMATS, file_names
 from glid_nb.imaging.read import MAX_SIDE, png
+from glid_nb.page import bundle
 from glid_nb.session.animation import Animation
 from glid_nb.session.document import DocumentError
 from glid_nb.session.editor_model import EditorModel, open_document
@@ -152,7 +152,7 @@ class OpenPanel(Asking, ipywidgets.VBox):
 class Clipboard(anywidget.AnyWidget):
     """An invisible widget through which the page copies text and downloads files."""
 
-    _esm = bundle("clipboard/main.js")
+    _esm = bundle("clipboard")
 
     def __init__(self) -> None:
         super().__init__(layout={"display": "none"})

@@ -89,7 +89,7 @@ class PinGestures(Gestures):
         self.cursor: list[float] | None = None  # where the keyboard's cursor is
 
     def hit(self, point: Array, reach: float) -> int | None:
-        """The handle whose target, else whose image, is nearest, as in ``js/canvas/marks.js``."""
+        """The handle whose target, else whose image, is nearest; as in ``canvas/marks.js``."""
         pose = self.deformation.pose
         if not len(pose):
             return None

@@ -12,13 +12,12 @@ from numpy.typing import NDArray
 from PIL import Image
 
 from glid_nb._arrays import Array
-from glid_nb._scripts import glsl
-from glid_nb.energies import ENERGIES
 from glid_nb.figures.style import VERMILION, rgb
 from glid_nb.geometry import Domain, MeshMap, Triangulation, as_points
 from glid_nb.geometry.panels import Panels
-from glid_nb.harmonic import ShaderMap, as_complex
+from glid_nb.harmonic import as_complex
 from glid_nb.methods.mesh.operators import MeshOperators
+from glid_nb.page import ShaderMap, fragment_shader, vertex_shader
 from glid_nb.widgets.overlays import N_COLORS
 
 Uniforms = dict[str, dict[str, Any]]
@@ -62,32 +61,33 @@ class Layer:
         self._evaluate = None if isinstance(mover, ShaderMap) else mover
         if isinstance(mover, ShaderMap):
             uniforms = {**mover.uniforms(map), **uniforms}
-            head = mover.defines() + glsl("harmonic.glsl")
+            self._vertex = vertex_shader(shader, mover)
         else:
             arrays["image"], arrays["derivatives"] = mover(map)
-            head = glsl("image_buffer.glsl")
+            self._vertex = vertex_shader(shader, None)
         self.attributes = {  # what there is per vertex, by name, and the triangles
             name: three.BufferAttribute(values, normalized=values.dtype == np.uint8)
             for name, values in arrays.items()
         }
         self.n_vertices = len(points)
         self._map = map
-        self._vertex = head + glsl(f"{shader}.vert")
-        energies = energy_defines() + glsl("energy.glsl") if shader == "picture" else ""
         self._uniforms = uniforms
         self._geometry = three.BufferGeometry(attributes=self.attributes)
         self.materials: list[Any] = []  # the materials in drawing order
         self.meshes: list[Any] = []  # what is drawn, the lowest first
-        self.draw(energies + glsl(f"{shader}.frag"), uniforms, depth=shader == "picture")
+        self.draw(shader, uniforms, depth=shader == "picture")
         self.material, self.mesh = self.materials[0], self.meshes[0]
 
     def draw(
-        self, fragment: str, uniforms: Uniforms, side: str = "DoubleSide", depth: bool = False
+        self, shader: str, uniforms: Uniforms, side: str = "DoubleSide", depth: bool = False
     ) -> None:
-        """Draw the mesh once more, with another material; with ``depth`` by the points' heights."""
+        """Draw the mesh once more, by the fragment shader ``shader``.
+
+        With ``depth`` the points' heights say what is in front.
+        """
         material = three.ShaderMaterial(
             vertexShader=self._vertex,
-            fragmentShader=f"#define N_COLORS {N_COLORS}\n{glsl('colors.glsl')}\n{fragment}",
+            fragmentShader=fragment_shader(shader, N_COLORS),
             uniforms=uniforms,
             side=side,
             transparent=True,
@@ -137,7 +137,7 @@ def comparison_layer(map: MeshMap, uniforms: Uniforms, points: Array, triangles:
     layer = Layer("picture", uniforms, _evaluation_on(map.triangulation), map, points, triangles)
     # Turned-over triangles show their back, and this material draws only backs.
     mark = {"mark": {"value": [*rgb([VERMILION])[0], 0.9]}, "frame": uniforms["frame"]}
-    layer.draw(glsl("turned_over.frag"), mark, "BackSide")
+    layer.draw("turned_over", mark, "BackSide")
     return layer
 
 
@@ -155,13 +155,6 @@ def _evaluation_on(mesh: Triangulation) -> Evaluation:
         return map.images.astype(np.float32), derivatives.astype(np.float32)
 
     return evaluate
-
-
-def energy_defines() -> str:
-    """What stands before ``energy.glsl``: the density of every energy, chosen by its number."""
-    known = [energy.shader for energy in ENERGIES.values()]
-    choices = [f"energy.x < {i + 0.5} ? ({text}) : " for i, text in enumerate(known) if text]
-    return f"#define ENERGY_DENSITY {''.join(choices)}0.0\n"
 
 
 def picture_texture(image: NDArray[np.uint8]) -> Any:

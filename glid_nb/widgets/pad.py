@@ -6,7 +6,7 @@ from typing import Any
 import anywidget
 import ipywidgets
 
-from glid_nb._scripts import bundle
+from glid_nb.page import bundle
 from glid_nb.session.model import Observed
 from glid_nb.widgets.closing import ClosingWidget
 
@@ -14,14 +14,14 @@ from glid_nb.widgets.closing import ClosingWidget
 class Pad(ClosingWidget, anywidget.AnyWidget):
     """A picture on the page that takes pointers and keys: the base of the two canvases.
 
-    The page (``js/pad``) sends ``{"view": v, "events": [...]}``, one batch at a time, and waits for
-    ``{"view": v, "ack": n, "refusal": text or None}`` with the number of the last event, so the
+    The page (``page/js/pad``) sends ``{"view": v, "events": [...]}``, one batch at a time. It waits
+    for ``{"view": v, "ack": n, "refusal": text or None}`` with the number of the last event, so the
     kernel sets the pace; of the moves in between only the latest is sent. An event has a ``type``,
     a number ``seq``, what :class:`~glid_nb.widgets.gestures.Gestures` reads, and, if it is
     ``buffered``, its ``data``.
     """
 
-    _esm = bundle("pad/loader.js")  # loads `_script`, a trait of each class
+    _esm = bundle("loader")  # loads `_script`, a trait of each class
 
     def serve(
         self,

@@ -7,9 +7,9 @@ import numpy as np
 import traitlets
 
 from glid_nb._arrays import Array
-from glid_nb._scripts import bundle, stylesheet
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging import PixelFrame
+from glid_nb.page import bundle, stylesheet
 from glid_nb.widgets.closing import ClosingWidget
 from glid_nb.widgets.layers import EvaluatedIn, picture_texture
 from glid_nb.widgets.overlays import PANEL_LEGEND, legend
@@ -32,8 +32,8 @@ _FINER = 2.0  # times as many vertices are worth another mesh
 class Stage(Pad):
     """Lies over a pythreejs renderer: draws pins, sends events, gives materials coefficients."""
 
-    _script = traitlets.Unicode(bundle("canvas/main.js")).tag(sync=True)
-    _css = stylesheet("canvas/canvas.css")
+    _script = traitlets.Unicode(bundle("canvas")).tag(sync=True)
+    _css = stylesheet("canvas")
 
     width = traitlets.Int(600).tag(sync=True)
     """Width in CSS pixels; the page changes it when the corner is dragged."""

@@ -12,8 +12,9 @@ from glid_nb.certificate.certify import PanelCertificate
 from glid_nb.energies import ENERGIES, Energy, SymmetricDirichlet
 from glid_nb.figures.style import BLUE, COLORS, FULL_MARGIN, GREY, rgb
 from glid_nb.geometry import MeshMap, Triangulation, triangulate, uniform_panels
-from glid_nb.harmonic import FixedPoints, HarmonicMap, ShaderMap
+from glid_nb.harmonic import FixedPoints, HarmonicMap
 from glid_nb.imaging import Order, PixelFrame, order_of
+from glid_nb.page import ShaderMap
 from glid_nb.widgets import layers
 from glid_nb.widgets.layers import EvaluatedIn, Layer, Uniforms
 from glid_nb.widgets.overlays import MARGIN_COLORS, OVERLAYS, color_range

@@ -10,10 +10,10 @@ import numpy as np
 import traitlets
 from PIL import Image
 
-from glid_nb._scripts import bundle, stylesheet
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging.render import render
 from glid_nb.imaging.texture import Texture
+from glid_nb.page import bundle, stylesheet
 from glid_nb.session.animation import Animation, Span
 from glid_nb.session.document import NamedPose
 from glid_nb.session.edit_state import EditState
@@ -36,8 +36,8 @@ class TimelinePanel(Pad):
     button does; there is none without it.
     """
 
-    _script = traitlets.Unicode(bundle("timeline/main.js")).tag(sync=True)
-    _css = stylesheet("timeline/timeline.css")
+    _script = traitlets.Unicode(bundle("timeline")).tag(sync=True)
+    _css = stylesheet("timeline")
 
     stage = traitlets.Unicode("").tag(sync=True)
     """The identity of the canvas's stage, which the page hands coefficients to."""

@@ -12,9 +12,9 @@ import traitlets
 from numpy.typing import NDArray
 from PIL import Image
 
-from glid_nb._scripts import bundle, stylesheet
 from glid_nb.geometry import Cage, Domain
 from glid_nb.imaging import Hole, ImageSource, TraceOptions, Tracing, png
+from glid_nb.page import bundle, stylesheet
 from glid_nb.session.tracing import TracingModel
 from glid_nb.widgets.gestures import Event
 from glid_nb.widgets.pad import Pad
@@ -42,8 +42,8 @@ class CageTracer(Pad):
     0
     """
 
-    _script = traitlets.Unicode(bundle("tracer/main.js")).tag(sync=True)
-    _css = stylesheet("tracer/tracer.css")
+    _script = traitlets.Unicode(bundle("tracer")).tag(sync=True)
+    _css = stylesheet("tracer")
 
     picture = traitlets.Bytes(b"").tag(sync=True)
     """The picture that the page draws, PNG or JPEG, at most 1,600 pixels wide or high."""

@@ -27,16 +27,26 @@ window.glid = { press: null, moves: [], frames: [], bytes: 0, canvasBytes: 0, fi
     };
   }
 
-  addEventListener("pointerdown", (e) => {
-    glid.press = [e.clientX, e.clientY];
-  }, { capture: true });
-  addEventListener("pointermove", (e) => {
-    if (e.buttons) glid.moves.push([e.timeStamp, e.clientX, e.clientY]);
-  }, { capture: true });
+  addEventListener(
+    "pointerdown",
+    (e) => {
+      glid.press = [e.clientX, e.clientY];
+    },
+    { capture: true },
+  );
+  addEventListener(
+    "pointermove",
+    (e) => {
+      if (e.buttons) glid.moves.push([e.timeStamp, e.clientX, e.clientY]);
+    },
+    { capture: true },
+  );
 
   const size = (data) => data.byteLength ?? data.length;
-  const text = (data) => typeof data === "string" ? data
-    : new TextDecoder("latin1").decode(new Uint8Array(data, 0, Math.min(ID_WITHIN, size(data))));
+  const text = (data) =>
+    typeof data === "string"
+      ? data
+      : new TextDecoder("latin1").decode(new Uint8Array(data, 0, Math.min(ID_WITHIN, size(data))));
   window.WebSocket = class extends WebSocket {
     constructor(...rest) {
       super(...rest);
@@ -56,8 +66,9 @@ window.glid = { press: null, moves: [], frames: [], bytes: 0, canvasBytes: 0, fi
       const { buffer, byteOffset, byteLength } = value.data ?? value;
       const numbers = new Uint32Array(buffer.slice(byteOffset, byteOffset + byteLength));
       const stride = Math.max(1, Math.floor(numbers.length / count));
-      const sample = Array.from({ length: count }, (_, i) => numbers[i * stride])
-        .filter((n) => n !== undefined);
+      const sample = Array.from({ length: count }, (_, i) => numbers[i * stride]).filter(
+        (n) => n !== undefined,
+      );
       waiting.push((time) => glid.frames.push([time, sample]));
     });
   };

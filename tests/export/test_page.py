@@ -14,7 +14,8 @@ import pytest
 from glid_nb import Motion
 from glid_nb.certificate import certify
 from glid_nb.export import page_html
-from glid_nb.harmonic import HarmonicMap, ShaderMap
+from glid_nb.harmonic import HarmonicMap
+from glid_nb.page import ShaderMap
 
 from .shapes import bent, domain, picture
 

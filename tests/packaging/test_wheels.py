@@ -98,6 +98,19 @@ def test_the_checkers_code_is_in_its_own_wheel_alone(main: Built, checker: Built
     assert any(name.endswith("/checker/pyproject.toml") for name in names)
 
 
+def test_the_wheel_holds_the_pages_bundles_and_the_sdist_what_they_are_made_of(main: Built) -> None:
+    page = CHECKOUT / "glid_nb" / "page"
+    folders = ("built", "glsl", "html")
+    files = [path for folder in folders for path in (page / folder).iterdir()]
+    held = members(main.wheel)
+    for path in files:
+        assert held[path.relative_to(CHECKOUT).as_posix()] == path.read_bytes()
+    assert not any(name.startswith("glid_nb/page/js/") for name in held)
+    with tarfile.open(main.sdist) as archive:
+        names = {name.partition("/")[2] for name in archive.getnames()}
+    assert names >= {"glid_nb/page/js/canvas/main.js", "package-lock.json", "tools/build_page.js"}
+
+
 def test_both_carry_one_version(main: Built, checker: Built) -> None:
     versions = {built.wheel.name.split("-")[1] for built in (main, checker)}
     assert len(versions) == 1

@@ -4,22 +4,24 @@ from __future__ import annotations
 
 import base64
 import json
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 from playwright.sync_api import Page
 
+import glid_nb.page
 from glid_nb import Motion
-from glid_nb._scripts import bundle
 from glid_nb.export.page import playing
-from glid_nb.harmonic import ShaderMap
+from glid_nb.page import ShaderMap
 
 from ..domains import random_map
 
-_MIX = """({code, values, floats, times}) => {
+_MODULE = Path(glid_nb.page.__file__).parent / "js" / "motion" / "motion.js"
+_MIX = """async ({code, values, floats, times}) => {
   const bytes = Uint8Array.from(atob(floats), (c) => c.charCodeAt(0));
-  const Motion = new Function(`${code}; return Motion;`)();
+  const {Motion} = await import(`data:text/javascript,${encodeURIComponent(code)}`);
   const motion = new Motion(values, new Float32Array(bytes.buffer));
   return times.map((t) => [motion.start, motion.end, motion.within(t), motion.place(t).piece,
     ...motion.at(t)]);
@@ -40,7 +42,7 @@ def test_the_page_mixes_the_coefficients_of_the_motion(page: Page, repeat: Any) 
     times = inside if repeat == "once" else np.concatenate([inside - 5, inside, inside + 7])
     page.goto("about:blank")
     arguments = {
-        "code": bundle("motion/motion.js"),
+        "code": _MODULE.read_text(encoding="utf-8"),
         "values": json.loads(json.dumps(values)),
         "floats": base64.b64encode(floats).decode(),
         "times": times.tolist(),

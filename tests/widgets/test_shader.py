@@ -9,13 +9,12 @@ import numpy as np
 import pytest
 from playwright.sync_api import Page
 
-from glid_nb._scripts import glsl
 from glid_nb.energies import ENERGIES
 from glid_nb.geometry import triangulate
-from glid_nb.harmonic import ShaderMap
 from glid_nb.imaging import PixelFrame
 from glid_nb.imaging.order import order_of
-from glid_nb.widgets.layers import energy_defines, picture_texture
+from glid_nb.page import ShaderMap, energy_defines, glsl
+from glid_nb.widgets.layers import picture_texture
 from glid_nb.widgets.scene import Drawing, Scene, _stacked, drawing_order, energy_uniform
 
 from ..domains import NAMES, domain, random_map
@@ -123,25 +122,6 @@ def test_the_shader_agrees_with_numpy(page: Page, name: str) -> None:
     a, b = map_.wirtinger(exact)
     np.testing.assert_allclose(fz @ [1, 1j], a, atol=2e-3)
     np.testing.assert_allclose(fzb_conj @ [1, 1j], b.conj(), atol=2e-3)
-
-
-def test_the_chain_holds_every_loop_closed() -> None:
-    shader = ShaderMap(domain("twin"))
-    loops = domain("twin").offset_cage.loops_complex
-    assert shader.n_chain == sum(map(len, loops)) + len(loops)
-    starts = np.flatnonzero(~shader.cage[:, 2:].any(axis=1))
-    assert len(starts) == len(loops)
-    for start, loop in zip(starts, loops, strict=True):
-        chain = shader.cage[start : start + len(loop) + 1, :2] @ [1, 1j]
-        np.testing.assert_allclose(chain, [loop[-1], *loop], atol=1e-6)
-
-
-@pytest.mark.parametrize("name", NAMES)
-def test_no_uniform_looks_like_a_matrix(name: str) -> None:
-    """pythreejs takes lists of 2, 3, 4, 9 and 16 numbers for vectors and matrices."""
-    map_ = random_map(name, 0.1, seed=1)
-    for uniform in ShaderMap(map_.domain).uniforms(map_).values():
-        assert len(uniform["value"]) not in (2, 3, 4, 9, 16)
 
 
 def _wire_size(widget_messages: list[Any]) -> int:

@@ -1,0 +1,394 @@
+function make(tag,properties={},...children){const element=document.createElement(tag);if(element instanceof
+HTMLButtonElement)element.type="button";for(const[name,value]of Object.entries(properties)){if(name.
+startsWith("on"))element.addEventListener(name.slice(2),value);else if(name in element&&name!=="list")
+Reflect.set(element,name,value);else element.setAttribute(name,value)}element.append(...children);return element}
+function penOf(canvas){const pen=canvas.getContext("2d");if(!pen)throw new Error("this browser does \
+not draw on canvases");return pen}function save(model,changes){for(const[name,value]of Object.entries(
+changes))model.set(name,value);model.save_changes()}function toFloats(view){if(!view)return new Float32Array;
+return new Float32Array(view.buffer.slice(view.byteOffset,view.byteOffset+view.byteLength))}function follow(model,listeners){
+for(const[names,listener]of Object.entries(listeners)){model.on(names,listener);listener()}}var OF_THE_PAD=["pointerdown","pointermove","wheel","keydown","keyup","contextmenu"];function shield(element){
+for(const name of OF_THE_PAD)element.addEventListener(name,e=>e.stopPropagation());return element}function help(sections){
+const table=shield(make("div",{className:"glid-help",popover:"auto",autofocus:true,tabIndex:-1},...sections.
+map(section)));table.addEventListener("click",()=>table.hidePopover());const title="Keys and gesture\
+s (?)";const look={className:"glid-help-button",title,"aria-label":title};const button=shield(make("\
+button",{...look,popoverTargetElement:table},"?"));return{table,button,toggle:()=>void table.togglePopover()}}
+function section([title,rows]){return make("section",{},make("h4",{},title),make("table",{},...rows.
+map(row)))}function row([keys,what]){return make("tr",{},make("th",{},keys),make("td",{},what))}var PATHS={edit:"M3 2l9.5 5.2-4 1.2 2.4 4.3-1.8 1-2.4-4.3L3 12z",foreground:"M13.5 2.5l-6 6 M6.7 9.2\
+c-1.6-.5-3 .6-3.1 2.1-.1 1-.7 1.7-1.6 2 2.2.9 5.6.4 5.9-2.2 .1-.8-.4-1.6-1.2-1.9z M9.5 12.5h5 M12 10\
+v5",background:"M13.5 2.5l-6 6 M6.7 9.2c-1.6-.5-3 .6-3.1 2.1-.1 1-.7 1.7-1.6 2 2.2.9 5.6.4 5.9-2.2 .\
+1-.8-.4-1.6-1.2-1.9z M9.5 12.5h5",color:"M9 4l3 3 M10 3.2l1-1a1.6 1.6 0 0 1 2.8 2.2l-1.1 1.1 M9.6 5.\
+2L3.4 11.4 2.5 13.5l2.1-.9 6.2-6.2",component:"M8 1.5v3 M8 11.5v3 M1.5 8h3 M11.5 8h3 M8 5.2a2.8 2.8 \
+0 1 0 0 5.6 2.8 2.8 0 0 0 0-5.6z",polygon:"M8 2l5.5 4-2 7h-7l-2-7z",rectangle:"M2.5 4h11v8h-11z",undo:"\
+M5.5 3L2.5 6l3 3 M3 6h6.2a3.6 3.6 0 0 1 0 7.2H6",redo:"M10.5 3l3 3-3 3 M13 6H6.8a3.6 3.6 0 0 0 0 7.2\
+H10",fit:"M2 5.5V2h3.5 M10.5 2H14v3.5 M14 10.5V14h-3.5 M5.5 14H2v-3.5",plus:"M8 3v10 M3 8h10",minus:"\
+M3 8h10",open:"M2 12.5v-9h4l1.5 2H14v7z",play:"M5 3l8 5-8 5z",pause:"M5.5 3v10 M10.5 3v10",record:"M\
+8 4.2a3.8 3.8 0 1 0 0 7.6 3.8 3.8 0 0 0 0-7.6z",onion:"M6.2 4a4 4 0 1 0 0 8 4 4 0 0 0 0-8z M9.8 4a4 \
+4 0 1 1 0 8",copy:"M5.5 5.5h8v8h-8z M3 10.5v-8h8",export:"M8 2v8 M4.8 6.8L8 10l3.2-3.2 M3 13.5h10",trash:"\
+M3 4.5h10 M6.5 4.5v-2h3v2 M4.5 4.5l.6 9h5.8l.6-9"};function icon(name){return`<svg viewBox="0 0 16 1\
+6" aria-hidden="true"><path d="${PATHS[name]}"/></svg>`}function iconButton(name,title,onclick,className="\
+glid-icon"){return make("button",{title,"aria-label":title,className,onclick,innerHTML:icon(name)})}var TEXT="textarea, [contenteditable], input:not([type=checkbox], [type=range], [type=radio])";function undoOrRedo(e){
+if(!e.ctrlKey&&!e.metaKey)return null;const key=e.key.toLowerCase();if(key==="z")return e.shiftKey?"\
+redo":"undo";return key==="y"?"redo":null}function keysAround(element,act,signal,whole=element){const editorAround=e=>{
+const editor=element.closest(".glid-editor")??whole;const inside=editor.contains(e.target)&&element.
+checkVisibility();return inside?editor:null};const refocus=e=>{const editor=editorAround(e);if(!editor)
+return;editor.tabIndex=-1;const target=e.target;const lost=e.type==="focusout"?target.disabled:target.
+closest("[role=tab]");if(lost)editor.focus({preventScroll:true})};const keydown=e=>{const editor=editorAround(
+e);if(!editor)return;const target=e.target;const command=e.ctrlKey||e.metaKey;const outside=!element.
+contains(target);const runsTheCell=outside&&e.shiftKey&&e.key==="Enter";const ours=undoOrRedo(e)!==null||
+!(command||runsTheCell);target.toggleAttribute("data-lm-suppress-shortcuts",ours);editor.onkeydown=ours?
+bubbled=>bubbled.stopPropagation():null;if(outside&&!target.matches(TEXT)&&isForThePad(e,target))act(
+e)};const options={capture:true,signal};window.addEventListener("pointerdown",refocus,options);window.
+addEventListener("focusout",refocus,options);window.addEventListener("keydown",keydown,options)}function isForThePad(e,target){
+if(undoOrRedo(e))return!e.altKey;if(e.ctrlKey||e.metaKey||target.matches("select"))return false;const free=target.
+closest(".glid-timeline")?/^[^ ]$/:/^([^ ]|Escape|Delete)$/;return free.test(e.key)}var BUSY_AFTER=250;var ACKNOWLEDGE_TIMEOUT=2e3;var Link=class{busy=false;refusal=null;view=Math.random().
+toString(36).slice(2);#queue=[];#buffers=[];#promised=[];#waiting=false;#awaited=0;#number=0;#acknowledged=0;#overdue;#timeout;#drawing=0;constructor(model,element,signal,report){
+this.model=model;this.element=element;this.signal=signal;this.report=report;connectNoMoreComms(model.
+widget_manager.kernel);element.dataset.idle="true";signal.addEventListener("abort",()=>this.#stop());
+model.on("msg:custom",message=>{if(message.view===this.view)this.#answered(message)})}get idle(){return this.#acknowledged===
+this.#number}put(event,buffers=[]){this.#number+=1;const number=this.#number;const last=this.#queue.
+at(-1);if(last?.replaces&&last.replaces===event.replaces)this.#queue.pop();this.#queue.push({...event,
+seq:number});this.#buffers.push(...buffers);this.element.dataset.idle="false";this.#flush();return new Promise(
+resolve=>this.#promised.push({number,resolve}))}#flush(){if(this.#waiting||!this.#queue.length)return;
+this.#waiting=true;this.#awaited=this.#number;try{const{kernel}=this.model.widget_manager;if(kernel===
+null||kernel?.isDisposed)throw new Error("the kernel was shut down");this.model.send({view:this.view,
+events:this.#queue},void 0,this.#buffers)}catch{this.#markDisconnected();return}this.#queue=[];this.#buffers=
+[];this.#overdue=setTimeout(()=>{this.busy=true;this.report()},BUSY_AFTER);this.#timeout=setTimeout(
+()=>this.#release(),ACKNOWLEDGE_TIMEOUT)}#markDisconnected(){const around=this.element.closest(".gli\
+d-editor")??this.element.closest(".glid-host");around?.classList.add("jupyter-widgets-disconnected")}#answered({
+ack,refusal}){if(ack===this.#awaited)clearTimeout(this.#overdue);this.#acknowledged=Math.max(this.#acknowledged,
+ack);this.busy=false;this.refusal=refusal;this.element.dataset.idle=String(this.idle);const due=this.#promised.
+filter(({number})=>number<=ack);this.#promised=this.#promised.filter(({number})=>number>ack);for(const{
+resolve}of due)resolve(refusal);this.report();if(ack<this.#awaited)return;if(document.hidden)this.#release();else
+this.#drawing=requestAnimationFrame(()=>this.#release())}#release(){this.#stop();this.#waiting=false;
+this.#flush()}#stop(){clearTimeout(this.#overdue);clearTimeout(this.#timeout);cancelAnimationFrame(this.#drawing)}};
+function connectNoMoreComms(kernel){const status=kernel?.statusChanged;const connect=status?.connect;
+if(!connect||Object.hasOwn(status,"connect"))return;status.connect=(slot,receiver)=>!String(slot).includes(
+"_cleanSubshells")&&connect.call(status,slot,receiver)}function openMenu(element,[x,y],rows){const ending=new AbortController;let pressed=false;const close=()=>{
+ending.abort();menu.remove();element.focus({preventScroll:true})};const step=by=>{const items=[...menu.
+querySelectorAll("button")];const focused=document.activeElement;const present=items.indexOf(focused);
+items.at((present+by)%items.length)?.focus()};const keys={ArrowDown:()=>step(1),ArrowUp:()=>step(-1),
+Escape:close,Tab:close};const item=row2=>{if(!row2)return make("hr");const[label,key,act]=row2;const onclick=e=>{
+if(!pressed&&e.detail)return;close();act()};return make("button",{role:"menuitem",onclick},label,make(
+"kbd",{},key))};const menu=shield(make("div",{className:"glid-menu",role:"menu",onpointerdown:()=>{pressed=
+true},oncontextmenu:e=>e.preventDefault(),onkeydown:e=>{if(!keys[e.key])return;e.preventDefault();keys[e.
+key]()}},...rows.map(item)));element.querySelector(".glid-menu")?.remove();element.append(menu);menu.
+style.left=within(x,element.clientWidth-menu.offsetWidth);menu.style.top=within(y,element.clientHeight-
+menu.offsetHeight);const pressedElsewhere=e=>{const target=e.target;if(menu.contains(target))return;
+close();if(e.button===0&&element.contains(target))e.stopPropagation()};window.addEventListener("poin\
+terdown",pressedElsewhere,{capture:true,signal:ending.signal});step(1)}function within(at,room){return`${Math.
+max(0,Math.min(at,room))}px`}function painter(canvas,view,signal,draw){let due=0;signal.addEventListener("abort",()=>cancelAnimationFrame(
+due));return()=>{if(due)return;due=requestAnimationFrame(()=>{due=0;draw(clearedPen(canvas,view))})}}
+function clearedPen(canvas,{width,height}){const ratio=window.devicePixelRatio||1;const wide=Math.round(
+width*ratio);const high=Math.round(height*ratio);if(canvas.width!==wide||canvas.height!==high){canvas.
+width=wide;canvas.height=high}const pen=penOf(canvas);pen.setTransform(ratio,0,0,ratio,0,0);pen.clearRect(
+0,0,width,height);return pen}function circle(pen,[x,y],radius,strokes,dash){pen.beginPath();pen.arc(
+x,y,radius,0,2*Math.PI);strokePath(pen,strokes,dash)}function disk(pen,place,radius,fill,stroke,width=1){
+circle(pen,place,radius,[]);pen.fillStyle=fill;pen.fill();if(stroke)strokePath(pen,[[width,stroke]])}
+function tracePath(pen,lines2,closed=true){pen.beginPath();for(const line of lines2){line.forEach(([
+x,y],i)=>{if(i)pen.lineTo(x,y);else pen.moveTo(x,y)});if(closed)pen.closePath()}}function rectangle([
+left,top],[right,bottom]){return[[left,top],[right,top],[right,bottom],[left,bottom]]}function fillPath(pen,lines2,style,rule="\
+evenodd"){tracePath(pen,lines2);pen.fillStyle=style;pen.fill(rule)}function strokePath(pen,strokes,dash=[]){
+pen.setLineDash(dash);for(const[width,style]of strokes){pen.lineWidth=width;pen.strokeStyle=style;pen.
+stroke()}pen.setLineDash([])}var WHEEL_SPEED=.0015;var WHEEL_LINE=33;var LINES=1;var PINCH=5;function distance([x,y],[u,v]){return Math.
+hypot(x-u,y-v)}var View=class{x=0;y=0;unit=1;width=0;height=0;constructor(changed,{up=1,nearest:nearest2,
+farthest}){this.changed=changed;this.up=up;this.nearest=nearest2;this.farthest=farthest}toWorld([px,
+py]){const x=this.x+(px-this.width/2)*this.unit;const y=this.y-this.up*(py-this.height/2)*this.unit;
+return[x,y]}toScreen([x,y]){const px=(x-this.x)/this.unit+this.width/2;const py=this.up*(this.y-y)/this.
+unit+this.height/2;return[px,py]}line(points){return points.map(point=>this.toScreen(point))}centreOn([
+x,y]){this.x=x;this.y=y;this.changed()}pan(dx,dy){this.x-=dx*this.unit;this.y+=this.up*dy*this.unit;
+this.changed()}zoom(factor,place=[this.width/2,this.height/2]){const[x,y]=this.toWorld(place);const unit=Math.
+min(this.farthest,Math.max(this.nearest,this.unit*factor));this.x=x+(this.x-x)*(unit/this.unit);this.
+y=y+(this.y-y)*(unit/this.unit);this.unit=unit;this.changed()}wheel(e,place){e.preventDefault();const step=e.
+deltaMode===LINES?e.deltaY*WHEEL_LINE:e.deltaY;this.zoom(Math.exp(step*WHEEL_SPEED*(e.ctrlKey?PINCH:
+1)),place)}follow(pointers,id,place){const before=pointers.get(id)??place;const other=[...pointers].
+find(([one])=>one!==id)?.[1];const share=other?.5:1;pointers.set(id,place);this.pan(share*(place[0]-
+before[0]),share*(place[1]-before[1]));if(!other)return;const apart=one=>Math.max(distance(one,other),
+1);const middle=[(place[0]+other[0])/2,(place[1]+other[1])/2];this.zoom(apart(before)/apart(place),middle)}};var CLICK=4;var LONG_PRESS=600;var LONG_PRESS_GRACE=100;var LONG_PRESS_SLACK=8;var PATH_STEP=3;var Pad=class{pointers=new Map;mode=null;grip=null;held=new Map;path=[];encloses=null;found=null;rests=null;#start=[
+0,0];#pans=false;#space=false;#tap=false;#longPress;constructor(element,view,link,behaviour){this.element=
+element;this.view=view;this.link=link;this.behaviour=behaviour;element.tabIndex=0;link.signal.addEventListener(
+"abort",()=>clearTimeout(this.#longPress));element.addEventListener("pointerdown",e=>this.#down(e));
+element.addEventListener("pointermove",e=>this.#move(e));element.addEventListener("pointerup",e=>this.#up(
+e,"up"));element.addEventListener("pointercancel",e=>this.#up(e,"cancel"));element.addEventListener(
+"lostpointercapture",e=>this.#up(e,"cancel"));element.addEventListener("pointerleave",()=>this.hover(
+null));element.addEventListener("wheel",e=>this.#wheel(e),{passive:false});element.addEventListener(
+"contextmenu",e=>this.#contextMenu(e));element.addEventListener("keydown",e=>this.keydown(e));element.
+addEventListener("keyup",e=>this.#keyup(e));element.addEventListener("focus",()=>behaviour.changed());
+element.addEventListener("blur",()=>{this.#setSpace(false);behaviour.changed()})}get focused(){return this.
+element.matches(":focus")}place(e){const box=this.element.getBoundingClientRect();return[e.clientX-box.
+left,e.clientY-box.top]}send(type,place,e={},more={}){const[x,y]=this.view.toWorld(place);const{unit}=this.
+view;return this.link.put({type,x,y,unit,reach:this.#reach(e.pointerType)*unit,button:e.button??0,shift:Boolean(
+e.shiftKey),time:e.timeStamp??performance.now(),...more})}press(key,e){this.send("key",[this.view.width/
+2,this.view.height/2],e,{key})}hover(place=this.rests){this.rests=place;if(this.mode!==null)return;this.
+found=place&&this.#find(place,"mouse");this.#showCursor();this.behaviour.changed()}keydown(e){const command=e.
+ctrlKey||e.metaKey;const action=command?void 0:this.behaviour.actions[e.key.toLowerCase()];const history=undoOrRedo(
+e);if(!history&&!action&&e.key!==" "){if(e.altKey||!this.behaviour.keys.test(e.key)||command&&e.key!==
+"a")return}e.preventDefault();e.stopPropagation();if(e.key===" "){if(!e.repeat)this.#tap=true;this.#setSpace(
+true)}else if(action){action()}else{if(e.key==="Escape"||history)this.#drop();this.press(history??e.
+key,e)}}#keyup(e){if(e.key!==" ")return;this.#setSpace(false);if(this.#tap)this.behaviour.tapped?.()}#reach(type){
+return this.behaviour.reach[type??"mouse"]??this.behaviour.reach.mouse}#find(place,type){return this.
+behaviour.find(this.view.toWorld(place),this.#reach(type)*this.view.unit)}#down(e){if(this.pointers.
+has(e.pointerId)||this.pointers.size>1)return;e.preventDefault();this.element.focus({preventScroll:true});
+this.#tap=false;const place=this.place(e);this.pointers.set(e.pointerId,place);this.element.setPointerCapture(
+e.pointerId);const second=this.pointers.size===2;if(second)this.#takeBack(e);this.#start=place;this.
+mode=second||e.button===1||e.button===0&&this.#space?"pan":"hand";if(this.mode==="hand")this.#handDown(
+place,e);this.#showCursor()}#handDown(place,e){const{behaviour}=this;const found=this.#find(place,e.
+pointerType);const left=e.button===0;if(left&&!e.shiftKey&&found?.mark!==void 0){this.grip={from:this.
+view.toWorld(place),points:behaviour.held(found)}}this.#pans=left&&Boolean(behaviour.pans?.(found));
+this.encloses=left&&!behaviour.painting?behaviour.encloses?.(found,e):null;this.path=left?[this.view.
+toWorld(place)]:[];this.send("down",place,e,{part:found?.part});if(e.pointerType==="touch"&&behaviour.
+menu&&!behaviour.painting){this.#longPress=setTimeout(()=>this.#pressedLong(e,place),LONG_PRESS)}behaviour.
+changed()}#pressedLong(e,place){this.#longPress=setTimeout(()=>{this.#takeBack(e);this.mode=null;this.#menu(
+place,"touch")},LONG_PRESS_GRACE)}#menu(place,type){this.behaviour.menu?.(place,this.#find(place,type))}#contextMenu(e){
+e.preventDefault();e.stopPropagation();const touch=e instanceof PointerEvent&&e.pointerType==="touch";
+if(e.button===2&&!touch)this.#menu(this.place(e),"mouse")}#takeBack(e){if(this.mode==="hand")this.send(
+"cancel",this.#start,e);this.#drop()}#move(e){const place=this.place(e);const touch=e.pointerType===
+"touch";if(!this.pointers.has(e.pointerId)){if(!touch)this.hover(place);return}if(!touch)this.rests=
+place;const far=distance(place,this.#start);if(far>LONG_PRESS_SLACK)clearTimeout(this.#longPress);if(this.
+mode==="hand"&&this.#pans&&far>CLICK){this.#takeBack(e);this.mode="pan";this.#showCursor()}if(this.mode===
+"pan"){this.view.follow(this.pointers,e.pointerId,place);return}this.pointers.set(e.pointerId,place);
+if(this.mode==="hand")this.#handMoved(place,e,far)}#handMoved(place,e,far){const point=this.view.toWorld(
+place);this.#lengthenPath(place,point,far);if(!this.encloses&&!this.behaviour.painting){this.send("m\
+ove",place,e,{replaces:`move ${e.pointerId}`})}if(this.grip){const dx=point[0]-this.grip.from[0];const dy=point[1]-
+this.grip.from[1];for(const[mark,[x,y]]of this.grip.points)this.held.set(mark,[x+dx,y+dy])}this.behaviour.
+changed()}#lengthenPath(place,point,far){if(this.encloses==="box"){const[corner]=this.path;this.path=
+far>CLICK?rectangle(corner,point):[corner];return}const last=this.path.at(-1);if(last&&distance(place,
+this.view.toScreen(last))>=PATH_STEP)this.path.push(point)}#up(e,type){if(!this.pointers.has(e.pointerId))
+return;const place=this.place(e);this.pointers.delete(e.pointerId);if(this.mode==="hand"){const{path}=this;
+this.send(type,place,e,{path,encloses:Boolean(this.encloses)}).then(()=>{if(!this.grip)this.held.clear();
+if(this.path===path)this.path=[];this.behaviour.changed()})}this.#letGo();if(!this.pointers.size)this.
+mode=null;this.#showCursor()}#letGo(){clearTimeout(this.#longPress);this.grip=null;this.behaviour.changed()}#drop(){
+this.#letGo();this.held.clear();this.path=[]}#wheel(e){if(this.behaviour.wheelNeedsFocus&&!this.focused&&
+!e.ctrlKey)return;e.stopPropagation();this.view.wheel(e,this.place(e))}#setSpace(pressed){this.#space=
+pressed;this.#showCursor()}#showCursor(){this.element.style.cursor=this.#cursor()}#cursor(){if(this.
+mode==="pan"||this.grip)return"grabbing";return this.#space?"grab":this.behaviour.cursor(this.found)}};function menuRows(does,pin,covered){return[...pin?pinRows(does,pin.pinned):shapeRows(does,covered),[
+"Copy the pose","Ctrl+C",does.press("copy")],["Paste a pose","Ctrl+V",does.paste],["Swap left and ri\
+ght","M",does.press("m")],["Select all pins","A",does.press("a")],["The undeformed shape","0",does.press(
+"0")],["See everything","F",does.press("f")],["Paint stiff areas","B",does.press("b")],["The picture\
+ alone","P",does.alone],["Full screen","W",does.fullScreen],["All keys","?",does.showKeys]]}function pinRows({
+press},count){const pins=count>1?` ${count} pins`:"";return[["Bring forward","Page Up",press("PageUp")],
+["Send back","Page Down",press("PageDown")],null,[`Remove${pins}`,"Delete",press("Delete")],["Remove\
+, keep the shape","Shift+Delete",press("Delete",true)],["Leave angle and scale free","X",press("x")],
+null]}function shapeRows({pin},covered){return covered?[["Add a pin here","Click",pin],null]:[]}function nearest(things,reach){let best=null;let least=Infinity;for(const thing of things){const far=thing.
+d+(thing.loss??0);if(thing.d>reach||far>=least)continue;best=thing;least=far}return best}var KNOB=6;var KNOB_REACH=4;var RADIUS=42;var EDGE=14;var CORNER=[36,112];var ARROW_REACH=12;function dial(view,marks,held){
+const last=marks.selected.at(-1);const[angle,scale]=marks.ring;if(angle===void 0||scale===void 0)return null;
+if(last===void 0||!marks.targets[last])return null;const centre=view.toScreen(held?.get(last)??marks.
+targets[last]);const radius=RADIUS*Math.min(2.5,Math.max(.5,scale));const x=centre[0]+radius*Math.cos(
+angle);const y=centre[1]-radius*Math.sin(angle);return{centre,radius,knob:[x,y]}}function knobInCorner(view,marks,held){
+const[x,y]=dial(view,marks,held)?.knob??[0,0];return x>view.width-CORNER[0]-KNOB&&y<CORNER[1]+KNOB}function ringAt(view,marks,place,reach){
+const ring=dial(view,marks);if(!ring)return null;if(distance(place,ring.knob)<=Math.max(KNOB+KNOB_REACH,
+reach))return{part:"scale"};const far=Math.abs(distance(place,ring.centre)-ring.radius);return far<=
+reach?{part:"turn"}:null}function markAt(marks,point,reach){return pinAt(marks,false,point,reach)??pinAt(
+marks,true,point,reach)}function pinAt(marks,reached,point,reach){const places=reached?marks.images:
+marks.targets;const pins=places.map((place,mark)=>{const loss=marks.hidden.includes(mark)?reach/3:0;
+return{mark,reached,d:distance(place,point),loss}});return nearest(pins,reach)}function arrowsTo(view,targets){
+return targets.filter(target=>!inSight(view,target)).map(target=>{const[x,y]=view.toScreen(target);const height=within2(
+y,view.height);const besideButtons=height<CORNER[1]?CORNER[0]:0;const width=within2(x,view.width-besideButtons);
+return{at:[width,height],target,angle:Math.atan2(y-height,x-width)}})}function arrowAt(view,marks,place){
+const arrow=arrowsTo(view,marks.targets).find(({at})=>distance(at,place)<ARROW_REACH);return arrow?.
+target??null}function inSight(view,point){const[x,y]=view.toScreen(point);return x>=0&&y>=0&&x<=view.
+width&&y<=view.height}function within2(at,size){return Math.min(size-EDGE,Math.max(EDGE,at))}var TARGET=7.5;var IMAGE=3.5;var RING=12;var APART=2;var BORDER="rgba(255,255,255,0.85)";var PALE="r\
+gba(255,255,255,0.9)";var INK="#2b2b2b";var TARGET_FILL="#00d5e0";var TARGET_EDGE="#063f45";var HIDDEN="\
+#067a82";var CHOSEN="#0072b2";var WANTED="#d55e00";var FREE="rgba(40,40,40,0.75)";var STIFF="#4b0f7a";
+function lines(pen,pairs,strokes){pen.lineCap="round";tracePath(pen,pairs,false);strokePath(pen,strokes)}
+function drawOnion(pen,view,outlines){for(const[color,loops]of outlines){tracePath(pen,loops.map(loop=>view.
+line(loop)));strokePath(pen,[[3.6,BORDER],[1.8,color]])}}function hatching(pen,strength){const size=Math.
+round(16-9*strength);const tile=make("canvas",{width:size,height:size});const ink=penOf(tile);const diagonals=[
+[[0,size],[size,0]],[[-1,1],[1,-1]],[[size-1,size+1],[size+1,size-1]]];tracePath(ink,diagonals,false);
+strokePath(ink,[[3,"rgba(255,255,255,0.75)"],[1.5,STIFF]]);return pen.createPattern(tile,"repeat")??
+STIFF}function drawStiff(pen,view,areas,painting){pen.globalAlpha=painting?1:.4;for(const[strength,loops]of areas){
+const style=painting?hatching(pen,strength):"transparent";fillPath(pen,loops.map(loop=>view.line(loop)),
+style,"nonzero");strokePath(pen,[[3.4,BORDER],[1.5,STIFF]])}pen.globalAlpha=1}function drawBrush(pen,view,{
+radius,strength},{path,rests}){const wide=radius/view.unit;const last=path.at(-1);if(last){tracePath(
+pen,[view.line([...path,last])],false);pen.lineCap="round";pen.lineJoin="round";pen.globalAlpha=.45;
+strokePath(pen,[[2*wide,strength?STIFF:"#ffffff"]]);pen.globalAlpha=1}if(!rests)return;circle(pen,rests,
+wide,[[3.4,BORDER],[1.4,STIFF]])}function drawLasso(pen,view,path){fillPath(pen,[view.line(path)],"r\
+gba(0,114,178,0.12)");const strokes=[[3,BORDER],[1.4,CHOSEN]];strokePath(pen,strokes,[5,3])}function drawMarks(pen,view,marks,{
+hovered,held,cursor}){const targets=view.line(marks.targets.map((point,i)=>held.get(i)??point));const images=view.
+line(marks.images);drawMisses(pen,targets,images);targets.forEach((target,i)=>{if(marks.selected.includes(
+i))disk(pen,target,RING,"rgba(0,114,178,0.28)",CHOSEN,2);else if(i===hovered)disk(pen,target,RING,"r\
+gba(0,114,178,0.14)");drawTarget(pen,target,marks.hidden.includes(i))});drawRing(pen,view,marks,held);
+drawArrows(pen,view,marks);images.forEach((image,i)=>{if(marks.hidden.includes(i))return;disk(pen,image,
+IMAGE+1,PALE);disk(pen,image,IMAGE,"#111")});if(cursor)drawCursor(pen,view.toScreen(cursor))}function drawMisses(pen,targets,images){
+const pairs=targets.map((target,i)=>[images[i],target]);const apart=pairs.filter(([image,target])=>image&&
+distance(image,target)>=APART);lines(pen,apart,[[3.6,BORDER],[1.6,INK]])}function drawTarget(pen,place,hidden){
+if(!hidden){disk(pen,place,TARGET,TARGET_FILL,TARGET_EDGE,1.4);return}const strokes=[[3.4,BORDER],[1.6,
+HIDDEN]];circle(pen,place,TARGET,strokes,[3.5,2.4])}function drawRing(pen,view,marks,held){const ring=dial(
+view,marks,held);if(!ring)return;const[,,turned,scaled]=marks.ring;const{centre,radius,knob}=ring;const[
+x,y]=knob;const color=turned?WANTED:FREE;circle(pen,centre,radius,[[4,BORDER]]);circle(pen,centre,radius,
+[[2,color]],turned?[]:[6,4]);lines(pen,[[centre,knob]],[[3,BORDER],[1.2,color]]);const square=rectangle(
+[x-KNOB,y-KNOB],[x+KNOB,y+KNOB]);fillPath(pen,[square],scaled?WANTED:"#fff");strokePath(pen,[[1.6,scaled?
+"#fff":FREE]])}function drawArrows(pen,view,marks){for(const{at,angle}of arrowsTo(view,marks.targets)){
+const corner=(turn,radius)=>[at[0]+radius*Math.cos(angle+turn),at[1]+radius*Math.sin(angle+turn)];fillPath(
+pen,[[corner(0,11),corner(2.4,9),corner(-2.4,9)]],TARGET_FILL);strokePath(pen,[[1.6,TARGET_EDGE]])}}
+function drawCursor(pen,[x,y]){const arm=(dx,dy)=>[[x+4*dx,y+4*dy],[x+13*dx,y+13*dy]];lines(pen,[arm(
+1,0),arm(-1,0),arm(0,1),arm(0,-1)],[[4,PALE],[1.6,WANTED]])}var HELP=[["Pins",[["Click the shape","pin a point"],["Drag a pin, or the shape","move it there; the\
+ shape follows, and never folds"],["Right-click, long touch, Menu key","what can be done with a pin,\
+ or with the shape there"],["Delete","remove the selected pins; with Shift keep the shape"],["Ring a\
+round a pin: drag it, or its knob","turn the shape there, scale it there"],["< >, + -, X","turn, sca\
+le; leave both free again"],["Page Down, Page Up, [ ]","selected pins and what is around them go bac\
+k, come forward"],["Arrow keys","nudge selected pins, with Shift farther; else move a cursor"],["Ent\
+er","show the cursor; pin or select there"]]],["Selecting",[["Shift-click, A","select several pins, \
+all pins"],["Shift and drag, Ctrl and drag","select the pins in a box, in a lasso"],[", .","select t\
+he pin before, the next pin, and bring it into view; so does a click on an arrow at the edge"],["Esc",
+"cancel a drag; select nothing"]]],["Poses",[["Ctrl+Z, Ctrl+Shift+Z","undo, redo"],["Ctrl+C, Ctrl+V",
+"copy the pose, put it on this or a similar shape"],["M","swap left and right"],["0","back to the un\
+deformed shape"]]],["Stiff areas",[["B, E","paint what should stay as it is, erase it; Esc lays the \
+brush down"]]],["View",[["Wheel, two fingers","zoom"],["Middle button, Space and drag","move the vie\
+w"],["F","see everything"],["P","the picture alone, for lectures; Esc brings the rest back"],["W","t\
+he whole screen"]]],["Timeline",[["Space","play the motion through the poses, pause; on the canvas t\
+oo"],["Arrow keys, Home, End","step in time, with Shift to the next pose; first, last pose"],["Alt a\
+nd arrow keys","move the pose in time; Delete removes it"]]]];var Legend=class{element=make("div",{className:"glid-legend"});show(model,moving){const bars=[model.
+get("legend"),model.get("panel_legend")].filter(bar=>bar.title);this.element.replaceChildren(...bars.
+map(bar=>colorBar(bar,moving)));this.element.hidden=!bars.length;this.element.dataset.corner=model.get(
+"legend_corner")}};function colorBar({title,moving,colors,ticks,about},moves){const gradient=`backgr\
+ound: linear-gradient(to right, ${colors.join(", ")})`;const labels=ticks.map(tick=>make("span",{},tick));
+return make("div",{className:"glid-legend-part",title:about},make("div",{className:"glid-legend-titl\
+e"},moves&&moving||title),make("div",{className:"glid-legend-bar",style:gradient}),make("div",{className:"\
+glid-legend-ticks"},...labels))}var FIRST="Click the shape to pin a point, then drag the pin · ? shows all keys";var PAINT="Paint w\
+hat should stay as it is · E erases · Esc when done";var Notices=class{notice=make("div",{className:"\
+glid-notice",role:"status"});prepared=make("div",{className:"glid-prepared",role:"status"});tell(refusal,painting,first){
+const advice=painting?PAINT:first&&FIRST;const{notice}=this;notice.textContent=refusal||advice||"";notice.
+hidden=!notice.textContent;notice.classList.toggle("glid-first",!refusal)}prepare(share){const{prepared}=this;
+prepared.hidden=share>=1;prepared.textContent=`Warming up: ${Math.round(100*share)} %`;prepared.style.
+backgroundSize=`${100*share}% 100%, auto`}};var REACH={mouse:13,pen:16,touch:26};var KEYS=/^(Arrow\w+|Page\w+|Delete|Backspace|Escape|Enter|[0fa,.[\]<>+=xmbe-])$/i;
+var TARGET_TIP="where it should be. Drag it; a right click shows what else; Shift-click selects seve\
+ral";var IMAGE_TIP="where the shape has got to. The cyan disk is where it should be";var COVERED=". \
+Another part of the shape covers it";var RING_TIPS={turn:"Drag around the pin to turn the shape ther\
+e; X leaves it free again",scale:"Drag away from the pin or towards it to scale the shape there; X l\
+eaves it free again"};var PinBehaviour=class{reach=REACH;keys=KEYS;constructor(canvas){this.canvas=canvas;
+this.actions={"?":canvas.help.toggle,contextmenu:()=>canvas.openMenu(),p:()=>canvas.room?.alone(),w:()=>canvas.
+room?.fullScreen()}}get painting(){return this.canvas.painting}changed(){this.canvas.redraw()}menu(place,found){
+this.canvas.openMenu(place,found)}tapped(){this.canvas.box.dispatchEvent(new CustomEvent("glid:play",
+{bubbles:true}))}find(point,reach){const{view,marks,shapes,painting}=this.canvas;if(shapes.motion||painting)
+return null;const mark=markAt(marks,point,reach);return mark??ringAt(view,marks,view.toScreen(point),
+reach/view.unit/2)}encloses(found,e){if(found)return null;if(e.shiftKey)return"box";return e.ctrlKey||
+e.metaKey?"lasso":null}held({mark}){const{selected,targets}=this.canvas.marks;const pressed=Number(mark);
+const moved=selected.includes(pressed)?selected:[pressed];return new Map(moved.map(i=>[i,targets[i]]))}cursor(found){
+this.canvas.box.title=this.#tip(found);return found?"grab":"crosshair"}#tip(found){if(!found)return"";
+if(found.part)return RING_TIPS[found.part];const{marks,model}=this.canvas;const mark=Number(found.mark);
+const name=["Pin",mark+1,model.get("names")[mark]].join(" ").trim();const tip=found.reached?IMAGE_TIP:
+TARGET_TIP;return`${name}: ${tip}${marks.hidden.includes(mark)?COVERED:""}`}};async function copied(text){try{await navigator.clipboard.writeText(text);return true}catch{return copiedBySelection(
+text)}}function copiedBySelection(text){const focused=document.activeElement;const area=document.createElement(
+"textarea");area.value=text;area.setAttribute("readonly","");Object.assign(area.style,{position:"fix\
+ed",top:"0",left:"0",opacity:"0"});document.body.append(area);area.select();try{return document.execCommand(
+"copy")}catch{return false}finally{area.remove();if(focused instanceof HTMLElement)focused.focus({preventScroll:true})}}var COPIED="The pose is in the clipboard; Ctrl+V on a canvas puts it there";var NOT_COPIED="The brow\
+ser does not give access to the clipboard; use Ctrl+C and Ctrl+V";var PoseClipboard=class{constructor(canvas){
+this.canvas=canvas;const{model,box,pad}=canvas;model.on("msg:custom",async({copy:text})=>{if(text&&pad.
+focused)canvas.say(await copied(text)?COPIED:NOT_COPIED)});box.addEventListener("copy",e=>{if(!pad.focused)
+return;e.preventDefault();pad.press("copy")});box.addEventListener("paste",e=>{e.preventDefault();this.#put(
+e.clipboardData?.getData("text")??"")})}async paste(){try{this.#put(await navigator.clipboard.readText())}catch{
+this.canvas.say(NOT_COPIED)}}#put(text){this.canvas.link.put({type:"paste_pose",text})}};var LEAST_SIZE=240;function resizeGrip(model){let beyond=null;const side=length=>Math.max(LEAST_SIZE,
+Math.round(length));const grip=make("div",{className:"glid-resize",title:"Drag to resize"});grip.addEventListener(
+"pointerdown",e=>{e.preventDefault();grip.setPointerCapture(e.pointerId);beyond={width:model.get("wi\
+dth")-e.clientX,height:model.get("height")-e.clientY}});grip.addEventListener("pointermove",e=>{if(!beyond)
+return;const width=side(beyond.width+e.clientX);const height=side(beyond.height+e.clientY);save(model,
+{width,height})});grip.addEventListener("lostpointercapture",()=>{beyond=null});return shield(grip)}var PAGE=120;var PARTS=330;var LEAST=480;var GAP=16;var SLACK=20;var SETTLE=80;var Room=class{#root=null;#last={
+width:0,height:0,alone:0};#timer;constructor(pad,model,signal){this.pad=pad;this.model=model;this.observer=
+new ResizeObserver(()=>this.#measureSoon());this.observer.observe(pad);window.addEventListener("resi\
+ze",()=>this.#measureSoon(),{signal});window.addEventListener("keydown",e=>this.#escape(e),{signal,capture:true});
+const left=()=>{if(!document.fullscreenElement)this.alone(false)};document.addEventListener("fullscr\
+eenchange",left,{signal});signal.addEventListener("abort",()=>{clearTimeout(this.#timer);this.observer.
+disconnect()})}alone(on=!this.#last.alone){const root=this.#root;if(!root||!on&&!this.#last.alone){this.#measureSoon();
+return}root.classList.toggle("glid-alone",on);this.#measure();root.scrollIntoView({block:on?"start":
+"nearest"});this.pad.focus({preventScroll:true});if(!on&&document.fullscreenElement)document.exitFullscreen()}fullScreen(){
+if(document.fullscreenElement){document.exitFullscreen();return}this.#root?.requestFullscreen().catch(
+error=>{save(this.model,{notice:`There is no full screen here: ${error.message}`})})}#escape(e){if(e.
+key!=="Escape"||!this.#last.alone)return;if(this.pad.matches(":active, :has(.glid-menu, :popover-ope\
+n)"))return;e.stopPropagation();this.alone(false)}#measureSoon(){clearTimeout(this.#timer);this.#timer=
+setTimeout(()=>this.#measure(),SETTLE)}#measure(){const root=this.pad.closest(".glid-editor");const column=this.
+pad.closest(".glid-column");const around=column?.parentElement;if(!root||!around||!column.clientWidth)
+return;if(!this.#root)this.observer.observe(around);this.#root=root;const room=this.#roomIn(root,column,
+around);const last=this.#last;const wider=room.width-last.width;const same=room.height===last.height&&
+room.alone===last.alone;if(same&&wider>=0&&wider<SLACK)return;this.#last=room;const numbers=[room.width,
+room.height,room.alone];save(this.model,{room:numbers.map(Math.floor)})}#roomIn(root,column,around){
+const page=document.fullscreenElement===root?0:PAGE;const below=window.innerHeight-page;if(root.classList.
+contains("glid-alone")){return{width:root.clientWidth,height:below,alone:1}}const plots=column.nextElementSibling;
+const beside=around.clientWidth-(plots?.offsetWidth??0)-GAP;const width=beside>=LEAST?beside:around.
+clientWidth;return{width,height:Math.max(LEAST,below-PARTS),alone:0}}};var NEAR=8;var N_TIMED=3;var Shapes=class{motion=null;#materials=[];#camera=null;#renderer=null;#loading=0;#lifted=null;#resting=null;constructor(model,view){
+this.model=model;this.view=view;model.on("change:materials change:camera change:renderer",()=>this.load())}async load(){
+this.#loading+=1;const turn=this.#loading;const{model}=this;const references=[model.get("camera"),model.
+get("renderer"),...model.get("materials")];const[camera,renderer,...materials]=await Promise.all(references.
+map(one=>model.widget_manager.get_model(one.replace("IPY_MODEL_",""))));await Promise.all([camera,renderer,
+...materials].map(one=>one.initPromise));if(turn!==this.#loading)return;this.#forget();this.#camera=
+camera;this.#renderer=renderer;this.#materials=materials;for(const material of materials)material.on(
+"change",this.refresh,this);renderer.get("scene").off("beforeRender",clearLists).on("beforeRender",clearLists);
+for(const view of Object.values(renderer.views))view.then(drawNoMore);this.refresh()}#forget(){for(const material of this.#materials)
+material.off(null,null,this);this.#materials=[]}refresh(){const{motion}=this;const moved=motion instanceof
+Float32Array&&motion.length?motion:null;const floats=moved??toFloats(this.model.get("coefficients"));
+for(const{obj}of this.#materials){const{cage,coefficients,holes,by_margin:byMargin}=obj?.uniforms??{};
+if(byMargin?.value)byMargin.value=motion?2:1;if(!coefficients)continue;const chain=cage.value.length;
+if(floats.length!==chain+holes.value.length)continue;coefficients.value=floats.subarray(0,chain);holes.
+value=floats.subarray(chain)}this.see();this.redraw()}lift(heights){const picture=this.#renderer?.get(
+"scene").obj?.children[0];const position=picture?.geometry.attributes.position;if(!position)return;if(position.
+array!==this.#lifted)this.#resting=position.array;const resting=this.#resting;if(heights?.length===position.
+count){const lifted=position.array===resting?resting.slice():position.array;heights.forEach((height,i)=>{
+lifted[3*i+2]=height});if(position.array===resting)position.setArray(lifted);this.#lifted=lifted}else{
+if(position.array===resting)return;position.setArray(resting)}position.needsUpdate=true}see(){const{
+x,y,unit,width,height}=this.view;const w=width/2*unit;const h=height/2*unit;for(const{obj}of this.#materials){
+if(obj?.uniforms?.pixel)obj.uniforms.pixel.value=unit}this.#camera?.set({left:x-w,right:x+w,top:y+h,
+bottom:y-h})}redraw(){this.#renderer?.trigger("rerender",this.#renderer,{})}close(){this.#loading+=1;
+this.#forget()}};function clearLists(_scene,{renderLists}){renderLists.dispose()}function drawNoMore(view){
+view.once("remove",()=>{view.renderScene=()=>{}})}function drawnBelow(pad){return pad.closest(".glid\
+-pane")?.querySelector(".jupyter-threejs canvas")}function coveredNear(pad,[x,y]){const drawn=drawnBelow(
+pad);if(!drawn)return false;const size=2*NEAR;const pen=penOf(make("canvas",{width:size,height:size}));
+const ratio=drawn.width/pad.clientWidth;pen.drawImage(drawn,NEAR-Math.floor(x*ratio),NEAR-Math.floor(
+y*ratio));const{data}=pen.getImageData(0,0,size,size);return data.some((value,i)=>i%4===3&&value>0)}
+function uniformVectors(){const canvas=make("canvas");const gl=canvas.getContext("webgl2")||canvas.getContext(
+"webgl");if(!gl)return 0;const count=gl.getParameter(gl.MAX_VERTEX_UNIFORM_VECTORS);gl.getExtension(
+"WEBGL_lose_context")?.loseContext();return count}async function drawingTime(pad,shapes){const times=[];
+for(let i=0;i<=N_TIMED;i++){shapes.redraw();await new Promise(go=>requestAnimationFrame(go));const canvas=drawnBelow(
+pad);const gl=canvas?.getContext("webgl")||canvas?.getContext("webgl2");if(!gl)continue;const start=performance.
+now();gl.readPixels(0,0,1,1,gl.RGBA,gl.UNSIGNED_BYTE,new Uint8Array(4));times.push(performance.now()-
+start)}return times.length>1?Math.min(...times.slice(1)):0}var SAVE_VIEW_AFTER=250;var Canvas=class{legend=new Legend;notices=new Notices;help=help(HELP);#chosen;#saving;#release=()=>{};constructor({
+model,el,signal}){this.model=model;this.interactive=model.get("interactive");const paper=make("canva\
+s",{className:"glid-paper"});this.box=make("div",{className:"glid-pad",role:"application","aria-labe\
+l":"Deformation canvas: arrow keys move, Enter pins a point",inert:!this.interactive},paper,this.legend.
+element,this.notices.notice,this.notices.prepared);this.box.dataset.lmSuppressShortcuts="true";el.classList.
+add("glid-host","glid-pad-host");el.append(this.box);this.view=new View(()=>this.#viewMoved(),{nearest:1e-4,
+farthest:1});this.shapes=new Shapes(model,this.view);this.redraw=painter(paper,this.view,signal,pen=>this.#draw(
+pen));this.link=new Link(model,this.box,signal,()=>this.#report());this.room=this.interactive?new Room(
+this.box,model,signal):null;this.pad=new Pad(this.box,this.view,this.link,new PinBehaviour(this));this.
+clipboard=new PoseClipboard(this);this.corner=this.#makeCorner();if(this.interactive){this.box.append(
+shield(this.corner),this.help.table,resizeGrip(model));keysAround(this.box,e=>this.pad.keydown(e),signal)}
+this.#takeFirst()}close(){clearTimeout(this.#saving);this.shapes.close()}get marks(){return this.model.
+get("marks")}get brush(){const brush=this.model.get("brush");return"radius"in brush?brush:null}get painting(){
+return this.brush!==null}say(notice){save(this.model,{notice})}openMenu(place,found={mark:this.marks.
+selected.at(-1)}){const{selected,targets}=this.marks;const mark=found?.mark===void 0?null:Number(found.
+mark);const centre=[this.view.x,this.view.y];const point=mark===null?this.model.get("cursor")??centre:
+targets[mark];const at=place??this.view.toScreen(point);const does={press:(key,shift=false)=>{return()=>this.
+pad.press(key,{shiftKey:shift})},pin:()=>void this.pad.send("pin",at),paste:()=>void this.clipboard.
+paste(),alone:()=>this.room?.alone(),fullScreen:()=>this.room?.fullScreen(),showKeys:this.help.toggle};
+const pinned=mark!==null&&selected.includes(mark)?selected.length:1;const covered=mark===null&&coveredNear(
+this.box,at);openMenu(this.box,at,menuRows(does,mark===null?null:{pinned},covered))}showMotion(motion=null,release=()=>{},heights=null){
+this.#release=release;this.shapes.motion=motion;this.shapes.lift(heights);this.showLegend();this.shapes.
+refresh();this.redraw()}showLegend(){this.legend.show(this.model,Boolean(this.shapes.motion))}showNotice(){
+const first=this.interactive&&!this.marks.targets.length;this.notices.tell(this.model.get("notice"),
+this.painting,first)}fit(){const{model,view,box}=this;view.width=model.get("width");view.height=model.
+get("height");[view.x,view.y,view.unit]=model.get("view");box.style.width=`${view.width}px`;box.style.
+height=`${view.height}px`;this.#see()}reveal(){const{selected,targets,images}=this.marks;const now=selected.
+length===1?selected[0]:void 0;if(now===this.#chosen)return;this.#chosen=now;if(now===void 0||this.pad.
+mode)return;if(inSight(this.view,targets[now])||inSight(this.view,images[now]))return;this.view.centreOn(
+targets[now])}#takeFirst(){const goBack=e=>{if(!this.shapes.motion)return;e.stopImmediatePropagation();
+e.preventDefault();this.#release()};const capture=true;this.box.addEventListener("pointerdown",e=>e.
+button!==1&&goBack(e),{capture});const ours=e=>!e.ctrlKey&&!e.metaKey&&KEYS.test(e.key);this.box.addEventListener(
+"keydown",e=>ours(e)&&goBack(e),{capture});const followArrow=e=>{const target=arrowAt(this.view,this.
+marks,this.pad.place(e));if(!target||e.target!==this.box)return;this.view.centreOn(target);e.stopImmediatePropagation()};
+this.box.addEventListener("pointerdown",followArrow,{capture})}#makeCorner(){const look="glid-help-b\
+utton";return make("div",{className:"glid-corner"},this.help.button,iconButton("fit","Full screen (W\
+)",()=>this.room?.fullScreen(),look),iconButton("rectangle","The picture alone (P)",()=>this.room?.alone(),
+look))}#report(){const{busy,refusal}=this.link;if(!busy&&refusal&&refusal!==this.model.get("notice"))
+this.say(refusal)}#viewMoved(){this.#see();clearTimeout(this.#saving);this.#saving=setTimeout(()=>{const{
+x,y,unit}=this.view;save(this.model,{view:[x,y,unit]})},SAVE_VIEW_AFTER)}#see(){this.shapes.see();this.
+redraw()}#draw(pen){const{model,view,pad,marks,brush}=this;const{motion}=this.shapes;const through=!motion&&
+knobInCorner(view,marks,pad.held);this.corner.classList.toggle("glid-through",through);if(motion)return;
+drawOnion(pen,view,model.get("onion"));drawStiff(pen,view,model.get("stiff"),this.painting);const cursor=pad.
+focused?model.get("cursor"):null;drawMarks(pen,view,marks,{hovered:pad.found?.mark,held:pad.held,cursor});
+if(brush)drawBrush(pen,view,brush,pad);if(pad.encloses&&pad.path.length>2)drawLasso(pen,view,pad.path)}};function render(context){const{model,signal}=context;const canvas=new Canvas(context);follow(model,{
+"change:width change:height change:view":()=>canvas.fit(),"change:coefficients":()=>canvas.shapes.refresh(),
+"change:marks change:cursor change:onion change:stiff change:brush":()=>canvas.redraw(),"glid:motion":(...shown)=>canvas.
+showMotion(...shown),"change:legend change:panel_legend change:legend_corner":()=>canvas.showLegend(),
+"change:notice change:marks change:brush":()=>canvas.showNotice(),"change:marks":()=>canvas.reveal(),
+"change:prepared":()=>canvas.notices.prepare(model.get("prepared"))});measure(canvas,signal);if(model.
+get("uniform_vectors")===0){save(model,{uniform_vectors:uniformVectors()||-1})}return()=>canvas.close()}
+async function measure({box,model,shapes},signal){await shapes.load();const time=await drawingTime(box,
+shapes);if(!signal.aborted)save(model,{drawn:true,drawing_time:time})}var main_default={render};export{main_default as default};

@@ -1,0 +1,245 @@
+// The pad over the renderer: it sends pointers and keys, and draws pins, colour bars and notices.
+
+import { make, save } from "../pad/dom.js";
+import { help, shield } from "../pad/help.js";
+import { iconButton } from "../pad/icons.js";
+import { keysAround } from "../pad/keys.js";
+import { Link } from "../pad/link.js";
+import { openMenu } from "../pad/menu.js";
+import { Pad } from "../pad/pad.js";
+import { painter } from "../pad/pen.js";
+import { View } from "../pad/view.js";
+import { menuRows } from "./context_menu.js";
+import { drawBrush, drawLasso, drawMarks, drawOnion, drawStiff } from "./draw.js";
+import { HELP } from "./help_table.js";
+import { Legend } from "./legend.js";
+import { arrowAt, inSight, knobInCorner } from "./marks.js";
+import { Notices } from "./notices.js";
+import { KEYS, PinBehaviour } from "./pin_behaviour.js";
+import { PoseClipboard } from "./pose_clipboard.js";
+import { resizeGrip } from "./resize_grip.js";
+import { Room } from "./room.js";
+import { coveredNear, Shapes } from "./shapes.js";
+
+/** @import { Context, Found, Point } from "../types.js" */
+/** @import { Pen } from "../pad/pen.js" */
+/** @import { Seen } from "./shapes.js" */
+/** @import { Brush, CanvasTraits } from "./traits.js" */
+
+const SAVE_VIEW_AFTER = 250; // ms
+
+export class Canvas {
+  legend = new Legend();
+  notices = new Notices();
+  help = help(HELP);
+
+  /** @type {number | undefined} the pin that was selected alone when marks came last */
+  #chosen;
+  /** @type {ReturnType<typeof setTimeout> | undefined} */
+  #saving;
+  // Goes back from a motion to the pose that is edited.
+  #release = () => {};
+
+  /** @param {Context<CanvasTraits>} context */
+  constructor({ model, el, signal }) {
+    this.model = model;
+    this.interactive = model.get("interactive"); // else all pointers and keys pass by
+    const paper = make("canvas", { className: "glid-paper" });
+    this.box = make(
+      "div",
+      {
+        className: "glid-pad",
+        role: "application",
+        "aria-label": "Deformation canvas: arrow keys move, Enter pins a point",
+        inert: !this.interactive,
+      },
+      paper,
+      this.legend.element,
+      this.notices.notice,
+      this.notices.prepared,
+    );
+    this.box.dataset.lmSuppressShortcuts = "true"; // JupyterLab must not take the keys first
+    el.classList.add("glid-host", "glid-pad-host");
+    el.append(this.box);
+
+    this.view = new View(() => this.#viewMoved(), { nearest: 1e-4, farthest: 1 });
+    this.shapes = new Shapes(model, this.view);
+    this.redraw = painter(paper, this.view, signal, (pen) => this.#draw(pen));
+    this.link = new Link(model, this.box, signal, () => this.#report());
+    this.room = this.interactive ? new Room(this.box, model, signal) : null;
+    this.pad = new Pad(this.box, this.view, this.link, new PinBehaviour(this));
+    this.clipboard = new PoseClipboard(this);
+    this.corner = this.#makeCorner();
+    if (this.interactive) {
+      this.box.append(shield(this.corner), this.help.table, resizeGrip(model));
+      keysAround(this.box, (e) => this.pad.keydown(e), signal);
+    }
+    this.#takeFirst();
+  }
+
+  close() {
+    clearTimeout(this.#saving);
+    this.shapes.close();
+  }
+
+  get marks() {
+    return this.model.get("marks");
+  }
+
+  /** The brush that paints stiff areas; null for none. */
+  get brush() {
+    const brush = this.model.get("brush");
+    return "radius" in brush ? /** @type {Brush} */ (brush) : null;
+  }
+
+  get painting() {
+    return this.brush !== null;
+  }
+
+  /** @param {string} notice */
+  say(notice) {
+    save(this.model, { notice });
+  }
+
+  /**
+   * Opens the menu of a pin or of the shape; by default that of the pin selected last.
+   *
+   * @param {Point} [place]
+   * @param {Found | null} found
+   */
+  openMenu(place, found = { mark: this.marks.selected.at(-1) }) {
+    const { selected, targets } = this.marks;
+    const mark = found?.mark === undefined ? null : Number(found.mark);
+    const centre = /** @type {Point} */ ([this.view.x, this.view.y]);
+    const point = mark === null ? (this.model.get("cursor") ?? centre) : targets[mark];
+    const at = place ?? this.view.toScreen(point);
+    const does = {
+      press: (/** @type {string} */ key, shift = false) => {
+        return () => this.pad.press(key, { shiftKey: shift });
+      },
+      pin: () => void this.pad.send("pin", at),
+      paste: () => void this.clipboard.paste(),
+      alone: () => this.room?.alone(),
+      fullScreen: () => this.room?.fullScreen(),
+      showKeys: this.help.toggle,
+    };
+    const pinned = mark !== null && selected.includes(mark) ? selected.length : 1;
+    const covered = mark === null && coveredNear(this.box, at);
+    openMenu(this.box, at, menuRows(does, mark === null ? null : { pinned }, covered));
+  }
+
+  /**
+   * Shows a motion instead of the pose that is edited.
+   *
+   * @param {Seen} motion null for the pose that is edited
+   * @param {() => void} release goes back to that pose
+   * @param {Float32Array | null} heights of the picture's vertices
+   */
+  showMotion(motion = null, release = () => {}, heights = null) {
+    this.#release = release;
+    this.shapes.motion = motion;
+    this.shapes.lift(heights);
+    this.showLegend();
+    this.shapes.refresh();
+    this.redraw();
+  }
+
+  showLegend() {
+    this.legend.show(this.model, Boolean(this.shapes.motion));
+  }
+
+  showNotice() {
+    const first = this.interactive && !this.marks.targets.length;
+    this.notices.tell(this.model.get("notice"), this.painting, first);
+  }
+
+  /** Takes size and view from the kernel. */
+  fit() {
+    const { model, view, box } = this;
+    view.width = model.get("width");
+    view.height = model.get("height");
+    [view.x, view.y, view.unit] = model.get("view");
+    box.style.width = `${view.width}px`;
+    box.style.height = `${view.height}px`;
+    this.#see();
+  }
+
+  /** Brings a pin that was selected alone, though not by the pointer, into view. */
+  reveal() {
+    const { selected, targets, images } = this.marks;
+    const now = selected.length === 1 ? selected[0] : undefined;
+    if (now === this.#chosen) return;
+    this.#chosen = now;
+    if (now === undefined || this.pad.mode) return;
+    if (inSight(this.view, targets[now]) || inSight(this.view, images[now])) return;
+    this.view.centreOn(targets[now]);
+  }
+
+  // Handles two kinds of input before the pad does. While a motion is seen, the first touch goes
+  // back to the pose that is edited. A click on an arrow at the edge brings its pin into view.
+  #takeFirst() {
+    const goBack = (/** @type {Event} */ e) => {
+      if (!this.shapes.motion) return;
+      e.stopImmediatePropagation();
+      e.preventDefault();
+      this.#release();
+    };
+    const capture = true;
+    this.box.addEventListener("pointerdown", (e) => e.button !== 1 && goBack(e), { capture });
+    const ours = (/** @type {KeyboardEvent} */ e) => !e.ctrlKey && !e.metaKey && KEYS.test(e.key);
+    this.box.addEventListener("keydown", (e) => ours(e) && goBack(e), { capture });
+    const followArrow = (/** @type {PointerEvent} */ e) => {
+      const target = arrowAt(this.view, this.marks, this.pad.place(e));
+      if (!target || e.target !== this.box) return;
+      this.view.centreOn(target);
+      e.stopImmediatePropagation();
+    };
+    this.box.addEventListener("pointerdown", followArrow, { capture });
+  }
+
+  #makeCorner() {
+    const look = "glid-help-button";
+    return make(
+      "div",
+      { className: "glid-corner" },
+      this.help.button,
+      iconButton("fit", "Full screen (W)", () => this.room?.fullScreen(), look),
+      iconButton("rectangle", "The picture alone (P)", () => this.room?.alone(), look),
+    );
+  }
+
+  // Shows a refusal as the notice.
+  #report() {
+    const { busy, refusal } = this.link;
+    if (!busy && refusal && refusal !== this.model.get("notice")) this.say(refusal);
+  }
+
+  #viewMoved() {
+    this.#see();
+    clearTimeout(this.#saving);
+    this.#saving = setTimeout(() => {
+      const { x, y, unit } = this.view;
+      save(this.model, { view: [x, y, unit] });
+    }, SAVE_VIEW_AFTER);
+  }
+
+  #see() {
+    this.shapes.see();
+    this.redraw();
+  }
+
+  /** @param {Pen} pen */
+  #draw(pen) {
+    const { model, view, pad, marks, brush } = this;
+    const { motion } = this.shapes;
+    const through = !motion && knobInCorner(view, marks, pad.held);
+    this.corner.classList.toggle("glid-through", through);
+    if (motion) return; // pins belong to the pose that is edited
+    drawOnion(pen, view, model.get("onion"));
+    drawStiff(pen, view, model.get("stiff"), this.painting);
+    const cursor = pad.focused ? model.get("cursor") : null;
+    drawMarks(pen, view, marks, { hovered: pad.found?.mark, held: pad.held, cursor });
+    if (brush) drawBrush(pen, view, brush, pad);
+    if (pad.encloses && pad.path.length > 2) drawLasso(pen, view, pad.path);
+  }
+}

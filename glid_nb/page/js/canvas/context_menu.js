@@ -1,0 +1,64 @@
+// The menu of a pin, or of the shape at a place.
+
+/** @import { MenuRow } from "../pad/menu.js" */
+
+/**
+ * What the menu's rows do.
+ *
+ * @typedef {object} Does
+ * @property {(key: string, shift?: boolean) => () => void} press what a key does
+ * @property {() => void} pin adds a pin at the place
+ * @property {() => void} paste
+ * @property {() => void} alone shows the picture alone
+ * @property {() => void} fullScreen
+ * @property {() => void} showKeys
+ */
+
+/**
+ * @param {Does} does
+ * @param {{ pinned: number } | null} pin how many pins would be removed; null where there is none
+ * @param {boolean} covered whether the shape is there
+ * @returns {MenuRow[]}
+ */
+export function menuRows(does, pin, covered) {
+  return [
+    ...(pin ? pinRows(does, pin.pinned) : shapeRows(does, covered)),
+    ["Copy the pose", "Ctrl+C", does.press("copy")],
+    ["Paste a pose", "Ctrl+V", does.paste],
+    ["Swap left and right", "M", does.press("m")],
+    ["Select all pins", "A", does.press("a")],
+    ["The undeformed shape", "0", does.press("0")],
+    ["See everything", "F", does.press("f")],
+    ["Paint stiff areas", "B", does.press("b")],
+    ["The picture alone", "P", does.alone],
+    ["Full screen", "W", does.fullScreen],
+    ["All keys", "?", does.showKeys],
+  ];
+}
+
+/**
+ * @param {Does} does
+ * @param {number} count
+ * @returns {MenuRow[]}
+ */
+function pinRows({ press }, count) {
+  const pins = count > 1 ? ` ${count} pins` : "";
+  return [
+    ["Bring forward", "Page Up", press("PageUp")],
+    ["Send back", "Page Down", press("PageDown")],
+    null,
+    [`Remove${pins}`, "Delete", press("Delete")],
+    ["Remove, keep the shape", "Shift+Delete", press("Delete", true)],
+    ["Leave angle and scale free", "X", press("x")],
+    null,
+  ];
+}
+
+/**
+ * @param {Does} does
+ * @param {boolean} covered
+ * @returns {MenuRow[]}
+ */
+function shapeRows({ pin }, covered) {
+  return covered ? [["Add a pin here", "Click", pin], null] : [];
+}

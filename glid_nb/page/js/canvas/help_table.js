@@ -1,0 +1,62 @@
+// The table of keys and gestures behind the "?".
+
+/** @import { Section } from "../pad/help.js" */
+
+/** @type {Section[]} */
+export const HELP = [
+  [
+    "Pins",
+    [
+      ["Click the shape", "pin a point"],
+      ["Drag a pin, or the shape", "move it there; the shape follows, and never folds"],
+      ["Right-click, long touch, Menu key", "what can be done with a pin, or with the shape there"],
+      ["Delete", "remove the selected pins; with Shift keep the shape"],
+      ["Ring around a pin: drag it, or its knob", "turn the shape there, scale it there"],
+      ["< >, + -, X", "turn, scale; leave both free again"],
+      ["Page Down, Page Up, [ ]", "selected pins and what is around them go back, come forward"],
+      ["Arrow keys", "nudge selected pins, with Shift farther; else move a cursor"],
+      ["Enter", "show the cursor; pin or select there"],
+    ],
+  ],
+  [
+    "Selecting",
+    [
+      ["Shift-click, A", "select several pins, all pins"],
+      ["Shift and drag, Ctrl and drag", "select the pins in a box, in a lasso"],
+      [
+        ", .",
+        "select the pin before, the next pin, and bring it into view; " +
+          "so does a click on an arrow at the edge",
+      ],
+      ["Esc", "cancel a drag; select nothing"],
+    ],
+  ],
+  [
+    "Poses",
+    [
+      ["Ctrl+Z, Ctrl+Shift+Z", "undo, redo"],
+      ["Ctrl+C, Ctrl+V", "copy the pose, put it on this or a similar shape"],
+      ["M", "swap left and right"],
+      ["0", "back to the undeformed shape"],
+    ],
+  ],
+  ["Stiff areas", [["B, E", "paint what should stay as it is, erase it; Esc lays the brush down"]]],
+  [
+    "View",
+    [
+      ["Wheel, two fingers", "zoom"],
+      ["Middle button, Space and drag", "move the view"],
+      ["F", "see everything"],
+      ["P", "the picture alone, for lectures; Esc brings the rest back"],
+      ["W", "the whole screen"],
+    ],
+  ],
+  [
+    "Timeline",
+    [
+      ["Space", "play the motion through the poses, pause; on the canvas too"],
+      ["Arrow keys, Home, End", "step in time, with Shift to the next pose; first, last pose"],
+      ["Alt and arrow keys", "move the pose in time; Delete removes it"],
+    ],
+  ],
+];

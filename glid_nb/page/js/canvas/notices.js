@@ -1,0 +1,32 @@
+// What the canvas says in words: a refusal, or what the hand can do now; how far it has warmed up.
+
+import { make } from "../pad/dom.js";
+
+const FIRST = "Click the shape to pin a point, then drag the pin · ? shows all keys";
+const PAINT = "Paint what should stay as it is · E erases · Esc when done";
+
+export class Notices {
+  notice = make("div", { className: "glid-notice", role: "status" });
+  prepared = make("div", { className: "glid-prepared", role: "status" });
+
+  /**
+   * @param {string} refusal
+   * @param {boolean} painting
+   * @param {boolean} first whether there are no pins yet
+   */
+  tell(refusal, painting, first) {
+    const advice = painting ? PAINT : first && FIRST;
+    const { notice } = this;
+    notice.textContent = refusal || advice || "";
+    notice.hidden = !notice.textContent;
+    notice.classList.toggle("glid-first", !refusal);
+  }
+
+  /** @param {number} share how much of what the first solve needs is done, from 0 to 1 */
+  prepare(share) {
+    const { prepared } = this;
+    prepared.hidden = share >= 1;
+    prepared.textContent = `Warming up: ${Math.round(100 * share)} %`;
+    prepared.style.backgroundSize = `${100 * share}% 100%, auto`;
+  }
+}

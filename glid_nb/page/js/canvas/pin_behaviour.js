@@ -1,0 +1,104 @@
+// How the pad behaves over a shape with pins.
+
+import { markAt, ringAt } from "./marks.js";
+
+/** @import { Found, Mark, Point } from "../types.js" */
+/** @import { Behaviour } from "../pad/pad.js" */
+/** @import { Canvas } from "./canvas.js" */
+
+const REACH = { mouse: 13, pen: 16, touch: 26 }; // CSS pixels
+export const KEYS = /^(Arrow\w+|Page\w+|Delete|Backspace|Escape|Enter|[0fa,.[\]<>+=xmbe-])$/i;
+const TARGET_TIP =
+  "where it should be. Drag it; a right click shows what else; Shift-click selects several";
+const IMAGE_TIP = "where the shape has got to. The cyan disk is where it should be";
+const COVERED = ". Another part of the shape covers it";
+const RING_TIPS = {
+  turn: "Drag around the pin to turn the shape there; X leaves it free again",
+  scale: "Drag away from the pin or towards it to scale the shape there; X leaves it free again",
+};
+
+/** @implements {Behaviour} */
+export class PinBehaviour {
+  reach = REACH;
+  keys = KEYS;
+
+  /** @param {Canvas} canvas */
+  constructor(canvas) {
+    this.canvas = canvas;
+    this.actions = {
+      "?": canvas.help.toggle,
+      contextmenu: () => canvas.openMenu(),
+      p: () => canvas.room?.alone(),
+      w: () => canvas.room?.fullScreen(),
+    };
+  }
+
+  get painting() {
+    return this.canvas.painting;
+  }
+
+  changed() {
+    this.canvas.redraw();
+  }
+
+  /**
+   * @param {Point} place
+   * @param {Found | null} found
+   */
+  menu(place, found) {
+    this.canvas.openMenu(place, found);
+  }
+
+  tapped() {
+    this.canvas.box.dispatchEvent(new CustomEvent("glid:play", { bubbles: true }));
+  }
+
+  /**
+   * @param {Point} point
+   * @param {number} reach
+   */
+  find(point, reach) {
+    const { view, marks, shapes, painting } = this.canvas;
+    if (shapes.motion || painting) return null;
+    const mark = markAt(marks, point, reach);
+    return mark ?? ringAt(view, marks, view.toScreen(point), reach / view.unit / 2);
+  }
+
+  /**
+   * @param {Found | null} found
+   * @param {PointerEvent} e
+   */
+  encloses(found, e) {
+    if (found) return null;
+    if (e.shiftKey) return "box";
+    return e.ctrlKey || e.metaKey ? "lasso" : null;
+  }
+
+  /**
+   * @param {Found} found
+   * @returns {Map<Mark, Point>}
+   */
+  held({ mark }) {
+    const { selected, targets } = this.canvas.marks;
+    const pressed = Number(mark);
+    const moved = selected.includes(pressed) ? selected : [pressed];
+    return new Map(moved.map((i) => [i, targets[i]]));
+  }
+
+  /** @param {Found | null} found */
+  cursor(found) {
+    this.canvas.box.title = this.#tip(found);
+    return found ? "grab" : "crosshair";
+  }
+
+  /** @param {Found | null} found */
+  #tip(found) {
+    if (!found) return "";
+    if (found.part) return RING_TIPS[found.part];
+    const { marks, model } = this.canvas;
+    const mark = Number(found.mark);
+    const name = ["Pin", mark + 1, model.get("names")[mark]].join(" ").trim();
+    const tip = found.reached ? IMAGE_TIP : TARGET_TIP;
+    return `${name}: ${tip}${marks.hidden.includes(mark) ? COVERED : ""}`;
+  }
+}

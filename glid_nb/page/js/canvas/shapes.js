@@ -1,0 +1,214 @@
+// Puts the kernel's coefficients and the page's view into pythreejs's objects.
+
+import { make, penOf, toFloats } from "../pad/dom.js";
+
+/** @import { Model, Point } from "../types.js" */
+/** @import { View } from "../pad/view.js" */
+/** @import { CanvasTraits } from "./traits.js" */
+
+/**
+ * What the timeline shows instead of the pose that is edited: coefficients, or true where the kernel
+ * sends the frames; null for that pose.
+ *
+ * @typedef {Float32Array | true | null} Seen
+ */
+
+const NEAR = 8; // pixels: a cage lies a little outside of what is drawn
+const N_TIMED = 3; // drawings, after a first one that compiles the shaders
+
+export class Shapes {
+  /** @type {Seen} */
+  motion = null;
+
+  /** @type {any[]} pythreejs's models of materials */
+  #materials = [];
+  /** @type {any} */
+  #camera = null;
+  /** @type {any} */
+  #renderer = null;
+  #loading = 0; // counts the loads, to tell the newest
+  /** @type {Float32Array | null} the vertices of the picture as a motion moves them */
+  #lifted = null;
+  /** @type {Float32Array | null} the vertices as the kernel sent them */
+  #resting = null;
+
+  /**
+   * @param {Model<CanvasTraits>} model
+   * @param {View} view
+   */
+  constructor(model, view) {
+    this.model = model;
+    this.view = view;
+    model.on("change:materials change:camera change:renderer", () => this.load());
+  }
+
+  async load() {
+    this.#loading += 1;
+    const turn = this.#loading;
+    const { model } = this;
+    const references = [model.get("camera"), model.get("renderer"), ...model.get("materials")];
+    const [camera, renderer, ...materials] = await Promise.all(
+      references.map((one) => model.widget_manager.get_model(one.replace("IPY_MODEL_", ""))),
+    );
+    await Promise.all([camera, renderer, ...materials].map((one) => one.initPromise));
+    if (turn !== this.#loading) return; // there are newer ones
+    this.#forget();
+    this.#camera = camera;
+    this.#renderer = renderer;
+    this.#materials = materials;
+    // When the kernel changes a uniform, pythreejs replaces them all, on the event "change".
+    for (const material of materials) material.on("change", this.refresh, this);
+    renderer.get("scene").off("beforeRender", clearLists).on("beforeRender", clearLists);
+    for (const view of Object.values(renderer.views)) view.then(drawNoMore);
+    this.refresh();
+  }
+
+  #forget() {
+    for (const material of this.#materials) material.off(null, null, this);
+    this.#materials = [];
+  }
+
+  /** Puts the newest coefficients into every material. */
+  refresh() {
+    const { motion } = this;
+    const moved = motion instanceof Float32Array && motion.length ? motion : null;
+    const floats = moved ?? toFloats(this.model.get("coefficients"));
+    for (const { obj } of this.#materials) {
+      const { cage, coefficients, holes, by_margin: byMargin } = obj?.uniforms ?? {};
+      if (byMargin?.value) byMargin.value = motion ? 2 : 1;
+      if (!coefficients) continue;
+      const chain = cage.value.length;
+      // The kernel evaluates, or another domain's coefficients arrive before its materials.
+      if (floats.length !== chain + holes.value.length) continue;
+      coefficients.value = floats.subarray(0, chain);
+      holes.value = floats.subarray(chain);
+    }
+    this.see();
+    this.redraw();
+  }
+
+  /**
+   * Gives the picture's vertices the heights of a motion's time; null gives back those of the pose.
+   *
+   * @param {Float32Array | null} heights
+   */
+  lift(heights) {
+    const picture = this.#renderer?.get("scene").obj?.children[0];
+    const position = picture?.geometry.attributes.position;
+    if (!position) return;
+    if (position.array !== this.#lifted) this.#resting = position.array; // the kernel's
+    const resting = /** @type {Float32Array} */ (this.#resting);
+    if (heights?.length === position.count) {
+      const lifted = position.array === resting ? resting.slice() : position.array;
+      /** @type {Float32Array} */ (heights).forEach((height, i) => {
+        lifted[3 * i + 2] = height;
+      });
+      if (position.array === resting) position.setArray(lifted);
+      this.#lifted = lifted;
+    } else {
+      if (position.array === resting) return;
+      position.setArray(resting);
+    }
+    position.needsUpdate = true;
+  }
+
+  /** Shows what the view shows; the camera's renderer draws anew by itself. */
+  see() {
+    const { x, y, unit, width, height } = this.view;
+    const w = (width / 2) * unit;
+    const h = (height / 2) * unit;
+    for (const { obj } of this.#materials) {
+      if (obj?.uniforms?.pixel) obj.uniforms.pixel.value = unit;
+    }
+    this.#camera?.set({ left: x - w, right: x + w, top: y + h, bottom: y - h });
+  }
+
+  redraw() {
+    this.#renderer?.trigger("rerender", this.#renderer, {});
+  }
+
+  close() {
+    this.#loading += 1;
+    this.#forget();
+  }
+}
+
+/**
+ * pythreejs keeps three.js's renderers for later, and those keep lists of all that they ever drew.
+ *
+ * @param {unknown} _scene
+ * @param {any} renderer three.js's
+ */
+function clearLists(_scene, { renderLists }) {
+  renderLists.dispose();
+}
+
+/**
+ * pythreejs draws a removed view once more if that was asked for before, and then keeps a renderer
+ * for it for good.
+ *
+ * @param {any} view
+ */
+function drawNoMore(view) {
+  view.once("remove", () => {
+    view.renderScene = () => {};
+  });
+}
+
+/**
+ * The canvas that pythreejs draws on, below a pad.
+ *
+ * @param {HTMLElement} pad
+ * @returns {HTMLCanvasElement | null | undefined}
+ */
+function drawnBelow(pad) {
+  return pad.closest(".glid-pane")?.querySelector(".jupyter-threejs canvas");
+}
+
+/**
+ * Whether something is drawn near a place of the pad.
+ *
+ * @param {HTMLElement} pad
+ * @param {Point} place
+ */
+export function coveredNear(pad, [x, y]) {
+  const drawn = drawnBelow(pad);
+  if (!drawn) return false;
+  const size = 2 * NEAR;
+  const pen = penOf(make("canvas", { width: size, height: size }));
+  const ratio = drawn.width / pad.clientWidth;
+  pen.drawImage(drawn, NEAR - Math.floor(x * ratio), NEAR - Math.floor(y * ratio));
+  const { data } = pen.getImageData(0, 0, size, size);
+  return data.some((value, i) => i % 4 === 3 && value > 0);
+}
+
+/** How many vectors of uniforms a vertex shader may have here; 0 without WebGL. */
+export function uniformVectors() {
+  const canvas = make("canvas");
+  const gl = canvas.getContext("webgl2") || canvas.getContext("webgl");
+  if (!gl) return 0;
+  const count = gl.getParameter(gl.MAX_VERTEX_UNIFORM_VECTORS);
+  gl.getExtension("WEBGL_lose_context")?.loseContext();
+  return count;
+}
+
+/**
+ * The fastest of some drawings in milliseconds, 0 without WebGL.
+ *
+ * @param {HTMLElement} pad
+ * @param {Shapes} shapes
+ */
+export async function drawingTime(pad, shapes) {
+  const times = [];
+  for (let i = 0; i <= N_TIMED; i++) {
+    shapes.redraw(); // the renderer draws in the next frame, before what is below
+    await new Promise((go) => requestAnimationFrame(go));
+    const canvas = drawnBelow(pad);
+    const gl = canvas?.getContext("webgl") || canvas?.getContext("webgl2");
+    if (!gl) continue;
+    const start = performance.now();
+    gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4)); // waits for all of it
+    times.push(performance.now() - start);
+  }
+  return times.length > 1 ? Math.min(...times.slice(1)) : 0;
+}

@@ -1,0 +1,54 @@
+// What the kernel says of a canvas: the traits of `Stage` in glid_nb/widgets/pane.py.
+
+import type { Point } from "../types.js";
+
+/** Angle and scale of the pin that was selected last, and whether each is wanted. */
+export type Ring = [angle: number, scale: number, turned: boolean, scaled: boolean];
+
+export interface Marks {
+  targets: Point[];
+  images: Point[];
+  selected: number[];
+  hidden: number[];
+  ring: Ring | [];
+}
+
+export interface ColorBar {
+  title: string;
+  /** The title while a motion is seen. */
+  moving?: string;
+  colors: string[];
+  ticks: string[];
+  about: string;
+}
+
+export interface Brush {
+  radius: number;
+  strength: number;
+}
+
+export interface CanvasTraits {
+  width: number;
+  height: number;
+  room: number[];
+  view: [x: number, y: number, unit: number];
+  coefficients: DataView;
+  marks: Marks;
+  names: string[];
+  onion: [color: string, loops: Point[][]][];
+  stiff: [strength: number, loops: Point[][]][];
+  brush: Brush | Record<string, never>;
+  cursor: Point | null;
+  legend: ColorBar | Record<string, never>;
+  panel_legend: ColorBar | Record<string, never>;
+  legend_corner: string;
+  notice: string;
+  prepared: number;
+  interactive: boolean;
+  uniform_vectors: number;
+  drawing_time: number;
+  drawn: boolean;
+  renderer: string;
+  camera: string;
+  materials: string[];
+}

@@ -1,0 +1,329 @@
+// Shows a picture under a map, or plays its motion, from the data in the page.
+
+import { Motion } from "../motion/motion.js";
+import { make } from "../pad/dom.js";
+import { View } from "../pad/view.js";
+import { glideTo, playedFrom } from "./course.js";
+import { down, provedNow, up } from "./numbers.js";
+import { Poses } from "./poses.js";
+import { CannotShow, Renderer } from "./renderer.js";
+import { bytesOf, cornersOf, restored, unpacked } from "./unpack.js";
+
+/** @import { Point } from "../types.js" */
+/** @import { Course } from "./course.js" */
+/** @import { PageData } from "./data.js" */
+
+/** @type {Record<string, string>} what the colours say, by the number in picture.frag */
+const LABELS = { 2: "Stretch σ₁", 3: "Stretch σ₂", 4: "Dilatation k" };
+const LOWER = "3"; // the one whose bound is a lower one
+const PLAIN = "0"; // the picture alone
+const STEP = 1 / 25; // s, of the arrow keys
+const FAST = 5; // times as far with Shift
+const THUMBNAIL = 56; // CSS pixels
+const STRIPES = 100; // of the strip below the slider
+const UNPROVED = "#7f7f7f";
+
+/**
+ * @template {HTMLElement} T
+ * @param {string} id
+ * @param {new () => T} kind
+ */
+function byId(id, kind) {
+  const found = document.getElementById(id);
+  if (!(found instanceof kind)) throw new Error(`the page has no ${id}`);
+  return found;
+}
+
+class Page {
+  overlay = byId("overlay", HTMLSelectElement);
+  undeformed = byId("source", HTMLInputElement);
+  slider = byId("time", HTMLInputElement);
+  play = byId("play", HTMLButtonElement);
+  clock = byId("clock", HTMLOutputElement);
+  here = byId("here", HTMLOutputElement);
+  view = new View(() => this.draw(), { nearest: 1e-4, farthest: 100 });
+
+  /** @type {(Course & { began: number }) | null} */
+  #course = null;
+  #due = 0;
+
+  /**
+   * @param {HTMLCanvasElement} canvas
+   * @param {PageData} data
+   * @param {Renderer} renderer
+   * @param {Float32Array} rows coefficients: the undeformed shape's, then those at the knots
+   * @param {Float32Array} heights of the vertices, at the keyframes
+   */
+  constructor(canvas, data, renderer, rows, heights) {
+    this.canvas = canvas;
+    this.data = data;
+    this.renderer = renderer;
+    this.identity = rows.subarray(0, data.width);
+    this.motion = new Motion(data.motion, rows.subarray(data.width));
+    const { height_times: times } = data;
+    const { repeat } = this.motion;
+    this.layers = times.length > 1 ? new Motion({ times, repeat }, heights) : null;
+    this.time = this.motion.start;
+    this.poses = new Poses(
+      data.motion.keyframes,
+      (time) => this.#run(glideTo(this.motion, this.time, time)),
+      (time) => this.#thumbnail(time),
+      () => !this.#course && this.draw(),
+    );
+    this.#hearPointers();
+    this.#showColors();
+  }
+
+  /** The picture is there. */
+  begin() {
+    if (this.data.motion.keyframes.length) this.#prepareMotion();
+    new ResizeObserver(() => this.fit()).observe(this.canvas);
+    this.fit();
+    document.documentElement.dataset.ready = "true";
+  }
+
+  fit() {
+    const { clientWidth, clientHeight } = this.canvas;
+    const bounds = this.undeformed.checked ? this.data.source_bounds : this.data.bounds;
+    Object.assign(this.view, this.#fitted(bounds, clientWidth, clientHeight));
+    this.draw();
+  }
+
+  draw() {
+    this.poses.drawOne();
+    const { width, height, unit, x, y } = this.view;
+    const coefficients = this.undeformed.checked ? this.identity : this.motion.at(this.time);
+    this.#paint({ width, height, unit, x, y }, this.time, this.overlay.value, coefficients);
+  }
+
+  /**
+   * @param {{ width: number, height: number, unit: number, x: number, y: number }} view
+   * @param {number} time
+   * @param {string} overlay
+   * @param {Float32Array} coefficients
+   */
+  #paint(view, time, overlay, coefficients) {
+    const heights = this.layers?.at(time) ?? null;
+    this.renderer.draw({ ...view, overlay, coefficients, heights });
+  }
+
+  /** @param {number} time */
+  #thumbnail(time) {
+    const view = this.#fitted(this.data.bounds, THUMBNAIL, THUMBNAIL);
+    this.#paint(view, time, PLAIN, this.motion.at(time));
+    return this.canvas;
+  }
+
+  /**
+   * The view that shows a box.
+   *
+   * @param {PageData["bounds"]} bounds
+   * @param {number} width CSS pixels
+   * @param {number} height
+   */
+  #fitted([left, bottom, right, top], width, height) {
+    const room = 1 - 2 * this.data.margin;
+    const unit = Math.max((right - left) / width, (top - bottom) / height) / room;
+    return { width, height, unit, x: (left + right) / 2, y: (bottom + top) / 2 };
+  }
+
+  #hearPointers() {
+    const { canvas, view } = this;
+    const place = (/** @type {MouseEvent} */ e) => /** @type {Point} */ ([e.offsetX, e.offsetY]);
+    /** @type {Map<number, Point>} */
+    const pointers = new Map();
+    canvas.addEventListener("pointerdown", (e) => {
+      canvas.setPointerCapture(e.pointerId);
+      pointers.set(e.pointerId, place(e));
+    });
+    canvas.addEventListener("pointermove", (e) => {
+      if (pointers.has(e.pointerId)) view.follow(pointers, e.pointerId, place(e));
+    });
+    canvas.addEventListener("lostpointercapture", (e) => pointers.delete(e.pointerId));
+    canvas.addEventListener("wheel", (e) => view.wheel(e, place(e)), { passive: false });
+    byId("fit", HTMLButtonElement).addEventListener("click", () => this.fit());
+    this.undeformed.addEventListener("change", () => this.fit());
+  }
+
+  /** @param {number} stop of the colour map */
+  #css(stop) {
+    const color = this.data.colors.slice(3 * stop, 3 * stop + 3);
+    return `rgb(${color.map((share) => Math.round(255 * share))})`;
+  }
+
+  get #stops() {
+    return this.data.colors.length / 3;
+  }
+
+  // Colours for the distortion, from an isometry's value to the certified bound, or a tenth off.
+  #showColors() {
+    const colors = Array.from({ length: this.#stops }, (_, i) => this.#css(i));
+    document.documentElement.style.setProperty("--colors", colors.join());
+    for (const value of Object.keys(this.data.ranges)) {
+      this.overlay.append(new Option(LABELS[value], value));
+    }
+    this.overlay.addEventListener("change", () => {
+      this.draw();
+      this.#showLegend();
+    });
+  }
+
+  #showLegend() {
+    const { value } = this.overlay;
+    const range = this.data.ranges[value];
+    const legend = byId("legend", HTMLParagraphElement);
+    legend.hidden = !range;
+    if (!range) return;
+    const end = value === LOWER ? down(range[1]) : up(range[1]);
+    legend.replaceChildren(`${LABELS[value]} ${range[0]}`, make("i"), end);
+  }
+
+  #prepareMotion() {
+    const { motion, slider } = this;
+    const section = document.querySelector("section");
+    if (section) section.hidden = false;
+    slider.min = String(motion.start);
+    slider.max = String(motion.end);
+    byId("poses", HTMLDivElement).append(...this.poses.buttons);
+    byId("strip", HTMLDivElement).style.background = this.#strip();
+    this.play.addEventListener("click", () => this.#playOrPause());
+    slider.addEventListener("input", () => this.#goTo(Number(slider.value)));
+    document.addEventListener("keydown", (e) => this.#keydown(e));
+    this.#seek(motion.start);
+    this.#run(null);
+    const still = matchMedia("(prefers-reduced-motion: reduce)").matches;
+    if (this.data.loop && !still) this.#playOrPause();
+  }
+
+  // The bound on sigma_2 at every time, as colours.
+  #strip() {
+    const { motion } = this;
+    const { sigma2, until } = this.data.motion;
+    const span = motion.end - motion.start;
+    const colors = Array.from({ length: STRIPES }, (_, i) => {
+      const time = motion.start + ((i + 0.5) / STRIPES) * span;
+      const bound = sigma2[motion.place(time).piece] ?? 0;
+      const stop = Math.round((1 - Math.min(bound, 1)) * (this.#stops - 1));
+      return `${time < until ? this.#css(stop) : UNPROVED} ${i}% ${i + 1}%`;
+    });
+    return `linear-gradient(to right, ${colors})`;
+  }
+
+  /** @param {KeyboardEvent} e */
+  #keydown(e) {
+    const target = /** @type {HTMLElement} */ (e.target);
+    if (e.ctrlKey || e.metaKey || e.altKey || target.tagName === "SELECT") return;
+    if (e.key === " ") {
+      if (target.matches("button, input[type=checkbox]")) return;
+      e.preventDefault();
+      this.#playOrPause();
+      return;
+    }
+    const to = this.#timeOf(e);
+    if (to === null) return;
+    e.preventDefault();
+    this.#goTo(Math.min(Math.max(to, this.motion.start), this.motion.end));
+  }
+
+  /**
+   * The time that a key leads to; null for none.
+   *
+   * @param {KeyboardEvent} e
+   */
+  #timeOf(e) {
+    const step = e.shiftKey ? FAST * STEP : STEP;
+    if (e.key === "ArrowLeft") return this.time - step;
+    if (e.key === "ArrowRight") return this.time + step;
+    if (e.key === "Home") return this.motion.start;
+    return e.key === "End" ? this.motion.end : null;
+  }
+
+  /** @param {number} time */
+  #goTo(time) {
+    this.#run(null);
+    this.#seek(time);
+  }
+
+  /** @param {number} time */
+  #seek(time) {
+    const { motion } = this;
+    this.time = time === motion.end ? time : motion.within(time);
+    this.slider.value = String(this.time);
+    this.clock.textContent = `${this.time.toFixed(2)} / ${motion.end.toFixed(2)} s`;
+    const { piece } = motion.place(this.time);
+    this.here.textContent = provedNow(this.data.motion, piece, this.time);
+    this.poses.mark(motion.within(this.time));
+    this.draw();
+  }
+
+  /** @param {Course | null} course null pauses */
+  #run(course) {
+    cancelAnimationFrame(this.#due);
+    this.#course = course && { ...course, began: performance.now() };
+    if (course) this.#due = requestAnimationFrame((now) => this.#tick(now));
+    this.play.textContent = course?.plays ? "❚❚" : "▶";
+    this.play.setAttribute("aria-label", course?.plays ? "Pause" : "Play");
+  }
+
+  /** @param {number} now */
+  #tick(now) {
+    if (!this.#course) return;
+    const { began, lasts, at } = this.#course;
+    const passed = Math.min(Math.max(now - began, 0), lasts);
+    this.#seek(at(passed));
+    if (passed === lasts) this.#run(null);
+    else this.#due = requestAnimationFrame((next) => this.#tick(next));
+  }
+
+  #playOrPause() {
+    const playing = this.#course?.plays;
+    this.#run(playing ? null : playedFrom(this.motion, this.time, this.data.loop));
+  }
+}
+
+/** @param {string} message */
+function fail(message) {
+  const problem = byId("problem", HTMLParagraphElement);
+  problem.textContent = message;
+  problem.hidden = false;
+}
+
+/**
+ * @param {string} address
+ * @returns {Promise<HTMLImageElement>}
+ */
+function loaded(address) {
+  return new Promise((resolve, reject) => {
+    const picture = new Image();
+    picture.onerror = () => reject(new CannotShow("The picture in this page is damaged."));
+    picture.onload = () => resolve(picture);
+    picture.src = address;
+  });
+}
+
+async function show() {
+  /** @type {PageData} */
+  const data = JSON.parse(byId("data", HTMLScriptElement).text);
+  const canvas = document.querySelector("canvas");
+  /** @type {WebGLContextAttributes} */
+  const options = { antialias: true, premultipliedAlpha: true, preserveDrawingBuffer: true };
+  const gl = canvas?.getContext("webgl2", options);
+  if (!canvas || !gl || !window.DecompressionStream) {
+    throw new CannotShow("This page needs WebGL 2 and a browser of 2023 or later.");
+  }
+  const source = await unpacked(data.source, 2);
+  const rows = await restored(data.coefficients, data.width);
+  const heights = await restored(data.heights, source.length / 2);
+  const triangles = await cornersOf(data.triangles);
+  const cage = new Float32Array(bytesOf(data.cage));
+  const lowest = heights.subarray(0, source.length / 2); // at the first keyframe
+  const renderer = new Renderer(canvas, gl, data, { source, heights: lowest, triangles }, cage);
+  const page = new Page(canvas, data, renderer, rows, heights);
+  renderer.setPicture(await loaded(data.picture));
+  page.begin();
+}
+
+show().catch((error) => {
+  fail(error.message);
+  if (!(error instanceof CannotShow)) throw error; // for the console
+});

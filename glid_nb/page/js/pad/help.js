@@ -1,0 +1,45 @@
+// A "?" and the table of keys and gestures that it shows over the page.
+
+import { make } from "./dom.js";
+
+/** @typedef {[keys: string, whatTheyDo: string]} Row */
+/** @typedef {[title: string, rows: Row[]]} Section */
+
+const OF_THE_PAD = ["pointerdown", "pointermove", "wheel", "keydown", "keyup", "contextmenu"];
+
+/**
+ * Keeps an element's events from the pad below it.
+ *
+ * @template {HTMLElement} T
+ * @param {T} element
+ */
+export function shield(element) {
+  for (const name of OF_THE_PAD) element.addEventListener(name, (e) => e.stopPropagation());
+  return element;
+}
+
+/** @param {Section[]} sections */
+export function help(sections) {
+  const table = shield(
+    make(
+      "div",
+      { className: "glid-help", popover: "auto", autofocus: true, tabIndex: -1 },
+      ...sections.map(section),
+    ),
+  );
+  table.addEventListener("click", () => table.hidePopover());
+  const title = "Keys and gestures (?)";
+  const look = { className: "glid-help-button", title, "aria-label": title };
+  const button = shield(make("button", { ...look, popoverTargetElement: table }, "?"));
+  return { table, button, toggle: () => void table.togglePopover() };
+}
+
+/** @param {Section} section */
+function section([title, rows]) {
+  return make("section", {}, make("h4", {}, title), make("table", {}, ...rows.map(row)));
+}
+
+/** @param {Row} row */
+function row([keys, what]) {
+  return make("tr", {}, make("th", {}, keys), make("td", {}, what));
+}

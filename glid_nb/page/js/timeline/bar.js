@@ -1,0 +1,126 @@
+// The timeline's buttons.
+
+import { make } from "../pad/dom.js";
+import { icon, iconButton } from "../pad/icons.js";
+import { seconds } from "./words.js";
+
+/** @import { Shown } from "./traits.js" */
+
+/**
+ * What the buttons do; `edit` changes the pose that is edited.
+ *
+ * @typedef {object} Does
+ * @property {() => void} play
+ * @property {() => void} keep
+ * @property {(type: string, content?: Record<string, unknown>) => void} act
+ * @property {(type: string, content?: Record<string, unknown>) => void} edit
+ */
+
+/** @typedef {[value: string, label: string]} Choice */
+
+/** @type {Choice[]} */
+const EASINGS = [
+  ["linear", "Even"],
+  ["in", "Ease in"],
+  ["out", "Ease out"],
+  ["in-out", "Ease in, out"],
+];
+/** @type {Choice[]} */
+const REPEATS = [
+  ["once", "Once"],
+  ["loop", "Loop"],
+  ["ping-pong", "Ping-pong"],
+];
+const ONION =
+  "Onion skin of the pose that is edited: outlines of those before (blue) and after (orange)";
+const KEEP = "Keep this pose and go on with a copy; between poses, keep what is seen";
+
+export class Bar {
+  recording = false;
+  onionOn = false;
+
+  /** @param {Does} does */
+  constructor({ play, keep, act, edit }) {
+    this.play = iconButton("play", "Play, pause (Space)", play);
+    this.repeat = menu("Play once, in a loop, or there and back", REPEATS, (repeat) =>
+      act("set_repeat", { repeat }),
+    );
+    this.clock = make("span", { className: "glid-time", role: "timer" });
+    this.record = iconButton("record", "Record: keep the next drag as keyframes", () =>
+      act("record", { on: !this.recording }),
+    );
+    this.onion = iconButton("onion", ONION, () => act("onion", { on: !this.onionOn }));
+    this.keep = make("button", { className: "glid-keep", title: KEEP, onclick: keep });
+    const copy = iconButton("copy", "Duplicate this pose", () => edit("duplicate_pose"));
+    this.remove = iconButton("trash", "Delete this pose (Delete)", () => edit("delete_pose"));
+    this.name = make("input", {
+      type: "text",
+      "aria-label": "Name of the pose",
+      title: "Name of the pose",
+      maxLength: 200,
+      onchange: () => edit("rename_pose", { name: this.name.value }),
+    });
+    this.easing = menu("How the motion leaves this pose", EASINGS, (easing) =>
+      edit("set_easing", { easing }),
+    );
+    this.save = iconButton("export", "Export the motion", () => act("export"));
+    this.element = make(
+      "div",
+      { className: "glid-bar", role: "toolbar", "aria-label": "Motion" },
+      ...[this.play, this.repeat, this.clock, gap()],
+      ...[this.record, this.onion, gap()],
+      ...[this.keep, copy, this.remove, this.name, this.easing, this.save],
+    );
+  }
+
+  /**
+   * @param {Shown} shown
+   * @param {boolean} moved whether another pose is edited now
+   */
+  update({ keyframes, active, repeat, recording, onion, exports }, moved) {
+    const { name, easing } = keyframes[active];
+    const alone = keyframes.length < 2;
+    this.repeat.value = repeat;
+    this.easing.value = easing;
+    if (document.activeElement !== this.name || moved) this.name.value = name;
+    this.remove.disabled = alone;
+    for (const control of [this.play, this.save, this.repeat, this.easing]) {
+      control.disabled = alone;
+    }
+    this.save.hidden = !exports;
+    this.recording = recording;
+    this.onionOn = onion;
+    this.record.ariaPressed = String(recording);
+    this.onion.ariaPressed = String(onion);
+  }
+
+  /**
+   * @param {number} place of the playhead
+   * @param {number} end
+   * @param {boolean} playing
+   * @param {boolean} between whether a time between the poses is seen
+   */
+  showTime(place, end, playing, between) {
+    const does = playing ? "pause" : "play";
+    if (this.play.dataset.does !== does) this.play.innerHTML = icon(does);
+    this.play.dataset.does = does;
+    this.clock.textContent = `${place.toFixed(2)} / ${seconds(end)}`;
+    this.keep.textContent = between ? "Keep it" : "Keep";
+  }
+}
+
+function gap() {
+  return make("span", { className: "glid-gap" });
+}
+
+/**
+ * @param {string} label
+ * @param {Choice[]} choices
+ * @param {(value: string) => void} act
+ */
+function menu(label, choices, act) {
+  const options = choices.map(([value, text]) => new Option(text, value));
+  const select = make("select", { "aria-label": label, title: label }, ...options);
+  select.addEventListener("change", () => act(select.value));
+  return select;
+}

@@ -1,0 +1,261 @@
+// The timeline below the canvas: keyframes with thumbnails, the proof between them, a playhead.
+
+import { Motion } from "../motion/motion.js";
+import { make, toFloats } from "../pad/dom.js";
+import { undoOrRedo } from "../pad/keys.js";
+import { Link } from "../pad/link.js";
+import { Bar } from "./bar.js";
+import { Player } from "./player.js";
+import { keyAt, nextKey } from "./scale.js";
+import { Track } from "./track.js";
+import { noteOn } from "./words.js";
+
+/** @import { Context, Model } from "../types.js" */
+/** @import { TimelineTraits } from "./traits.js" */
+
+const STEP = 1 / 30; // s, of the arrow keys
+const NUDGE = 0.1; // s, with Alt
+
+export class Timeline {
+  note = make("div", { className: "glid-timeline-note", role: "status", "aria-live": "polite" });
+  /** @type {Model<any> | null} the canvas's, once it is found */
+  stage = null;
+
+  /** @type {Motion | null} the picture's heights at the keyframes, where they differ */
+  #layers = null;
+  #hovered = ""; // what lies below the pointer, in words
+
+  /** @param {Context<TimelineTraits>} context */
+  constructor({ model, el, signal }) {
+    this.model = model;
+    this.root = make("div", {
+      className: "glid-skin glid-timeline",
+      role: "group",
+      "aria-label": "Timeline",
+    });
+    this.root.dataset.lmSuppressShortcuts = "true"; // JupyterLab must not take the keys first
+    this.link = new Link(model, this.root, signal, () => this.tell());
+    this.player = new Player(
+      (floats, time) => this.#show(floats, time),
+      () => this.showHead(),
+    );
+    this.bar = new Bar({
+      play: () => this.player.play(),
+      keep: () => this.#keep(),
+      act: (type, content) => void this.act(type, content),
+      edit: (type, content) => void this.edit(type, content),
+    });
+    this.track = new Track({
+      scrubs: () => this.player.clock !== null,
+      scrub: (time) => this.player.scrub(time),
+      scrubbed: () => this.#selectHere(),
+      select: (index) => this.select(index),
+      move: (index, time) => void this.act("move_pose", { index, time }),
+      hover: (text) => {
+        this.#hovered = text;
+        this.tell();
+      },
+      dropped: () => {
+        this.showKeys();
+        this.showHead();
+      },
+    });
+    this.root.append(this.bar.element, this.track.element, this.note);
+    this.root.addEventListener("keydown", (e) => this.#keydown(e));
+    this.root.addEventListener("keyup", (e) => {
+      if (e.key === " " && !this.#typing(e)) e.preventDefault();
+    });
+    // After a click on a button the keys are the timeline's again.
+    this.bar.element.addEventListener("click", (e) => {
+      const target = /** @type {Element} */ (e.target);
+      if (e.detail && target.closest("button")) this.track.focus();
+    });
+    el.classList.add("glid-host");
+    el.append(this.root);
+  }
+
+  get shown() {
+    return this.model.get("shown");
+  }
+
+  get spans() {
+    return this.model.get("motion").spans;
+  }
+
+  get active() {
+    return this.shown.keyframes[this.shown.active];
+  }
+
+  /**
+   * Asks the kernel for something.
+   *
+   * @param {string} type
+   * @param {Record<string, unknown>} content
+   */
+  act(type, content = {}) {
+    return this.link.put({ type, ...content });
+  }
+
+  /**
+   * Changes the pose that is edited.
+   *
+   * @param {string} type
+   * @param {Record<string, unknown>} content
+   */
+  edit(type, content = {}) {
+    return this.act(type, { index: this.shown.active, ...content });
+  }
+
+  /** Back to the pose that is edited. */
+  release = () => {
+    this.player.release(this.active.time);
+  };
+
+  /** @param {number} index */
+  select(index) {
+    if (index === this.shown.active) this.release();
+    else this.act("go_to_pose", { index });
+  }
+
+  tell() {
+    const { refusal } = this.link;
+    const bad = this.spans.some(({ reason }) => reason);
+    const text = refusal || this.#hovered || noteOn(this.shown, this.spans);
+    this.note.textContent = text;
+    this.note.title = text;
+    this.note.dataset.tone = refusal || (bad && !this.#hovered) ? "bad" : "";
+  }
+
+  showHead() {
+    const { keyframes } = this.shown;
+    if (!keyframes) return; // the kernel has said nothing yet
+    const { place, seen, playing } = this.player;
+    const end = this.spans.at(-1)?.end ?? keyframes[keyframes.length - 1].time;
+    this.track.showHead(place, seen);
+    this.bar.showTime(place, end, playing, seen && keyAt(keyframes, place) < 0);
+  }
+
+  showKeys() {
+    this.track.showKeys(this.shown, this.model.get("thumbnails"));
+  }
+
+  showState() {
+    const { keyframes, active } = this.shown;
+    const now = `${active}/${keyframes.length}`;
+    const moved = this.root.dataset.active !== now;
+    this.root.dataset.active = now;
+    this.bar.update(this.shown, moved);
+    this.showKeys();
+    this.showMotion();
+    if (moved || !this.player.seen) this.release();
+  }
+
+  showMotion() {
+    const { player, shown, spans } = this;
+    const intervals = spans.map((span) => ({ ...span, floats: toFloats(span.floats) }));
+    player.set(intervals, shown.repeat);
+    const computing = spans.some(({ status }) => status === "computing");
+    if (shown.kernel && !player.playing && player.seen && computing) this.release();
+    this.tell();
+    this.track.showSpans(spans, this.note.textContent ?? "");
+    this.showHead();
+  }
+
+  showHeights() {
+    const { times, floats } = this.model.get("heights");
+    this.#layers = times.length ? new Motion({ times, repeat: "once" }, toFloats(floats)) : null;
+  }
+
+  /**
+   * Has the canvas show coefficients, or the kernel's frame of a time; without a time the pose that
+   * is edited.
+   *
+   * @param {Float32Array | null} floats
+   * @param {number} [time]
+   */
+  #show(floats, time) {
+    const { stage } = this;
+    if (!stage) return;
+    const moving = time !== undefined;
+    const heights = moving ? (this.#layers?.at(time) ?? null) : null;
+    stage.trigger("glid:motion", moving ? (floats ?? true) : null, this.release, heights);
+    if (this.shown.kernel) return this.act("frame", { time: time ?? null, replaces: "frame" });
+  }
+
+  #keep() {
+    const { player } = this;
+    this.act("keep", { time: player.seen ? player.place : this.active.time });
+  }
+
+  // Selects the keyframe on which a pointer that scrubbed was let go.
+  #selectHere() {
+    const index = keyAt(this.shown.keyframes, this.player.place);
+    if (index >= 0) this.select(index);
+  }
+
+  /** @param {Event} e */
+  #typing(e) {
+    return this.bar.element.contains(/** @type {Node} */ (e.target));
+  }
+
+  /** @param {KeyboardEvent} e */
+  #keydown(e) {
+    const history = e.target === this.bar.name ? null : undoOrRedo(e);
+    if (!history && (e.ctrlKey || e.metaKey)) return;
+    e.stopPropagation();
+    const does = this.#typing(e) ? null : this.#keyDoes(e);
+    if (!history && !does) return;
+    e.preventDefault();
+    if (history) this.act(history);
+    else does?.();
+  }
+
+  /**
+   * What a key does; null for the others.
+   *
+   * @param {KeyboardEvent} e
+   * @returns {(() => void) | null}
+   */
+  #keyDoes(e) {
+    const { keyframes } = this.shown;
+    switch (e.key) {
+      case " ":
+        return () => void (e.repeat || this.player.play());
+      case "ArrowLeft":
+        return () => this.#step(e, -1);
+      case "ArrowRight":
+        return () => this.#step(e, 1);
+      case "Delete":
+      case "Backspace":
+        return () => void this.edit("delete_pose");
+      case "Home":
+        return () => this.select(0);
+      case "End":
+        return () => this.select(keyframes.length - 1);
+      case "Escape":
+        return () => {
+          this.track.drop();
+          this.release();
+        };
+      default:
+        return null;
+    }
+  }
+
+  /**
+   * @param {KeyboardEvent} e
+   * @param {1 | -1} sign
+   */
+  #step(e, sign) {
+    const { player, track } = this;
+    const { keyframes, active } = this.shown;
+    if (e.altKey) {
+      const time = track.landing(active, this.active.time + sign * NUDGE);
+      this.edit("move_pose", { time });
+    } else if (e.shiftKey) {
+      this.select(nextKey(keyframes, player.place, sign) ?? active);
+    } else {
+      player.scrub(player.place + sign * STEP);
+    }
+  }
+}

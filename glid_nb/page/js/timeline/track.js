@@ -1,0 +1,282 @@
+// The track below the buttons: a ruler, the keyframes, a strip of what is proved, the playhead.
+//
+// A keyframe is dragged along time, or clicked; elsewhere a pointer scrubs.
+
+import { make } from "../pad/dom.js";
+import { labelledTimes, landing, roomAt, spanOf, withReturn } from "./scale.js";
+import { seconds } from "./words.js";
+
+/** @import { Shown, Span, TimelineTraits } from "./traits.js" */
+
+/**
+ * What a hand on the track does.
+ *
+ * @typedef {object} Hand
+ * @property {() => boolean} scrubs whether there is a motion to scrub through
+ * @property {(time: number) => void} scrub
+ * @property {() => void} scrubbed the pointer was let go
+ * @property {(index: number) => void} select
+ * @property {(index: number, time: number) => void} move moves a keyframe
+ * @property {(text: string) => void} hover says what lies below the pointer
+ * @property {() => void} dropped what was dragged is let go, so all is shown again
+ */
+
+/** @typedef {{ index: number, from: number, x: number, time: number | null }} Drag a keyframe's */
+
+// CSS pixels.
+const SNAP = 6; // around a keyframe, of a pointer that scrubs
+const STILL = 4; // that a click may move
+const SLIM = 8; // width of a keyframe, at least
+const WIDE = 60; // at most
+const LEAST_HEIGHT = 0.06; // of a proved piece, as a share of the strip's
+
+export class Track {
+  span = 1; // s, what it shows
+  keys = make("div", { className: "glid-keys" });
+  head = make("div", { className: "glid-playhead" });
+  ruler = make("div", {
+    className: "glid-ruler",
+    tabIndex: 0,
+    role: "slider",
+    "aria-label": "Time",
+    "aria-valuemin": 0,
+  });
+
+  /** @type {Drag | null} */
+  #drag = null;
+  /** @type {number | null} the pointer that scrubs */
+  #scrubbing = null;
+  /** @type {Shown | null} */
+  #shown = null;
+
+  /** @param {Hand} hand */
+  constructor(hand) {
+    this.hand = hand;
+    this.strip = make("div", {
+      className: "glid-strip",
+      role: "img",
+      onpointerleave: () => hand.hover(""),
+    });
+    const parts = [this.ruler, this.keys, this.strip, this.head];
+    this.element = make("div", { className: "glid-track" }, ...parts);
+    this.element.addEventListener("pointerdown", (e) => this.#down(e));
+    this.element.addEventListener("pointermove", (e) => this.#scrub(e));
+    this.element.addEventListener("lostpointercapture", (e) => this.#up(e));
+  }
+
+  focus() {
+    this.ruler.focus({ preventScroll: true });
+  }
+
+  /** Lets go of what is dragged. */
+  drop() {
+    this.#drag = null;
+    this.#scrubbing = null;
+    this.hand.hover("");
+    this.hand.dropped();
+  }
+
+  /**
+   * The time nearest to one to which a keyframe can move.
+   *
+   * @param {number} index
+   * @param {number} time
+   */
+  landing(index, time) {
+    const least = (SLIM / this.#inside().width) * this.span;
+    return landing(this.#shown?.keyframes ?? [], index, time, least);
+  }
+
+  /**
+   * @param {number} place
+   * @param {boolean} seen whether the motion is shown
+   */
+  showHead(place, seen) {
+    this.head.style.left = this.#at(place);
+    this.head.classList.toggle("glid-seen", seen);
+    this.element.dataset.time = String(place);
+    this.element.dataset.span = String(this.span);
+    this.ruler.setAttribute("aria-valuenow", place.toFixed(2));
+    this.ruler.setAttribute("aria-valuetext", seconds(place));
+  }
+
+  /**
+   * @param {Shown} shown
+   * @param {TimelineTraits["thumbnails"]} thumbnails
+   */
+  showKeys(shown, thumbnails) {
+    this.#shown = shown;
+    if (this.#drag || this.#scrubbing !== null) return; // what is held must stay in the page
+    const all = withReturn(shown);
+    this.span = spanOf(all);
+    this.ruler.setAttribute("aria-valuemax", this.span.toFixed(2));
+    const root = /** @type {Document | ShadowRoot} */ (this.keys.getRootNode());
+    const active = /** @type {Element} */ (root.activeElement);
+    const focused = [...this.keys.children].indexOf(active);
+    this.keys.replaceChildren(
+      ...all.map(({ name, time, thumbnail }, i) => {
+        const title = `${name} at ${seconds(time)}`;
+        const width = `${this.#wide(roomAt(all, i, this.span))} - 2px`;
+        const own = i < shown.keyframes.length;
+        const picture = thumbnail === undefined ? undefined : thumbnails[thumbnail];
+        return make(
+          "button",
+          {
+            className: own ? "glid-key" : "glid-key glid-return",
+            title: `${title}; drag it to another time`,
+            "aria-label": title,
+            "aria-pressed": i === shown.active,
+            style: `left: ${this.#at(time)}; width: clamp(${SLIM}px, ${width}, ${WIDE}px)`,
+            onpointerdown: (/** @type {PointerEvent} */ e) => this.#grab(e, i, time),
+            onclick: (/** @type {MouseEvent} */ e) => {
+              if (!e.detail) this.hand.select(i % shown.keyframes.length); // by the keyboard
+            },
+          },
+          ...(picture ? [make("img", { src: picture, alt: "", draggable: false })] : []),
+        );
+      }),
+    );
+    const key = this.keys.children[focused];
+    if (key instanceof HTMLElement) key.focus();
+  }
+
+  /**
+   * @param {Span[]} spans
+   * @param {string} label
+   */
+  showSpans(spans, label) {
+    this.strip.replaceChildren(...spans.flatMap((span) => this.#pieces(span)));
+    this.strip.setAttribute("aria-label", label);
+    const labels = labelledTimes(this.span).map((time) =>
+      make("span", { style: `left: ${this.#at(time)}` }, `${Number(time.toFixed(1))}`),
+    );
+    this.ruler.replaceChildren(...labels);
+  }
+
+  /** @param {Span} span */
+  #pieces({ start, end, status, reason, times, sigma2 }) {
+    const proved = sigma2.map((bound, i) => {
+      const when = `from ${seconds(times[i])} to ${seconds(times[i + 1])}`;
+      const height = Math.min(Math.max(bound, LEAST_HEIGHT), 1);
+      const text = `σ₂ ≥ ${bound.toFixed(3)} ${when}`;
+      return this.#piece(times[i], times[i + 1], "proved", text, height);
+    });
+    if (status === "proved") return proved;
+    const from = status === "fails" ? (times.at(-1) ?? start) : start;
+    const text = reason || `Not proved yet from ${seconds(start)} to ${seconds(end)}`;
+    return [...proved, this.#piece(from, end, status, text, 1)];
+  }
+
+  /**
+   * @param {number} start
+   * @param {number} end
+   * @param {string} kind
+   * @param {string} text
+   * @param {number} height as a share of the strip's
+   */
+  #piece(start, end, kind, text, height) {
+    const width = `calc(${this.#wide(end - start)})`;
+    return make("div", {
+      className: `glid-piece glid-${kind}`,
+      title: text,
+      onpointerenter: () => this.hand.hover(text),
+      style: `left: ${this.#at(start)}; width: ${width}; --glid-height: ${height}`,
+    });
+  }
+
+  /**
+   * A length of time, as CSS's `calc` takes it.
+   *
+   * @param {number} time
+   */
+  #wide(time) {
+    return `${time / this.span} * (100% - 2 * var(--glid-inset))`;
+  }
+
+  /** @param {number} time */
+  #at(time) {
+    return `calc(var(--glid-inset) + ${this.#wide(time)})`;
+  }
+
+  // The part of the track that stands for time, in CSS pixels of the window.
+  #inside() {
+    const { left, width } = this.element.getBoundingClientRect();
+    const inset = Number.parseFloat(
+      getComputedStyle(this.element).getPropertyValue("--glid-inset"),
+    );
+    return { left: left + inset, width: width - 2 * inset };
+  }
+
+  /**
+   * @param {PointerEvent} e
+   * @param {number} index
+   * @param {number} time
+   */
+  #grab(e, index, time) {
+    if (e.button !== 0) return;
+    e.stopPropagation();
+    const button = /** @type {HTMLButtonElement} */ (e.currentTarget);
+    this.#drag = { index, from: time, x: e.clientX, time: null };
+    button.setPointerCapture(e.pointerId);
+    button.focus({ preventScroll: true }); // so that Escape is heard
+    button.onpointermove = (move) => this.#dragged(move, button);
+    button.onlostpointercapture = () => this.#letGo();
+  }
+
+  /**
+   * @param {PointerEvent} e
+   * @param {HTMLButtonElement} button
+   */
+  #dragged(e, button) {
+    const drag = this.#drag;
+    if (!drag) return;
+    const moved = e.clientX - drag.x;
+    if (drag.time === null && Math.abs(moved) <= STILL) return;
+    const time = drag.from + (moved / this.#inside().width) * this.span;
+    drag.time = this.landing(drag.index, time);
+    button.style.left = this.#at(drag.time);
+    this.head.style.left = this.#at(drag.time);
+    this.hand.hover(`to ${seconds(drag.time)}`);
+  }
+
+  #letGo() {
+    if (!this.#drag) return;
+    const { index, time } = this.#drag;
+    this.drop();
+    if (time !== null) {
+      this.focus();
+      this.hand.move(index, time);
+    } else if (index < (this.#shown?.keyframes.length ?? 0)) {
+      this.hand.select(index);
+    }
+  }
+
+  /** @param {PointerEvent} e */
+  #down(e) {
+    if (e.button !== 0 || !this.hand.scrubs()) return;
+    this.#scrubbing = e.pointerId;
+    this.element.setPointerCapture(e.pointerId);
+    this.#scrub(e);
+  }
+
+  /**
+   * Goes to the time below the pointer; near a keyframe to its time.
+   *
+   * @param {PointerEvent} e
+   */
+  #scrub(e) {
+    if (this.#scrubbing !== e.pointerId) return;
+    const { left, width } = this.#inside();
+    const time = ((e.clientX - left) / width) * this.span;
+    const near = (SNAP / width) * this.span;
+    const key = this.#shown?.keyframes.find((one) => Math.abs(one.time - time) < near);
+    this.hand.scrub(key?.time ?? time);
+  }
+
+  /** @param {PointerEvent} e */
+  #up(e) {
+    if (this.#scrubbing !== e.pointerId) return;
+    this.drop();
+    this.hand.scrubbed();
+  }
+}

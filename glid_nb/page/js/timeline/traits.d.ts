@@ -1,0 +1,47 @@
+// What the kernel says of a timeline: the traits of `TimelinePanel` in glid_nb/widgets/timeline.py.
+
+import type { Repeat } from "../motion/motion.js";
+
+export interface Keyframe {
+  name: string;
+  time: number;
+  easing: string;
+  /** The key of its picture in `thumbnails`. */
+  thumbnail?: string;
+}
+
+/** The motion from one keyframe to the next. */
+export interface Span {
+  start: number;
+  end: number;
+  status: "proved" | "fails" | "computing";
+  reason: string;
+  /** Of the knots, as far as it is proved. */
+  times: number[];
+  /** The coefficients at the knots; empty where the kernel evaluates. */
+  floats: DataView;
+  /** The bound on each piece between two knots. */
+  sigma2: number[];
+}
+
+export interface Shown {
+  keyframes: Keyframe[];
+  active: number;
+  repeat: Repeat;
+  /** Seconds from the last keyframe back to the first, of a loop. */
+  back: number;
+  recording: boolean;
+  onion: boolean;
+  /** Whether there is an export button. */
+  exports: boolean;
+  /** Whether the kernel evaluates the motion. */
+  kernel: boolean;
+}
+
+export interface TimelineTraits {
+  stage: string;
+  shown: Shown;
+  motion: { spans: Span[] };
+  heights: { times: number[]; floats: DataView };
+  thumbnails: Record<string, string>;
+}

@@ -1,0 +1,77 @@
+// The tools, and the tables of what they do.
+
+/** @import { Section } from "../pad/help.js" */
+/** @import { Tool } from "./traits.js" */
+
+/** @type {Record<Tool, { label: string, hint: string }>} the button's title, and a hint */
+export const TOOLS = {
+  edit: {
+    label: "Edit vertices and holes (V)",
+    hint:
+      "Drag a vertex · double-click an edge to add one · " +
+      "right-click a vertex to delete it · click a hole to drop it",
+  },
+  foreground: { label: "Paint over the shape (B)", hint: "Paint over the shape" },
+  background: {
+    label: "Paint over the background (N)",
+    hint: "Paint over what is around the shape",
+  },
+  color: {
+    label: "Pick the background's colour (I)",
+    hint: "Click a pixel that shows the background's colour",
+  },
+  component: {
+    label: "Pick the component to trace (C)",
+    hint: "Click the part of the picture to trace",
+  },
+  polygon: {
+    label: "Draw the outline by hand (P)",
+    hint:
+      "Click corner after corner, or draw around the shape · " +
+      "double-click or Enter closes it · Esc starts anew",
+  },
+  rectangle: { label: "Draw a rectangle (R)", hint: "Drag a rectangle over the shape" },
+};
+
+/** @type {Tool[]} */
+export const TOOL_NAMES = [
+  "edit",
+  "foreground",
+  "background",
+  "color",
+  "component",
+  "polygon",
+  "rectangle",
+];
+
+/** @type {Section[]} */
+export const HELP = [
+  [
+    "Outline",
+    [
+      [
+        "V",
+        "edit: drag a vertex, double-click an edge to add one, click a hole to drop or keep it",
+      ],
+      ["Right-click, Delete", "remove a vertex"],
+      ["[ ]", "select the vertex before, the next vertex"],
+      ["Arrow keys", "nudge the selected vertex, with Shift farther"],
+      ["Ctrl+Z, Ctrl+Shift+Z", "undo, redo"],
+    ],
+  ],
+  [
+    "By hand",
+    [
+      ["B, N", "paint over the shape, over the background"],
+      ["I, C", "pick the background's colour, the component"],
+      ["P, R", "draw the outline, a rectangle; Enter closes an outline, Esc gives it up"],
+    ],
+  ],
+  [
+    "View",
+    [
+      ["Wheel, + -, F", "zoom after a click on the picture, fit the picture"],
+      ["Drag beside the outline", "move the view"],
+    ],
+  ],
+];

@@ -1,0 +1,43 @@
+// What the tracer says of a tracing.
+
+/** @import { Shown } from "./traits.js" */
+
+/** @typedef {{ kind: "ok" | "guess" | "bad" | "busy" | "idle", text: string }} Status */
+
+/**
+ * @param {Shown} shown
+ * @param {string | null} refusal of the last action
+ * @param {boolean} busy whether an answer is overdue
+ * @returns {Status}
+ */
+export function statusOf(shown, refusal, busy) {
+  if (refusal) return { kind: "bad", text: refusal };
+  if (busy) return { kind: "busy", text: "Working…" };
+  if (!shown.size) return { kind: "idle", text: "No picture yet" };
+  if (shown.problems.length) {
+    const kept = "This is not a valid cage; the last valid cage is kept";
+    return { kind: "bad", text: shown.loops.length ? kept : "There is no cage yet" };
+  }
+  const text = cageOf(shown) + moreOn(shown);
+  const { doubt } = shown;
+  return doubt ? { kind: "guess", text: `A guess, as ${doubt} · ${text}` } : { kind: "ok", text };
+}
+
+/** @param {Shown} shown */
+function cageOf({ loops }) {
+  return `Cage with ${loops.flat().length} vertices and ${holesIn(loops.length - 1)}`;
+}
+
+/** @param {Shown} shown */
+function moreOn({ discarded, component, n_components: count }) {
+  if (discarded) return " · your edits were lost with the old outline; Undo brings them back";
+  if (count < 2) return "";
+  const which = component ? `component ${component + 1}` : "the largest";
+  return ` · ${which} of ${count} components`;
+}
+
+/** @param {number} count */
+export function holesIn(count) {
+  if (count < 1) return "no holes";
+  return count === 1 ? "1 hole" : `${count} holes`;
+}

@@ -1,0 +1,106 @@
+// Playing a motion, frame by frame.
+
+import assert from "node:assert/strict";
+import { beforeEach, test } from "node:test";
+import { Player } from "../../glid_nb/page/js/timeline/player.js";
+import { Frames } from "./fakes.js";
+
+/** @import { Repeat } from "../../glid_nb/page/js/motion/motion.js" */
+
+/** @type {Frames} */
+let frames;
+
+beforeEach(() => {
+  frames = new Frames();
+});
+
+/** @param {Repeat} repeat */
+function playing(repeat) {
+  /** @type {[number[] | null, number | undefined][]} */
+  const shown = [];
+  const player = new Player(
+    (floats, time) => void shown.push([floats && [...floats], time]),
+    () => {},
+  );
+  const first = { start: 0, end: 1, times: [0, 1], floats: new Float32Array([0, 10]) };
+  const half = { start: 1, end: 2, times: [1, 1.5], floats: new Float32Array([10, 20]) };
+  player.set([first, half], repeat);
+  return { player, shown };
+}
+
+/** @param {number} now */
+async function frame(now) {
+  frames.run(now);
+  await new Promise((resolve) => setImmediate(resolve));
+}
+
+test("a time shows the coefficients of its interval", () => {
+  const { player, shown } = playing("once");
+  player.scrub(0.5);
+  player.scrub(1.25);
+  assert.deepEqual(shown, [
+    [[5], 0.5],
+    [[15], 1.25],
+  ]);
+});
+
+test("beyond what is proved the last proved instant stays", () => {
+  const { player, shown } = playing("once");
+  player.scrub(1.9);
+  assert.deepEqual(shown, [[[20], 1.9]]);
+});
+
+test("a motion that plays once ends at its end, and then begins anew", async () => {
+  const { player } = playing("once");
+  player.play();
+  await frame(0);
+  await frame(1500);
+  assert.ok(player.playing);
+  await frame(2500);
+  assert.ok(!player.playing);
+  assert.equal(player.time, 2);
+  player.play();
+  assert.equal(player.time, 0);
+});
+
+test("on the way back of a ping-pong the playhead runs back", async () => {
+  const { player, shown } = playing("ping-pong");
+  player.play();
+  await frame(0);
+  await frame(2500);
+  assert.equal(player.time, 2.5);
+  assert.equal(player.place, 1.5);
+  assert.deepEqual(shown.at(-1), [[20], 1.5]);
+  player.play();
+  assert.ok(!player.playing);
+});
+
+test("the next frame waits until the one before is drawn", async () => {
+  let drawn = () => {};
+  const player = new Player(
+    () =>
+      new Promise((resolve) => {
+        drawn = () => resolve(null);
+      }),
+    () => {},
+  );
+  const span = { start: 0, end: 9, times: [0, 9], floats: new Float32Array() };
+  player.set([span], "once");
+  player.play();
+  await frame(0);
+  await frame(500);
+  assert.equal(player.time, 0);
+  drawn();
+  await frame(500);
+  await frame(1000);
+  assert.ok(player.time > 0);
+});
+
+test("going back shows the pose that is edited, once", () => {
+  const { player, shown } = playing("loop");
+  player.scrub(0.5);
+  player.release(1);
+  player.release(1);
+  assert.deepEqual(shown.slice(1), [[null, undefined]]);
+  assert.equal(player.time, 1);
+});

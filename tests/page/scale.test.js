@@ -1,0 +1,102 @@
+// Where things lie along the timeline.
+
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import {
+  keyAt,
+  labelledTimes,
+  landing,
+  nextKey,
+  roomAt,
+  spanOf,
+  withReturn,
+} from "../../glid_nb/page/js/timeline/scale.js";
+import { noteOn } from "../../glid_nb/page/js/timeline/words.js";
+
+/** @import { Shown, Span } from "../../glid_nb/page/js/timeline/traits.js" */
+
+/** @param {number[]} times */
+function keys(...times) {
+  return times.map((time, i) => ({ name: `Pose ${i + 1}`, time, easing: "linear" }));
+}
+
+/**
+ * @param {Partial<Shown>} changes
+ * @returns {Shown}
+ */
+function shown(changes) {
+  return {
+    keyframes: keys(0, 1, 3),
+    active: 0,
+    repeat: "once",
+    back: 0.5,
+    recording: false,
+    onion: false,
+    exports: true,
+    kernel: false,
+    ...changes,
+  };
+}
+
+/**
+ * @param {Partial<Span>} changes
+ * @returns {Span}
+ */
+function span(changes) {
+  const floats = new DataView(new ArrayBuffer(0));
+  const proved = { start: 0, end: 1, times: [0, 1], floats, sigma2: [0.5], reason: "" };
+  return { ...proved, status: "proved", ...changes };
+}
+
+test("a loop of two or more poses shows its return to the first", () => {
+  const all = withReturn(shown({ repeat: "loop" }));
+  assert.deepEqual(all.at(-1), { name: "Back to Pose 1", time: 3.5, easing: "linear" });
+  assert.equal(withReturn(shown({})).length, 3);
+  assert.equal(withReturn(shown({ repeat: "loop", keyframes: keys(0) })).length, 1);
+});
+
+test("the track shows more than the last keyframe, and a second at least", () => {
+  assert.ok(spanOf(keys(0, 10)) > 10);
+  assert.ok(spanOf(keys(0)) > 1);
+});
+
+test("a keyframe has the room to its nearest neighbour", () => {
+  assert.equal(roomAt(keys(0, 1, 3), 1, 9), 1);
+  assert.equal(roomAt(keys(0, 1, 3), 2, 9), 2);
+  assert.equal(roomAt(keys(0), 0, 9), 9);
+});
+
+test("there are some labels on any track, never many", () => {
+  for (const seconds of [1.15, 7, 60, 3600]) {
+    const times = labelledTimes(seconds);
+    assert.ok(times.length > 2 && times.length <= 13, `${times.length} labels in ${seconds} s`);
+  }
+});
+
+test("keyframes are found by their times", () => {
+  assert.equal(keyAt(keys(0, 1, 3), 1), 1);
+  assert.equal(keyAt(keys(0, 1, 3), 1.01), -1);
+  assert.equal(nextKey(keys(0, 1, 3), 1, 1), 2);
+  assert.equal(nextKey(keys(0, 1, 3), 1, -1), 0);
+  assert.equal(nextKey(keys(0, 1, 3), 3, 1), null);
+});
+
+test("a keyframe lands where it can be told from the others, as near as possible", () => {
+  assert.equal(landing(keys(0, 1, 3), 1, 2, 0.1), 2);
+  assert.equal(landing(keys(0, 1, 3), 1, 2.98, 0.1), 2.9);
+  assert.equal(landing(keys(0, 1, 3), 1, 3.02, 0.1), 3.1);
+  assert.equal(landing(keys(0, 1, 3), 1, -5, 0.1), 0.1);
+});
+
+test("a loop's return stays behind the last keyframe", () => {
+  assert.equal(landing(keys(0, 1, 3), 3, 1, 0.1), 3.1);
+});
+
+test("the note tells what is proved, or why not", () => {
+  assert.match(noteOn(shown({}), [span({})]), /^Proved at every instant of 1\.00 s: σ₂ ≥ 0\.500/);
+  assert.equal(noteOn(shown({}), [span({ status: "fails", reason: "It folds." })]), "It folds.");
+  assert.equal(noteOn(shown({}), [span({ status: "computing" })]), "Proving what lies between…");
+  assert.match(noteOn(shown({ kernel: true }), [span({})]), /^Played by the kernel/);
+  assert.match(noteOn(shown({ keyframes: keys(0) }), []), /^Keep a second pose/);
+  assert.match(noteOn(shown({ recording: true }), [span({})]), /^Recording/);
+});

@@ -1,0 +1,91 @@
+// What the tracer says, and its sliders.
+
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { endOf, NUMBERS, shareAt, valueAt } from "../../glid_nb/page/js/tracer/number_control.js";
+import { TOOL_NAMES, TOOLS } from "../../glid_nb/page/js/tracer/tools.js";
+import { holesIn, statusOf } from "../../glid_nb/page/js/tracer/words.js";
+
+/** @import { Shown } from "../../glid_nb/page/js/tracer/traits.js" */
+
+/**
+ * @param {Partial<Shown>} changes
+ * @returns {Shown}
+ */
+function shown(changes = {}) {
+  return {
+    size: [200, 100],
+    loops: [
+      [
+        [0, 0],
+        [1, 0],
+        [0, 1],
+      ],
+    ],
+    problems: [],
+    options: { method: "auto", invert: null },
+    automatic: null,
+    notes: [],
+    component: 0,
+    n_components: 1,
+    component_area: 5000,
+    n_filled: 0,
+    reach_shares: { in_hole: 0.5, edge: 0.5 },
+    holes: [],
+    n_holes: 0,
+    strokes: { foreground: [], background: [] },
+    doubt: null,
+    can_undo: false,
+    can_redo: false,
+    edited: false,
+    discarded: false,
+    tool: "edit",
+    corners: [],
+    selected: [],
+    ...changes,
+  };
+}
+
+test("the status tells of the cage", () => {
+  assert.deepEqual(statusOf(shown(), null, false), {
+    kind: "ok",
+    text: "Cage with 3 vertices and no holes",
+  });
+  const several = statusOf(shown({ n_components: 4 }), null, false);
+  assert.match(several.text, / · the largest of 4 components$/);
+  const second = statusOf(shown({ n_components: 4, component: 1 }), null, false);
+  assert.match(second.text, / · component 2 of 4 components$/);
+});
+
+test("a refusal comes before all else, then that an answer is overdue", () => {
+  assert.deepEqual(statusOf(shown(), "too large", true), { kind: "bad", text: "too large" });
+  assert.equal(statusOf(shown(), null, true).kind, "busy");
+  assert.equal(statusOf(shown({ size: null }), null, false).kind, "idle");
+});
+
+test("a guess says why it is one, an invalid cage is bad", () => {
+  assert.match(
+    statusOf(shown({ doubt: "it is faint" }), null, false).text,
+    /^A guess, as it is faint/,
+  );
+  const problems = [{ message: "edges cross", point: null }];
+  assert.equal(statusOf(shown({ problems }), null, false).kind, "bad");
+});
+
+test("holes are counted in words", () => {
+  assert.deepEqual([-1, 0, 1, 2].map(holesIn), ["no holes", "no holes", "1 hole", "2 holes"]);
+});
+
+test("a slider's place and its value belong together", () => {
+  for (const option of NUMBERS) {
+    const most = endOf(option, shown());
+    assert.equal(shareAt(0, most, option), 0);
+    assert.equal(shareAt(2 * most, most, option), 1);
+    const value = valueAt(0.7, most, option);
+    assert.ok(Math.abs(valueAt(shareAt(value, most, option), most, option) - value) < 1e-9);
+  }
+});
+
+test("every tool has its button", () => {
+  assert.deepEqual(TOOL_NAMES.toSorted(), Object.keys(TOOLS).toSorted());
+});

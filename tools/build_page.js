@@ -1,0 +1,60 @@
+// Bundles the modules and style sheets of glid_nb/page/js into glid_nb/page/built.
+//
+// The same sources give the same bytes: `tests/page/built.test.js` builds again and compares.
+
+import { writeFile } from "node:fs/promises";
+import path from "node:path";
+import { fileURLToPath } from "node:url";
+import { build } from "esbuild";
+
+const ROOT = path.dirname(path.dirname(fileURLToPath(import.meta.url)));
+export const BUILT = path.join(ROOT, "glid_nb", "page", "built");
+
+// The widgets are modules that anywidget imports; the exported page holds a plain script.
+const WIDGETS = {
+  canvas: "canvas/main.js",
+  clipboard: "clipboard/main.js",
+  loader: "pad/loader.js",
+  timeline: "timeline/main.js",
+  tracer: "tracer/main.js",
+};
+const SCRIPTS = { exported: "exported/main.js" };
+const STYLES = {
+  canvas: "canvas/canvas.css",
+  exported: "exported/exported.css",
+  timeline: "timeline/timeline.css",
+  tracer: "tracer/tracer.css",
+};
+
+/**
+ * What the bundles hold, by their file names.
+ * @returns {Promise<Map<string, Uint8Array>>}
+ */
+export async function bundles() {
+  /** @type {import("esbuild").BuildOptions} */
+  const shared = {
+    absWorkingDir: path.join(ROOT, "glid_nb", "page", "js"),
+    outdir: BUILT,
+    bundle: true,
+    write: false,
+    charset: "utf8",
+    // Every widget's model and every exported page holds its script.
+    minifyWhitespace: true,
+    lineLimit: 100,
+    target: "es2022",
+    logLevel: "warning",
+  };
+  const built = await Promise.all([
+    build({ ...shared, entryPoints: WIDGETS, format: "esm" }),
+    build({ ...shared, entryPoints: SCRIPTS, format: "iife" }),
+    build({ ...shared, entryPoints: STYLES }),
+  ]);
+  const files = built.flatMap(({ outputFiles }) => outputFiles ?? []);
+  return new Map(files.map((file) => [path.basename(file.path), file.contents]));
+}
+
+if (process.argv[1] === fileURLToPath(import.meta.url)) {
+  for (const [name, contents] of await bundles()) {
+    await writeFile(path.join(BUILT, name), contents);
+  }
+}
