@@ -126,10 +126,17 @@ box = ipywidgets.VBox([canvas, panel])
 box
 """
 _DEPTHS = """
-before, behind = (glid.Pose(handles, curled(handles), [0, 0, d]) for d in (1, -1))
-model.apply(lambda state: state.changed(pose=before, map=curled))
+from dataclasses import replace
+from glid_nb.session.document import AS_SEEN
+
+def show(depth):
+    pose = glid.Pose(handles, curled(handles), [0, 0, depth])
+    seen = dict(pose=pose, map=curled, solution=AS_SEEN)
+    model.apply(lambda state: state.with_current(replace(state.current, **seen)))
+
+show(1)
 model.save_pose()
-model.apply(lambda state: state.changed(pose=behind, map=curled))
+show(-1)
 canvas.show_panels = True
 """
 
