@@ -42,9 +42,9 @@ from .pose import Pose as Pose
 from .solvers import Progress as Progress
 from .solvers import Result as Result
 from .solvers import Status as Status
-from .solvers import refine as refine
-from .solvers import solve as solve
-from .solvers import solve_batch as solve_batch
+from .minima import refine as refine
+from .minima import solve as solve
+from .minima import solve_batch as solve_batch
 from ._runtime import enable_compilation_cache as enable_compilation_cache
 
 # Other methods on the same problems

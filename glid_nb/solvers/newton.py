@@ -17,7 +17,6 @@ from glid_nb.solvers.loop import Advance, Ending, Stopwatch, follow
 from glid_nb.solvers.method import Inputs, Method
 from glid_nb.solvers.options import Options
 from glid_nb.solvers.problem import SubspaceProblem, map_from, restrict_rows, unknowns_of
-from glid_nb.solvers.restarts import improve
 from glid_nb.solvers.result import Iteration, Result, Status
 from glid_nb.solvers.subspace import SubspaceDescent
 from glid_nb.solvers.whitening import pulled_back
@@ -55,14 +54,13 @@ class Newton(Method):
     options = tuple(Options.__dataclass_fields__)
 
     def run(self, inputs: Inputs) -> Result:
-        first = descend(inputs, self)
-        return first if inputs.start is not None else improve(first, inputs, descend)
+        return descend(inputs, self)
 
 
 @double_precision
-def descend(inputs: Inputs, method: Method | None = None) -> Result:
+def descend(inputs: Inputs, method: Method) -> Result:
     """One descent from one map to the local minimum that it leads to."""
-    return follow(lambda: NewtonDescent(method or Newton(), inputs))
+    return follow(lambda: NewtonDescent(method, inputs))
 
 
 class NewtonDescent(SubspaceDescent):

@@ -16,10 +16,11 @@ from glid_nb.energies import SymmetricDirichlet, energy_by_name
 from glid_nb.geometry import Cage, Domain
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging import TraceOptions
+from glid_nb.minima import solve
 from glid_nb.pose import Pose
 from glid_nb.session.document import Document, DocumentError, NamedPose
 from glid_nb.session.report import build_report
-from glid_nb.solvers import Options, Progress, Result, Status, solve
+from glid_nb.solvers import Options, Progress, Result, Status
 from glid_nb.solvers.method import StartError
 
 from ..domains import domain
