@@ -144,8 +144,7 @@ def test_a_document_is_saved_by_what_it_is_loaded_by(tmp_path: Path) -> None:
     """The solver's panels are in no file, so what only they prove is not saved."""
     ring = domain("ring")
     result = solve(ring, POSE, options=Options(restarts=0))
-    known = vars(result.map)
-    known["_certificate"] = replace(result.certificate)
+    result.map.kept["proofs"].own = replace(result.certificate)
     assert certificate_of(result.map).certified
     poses = (NamedPose("ring", POSE, result.energy_measure, Options(), result.map),)
     image = np.zeros((20, 20, 4), np.uint8)
