@@ -31,7 +31,9 @@ from .energies import energy_by_name as energy_by_name
 # Maps, and the proof that they do not fold
 from .certificate import Certificate as Certificate
 from .certificate import GlobalInjectivity as GlobalInjectivity
+from .certificate import PieceCertificate as PieceCertificate
 from .certificate import certify as certify
+from .certificate import certify_step as certify_step
 from .certificate import global_injectivity as global_injectivity
 from .harmonic import HarmonicMap as HarmonicMap
 

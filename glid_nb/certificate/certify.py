@@ -30,7 +30,7 @@ _MAX_PANELS = 400_000
 
 
 class CertificateError(InputError):
-    """A certificate does not belong to the map it is given for."""
+    """A certificate belongs to another map, or two maps live on different domains."""
 
 
 @dataclass(frozen=True, eq=False)
