@@ -31,7 +31,9 @@ from .energies import energy_by_name as energy_by_name
 # Maps, and the proof that they do not fold
 from .certificate import Certificate as Certificate
 from .certificate import GlobalInjectivity as GlobalInjectivity
+from .certificate import PieceCertificate as PieceCertificate
 from .certificate import certify as certify
+from .certificate import certify_step as certify_step
 from .certificate import global_injectivity as global_injectivity
 from .harmonic import HarmonicMap as HarmonicMap
 
@@ -42,9 +44,9 @@ from .pose import Pose as Pose
 from .solvers import Progress as Progress
 from .solvers import Result as Result
 from .solvers import Status as Status
-from .solvers import refine as refine
-from .solvers import solve as solve
-from .solvers import solve_batch as solve_batch
+from .minima import refine as refine
+from .minima import solve as solve
+from .minima import solve_batch as solve_batch
 from ._runtime import enable_compilation_cache as enable_compilation_cache
 
 # Other methods on the same problems

@@ -16,7 +16,8 @@ from glid_nb import methods
 from glid_nb.energies import Energy
 from glid_nb.geometry import MeshMap, Triangulation, triangulate
 from glid_nb.harmonic import HarmonicMap
-from glid_nb.solvers import Iteration, Options, Progress, Result, solve
+from glid_nb.minima import solve
+from glid_nb.solvers import Iteration, Options, Progress, Result
 from studies.cases import Case
 
 Array = NDArray[Any]

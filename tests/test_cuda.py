@@ -25,7 +25,8 @@ from glid_nb._programs import Program, can_keep_for
 from glid_nb._runtime import double_precision
 from glid_nb.energies import ENERGIES, as_energy
 from glid_nb.methods.subspace import descent
-from glid_nb.solvers import batch, cholesky, newton, step, subspace
+from glid_nb.minima import batch
+from glid_nb.solvers import cholesky, newton, step, subspace
 from glid_nb.solvers.method import Inputs
 from glid_nb.solvers.newton import Newton, NewtonDescent
 
@@ -188,7 +189,7 @@ def test_no_program_calls_what_only_a_cpu_has(lowered: Lowered) -> None:
     for name, some in calls.items():
         assert not [call for call in some if not ON_CUDA.fullmatch(call)], name
     assert "cusolver_potrf_ffi" in calls["glid_nb.solvers.step.run"]
-    assert "cusolver_potrf_ffi" in calls["glid_nb.solvers.batch._together"]
+    assert "cusolver_potrf_ffi" in calls["glid_nb.minima.batch._together"]
 
 
 def custom_calls(text: str) -> set[str]:
@@ -228,7 +229,7 @@ def test_only_the_whitened_basis_is_in_single_precision(lowered: Lowered) -> Non
         for text in texts.values():
             (main,) = re.findall(r"func.func public @main\((.*?)\) ->", text, re.DOTALL)
             singles = re.findall(r"tensor<([\dx]*)f32>", main)
-            of_newton = name in ("glid_nb.solvers.step.run", "glid_nb.solvers.batch._together")
+            of_newton = name in ("glid_nb.solvers.step.run", "glid_nb.minima.batch._together")
             assert len(singles) <= 1, name
             assert not singles or of_newton or name.startswith("glid_nb.methods.subspace"), name
 

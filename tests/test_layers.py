@@ -19,6 +19,7 @@ LAYERS = (
     ("pose", "energies"),
     ("certificate", "imaging"),
     ("solvers",),
+    ("minima",),
     ("methods", "motion"),
     ("figures", "page"),
     ("samples", "export"),

@@ -30,7 +30,7 @@ _MAX_PANELS = 400_000
 
 
 class CertificateError(InputError):
-    """A certificate does not belong to the map it is given for."""
+    """A certificate belongs to another map, or two maps live on different domains."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -73,7 +73,8 @@ class Certificate:
         """From a pickle. There maps come without the proofs that they keep."""
         vars(self).update(state)
         if self.certified:
-            vars(self.map).setdefault("_proof", self)
+            proofs = _proofs_of(self.map)
+            proofs.solvers = proofs.solvers or self
 
     def belongs_to(self, map: HarmonicMap) -> bool:
         """Whether it belongs to this map: the same coefficients on the same or an equal domain."""
@@ -212,16 +213,28 @@ def _to_split(known: Known, tightness: float) -> Array:
     )
 
 
+@dataclass
+class _Proofs:
+    """A map's certificates; the map keeps them, so that they live as long as it does."""
+
+    own: Certificate | None = None
+    """Computed from its coefficients."""
+    solvers: Certificate | None = None
+    """What the solver that found it has proved."""
+
+
+def _proofs_of(map: HarmonicMap) -> _Proofs:
+    return map.kept.setdefault("proofs", _Proofs())
+
+
 def certificate_of(map: HarmonicMap, *, alone: bool = False) -> Certificate:
     """A map's certificate, computed from its coefficients and kept.
 
     If that fails and ``alone`` is false, a solver's (`proved_by`) is returned if the map has one.
     """
-    known = vars(map)
-    if "_certificate" not in known:
-        known["_certificate"] = certify(map)
-    own = known["_certificate"]
-    return own if alone or own.certified else known.get("_proof", own)
+    proofs = _proofs_of(map)
+    own = proofs.own = proofs.own or certify(map)
+    return own if alone or own.certified else proofs.solvers or own
 
 
 def proved_by(
@@ -235,7 +248,7 @@ def proved_by(
     how = "Proved locally injective" if certified else "Undecided: not proved"
     reason = f"{how} by the solver on {len(panels)} panels."
     proof = _assembled(panels, bounds, certified, map=map, windings=turns, kind=kind, reason=reason)
-    vars(map)["_proof"] = proof
+    _proofs_of(map).solvers = proof
     return proof
 
 

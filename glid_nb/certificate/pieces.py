@@ -1,4 +1,4 @@
-"""Prove linear pieces of motion at every instant; `docs/motion.md` has the lemmas.
+"""Prove steps, and linear pieces of motion, at every instant; `docs/motion.md` has the lemmas.
 
 On a panel and for a unit vector ``u`` the function ``Re(conj(u) f_z) - |f_zbar| <= sigma_2`` is
 concave in time. Panels are halved as in the proof of one map. If no ``u`` works for both times at a
@@ -12,10 +12,17 @@ from typing import Any, NamedTuple, Self
 
 import numpy as np
 
+from glid_nb._arguments import check_type
 from glid_nb._arrays import Array
 from glid_nb._runtime import in_chunks
 from glid_nb.certificate import rounding
-from glid_nb.certificate.certify import Known, end_values, refined
+from glid_nb.certificate.certify import (
+    CertificateError,
+    Known,
+    certificate_of,
+    end_values,
+    refined,
+)
 from glid_nb.certificate.hermite import Hermite
 from glid_nb.certificate.panels import EndValues
 from glid_nb.certificate.paper import beside, jumps
@@ -62,6 +69,29 @@ class _Values(NamedTuple):
         """The least sigma_2 and the largest k at the ends of panels."""
         f, g = (np.abs(self.ends[:, :, i, :2]) for i in (0, 1))
         return float((f - g).min()), float((g / f).max())
+
+
+def certify_step(first: HarmonicMap, last: HarmonicMap) -> PieceCertificate:
+    """Prove every map on the straight line between two maps locally injective, or say until when.
+
+    These are the maps ``(1 - t) first + t last`` for ``t`` in [0, 1], the path of a step of the
+    solver and of a linear piece of a motion. Proved are the conditions of Theorem 4.2 at each
+    ``t``: (5) on the boundary, and (4a), which follows from (4a) for ``first``, as ``f_z`` has no
+    zero on the boundary on the way. Rounding errors are counted.
+
+    Both maps must live on the same or equal domains, else a CertificateError is raised. If the
+    first is not certified itself, nothing is proved and ``until`` is 0.
+    """
+    check_type("first", first, HarmonicMap, "such as that of a result")
+    check_type("last", last, HarmonicMap, "such as that of a result")
+    if not first.domain.equals(last.domain):
+        raise CertificateError("the two maps live on different domains; pass two maps of one")
+    start = certificate_of(first)
+    if not start.certified:
+        worst = start.panels.middle[int(np.argmin(start.panels.sigma2_lower))]
+        return PieceCertificate(False, -np.inf, np.inf, np.inf, 0.0, complex(worst))
+    (proof,) = certify_pieces([first, last])
+    return proof
 
 
 @np.errstate(all="ignore")

@@ -1,5 +1,6 @@
 """The interface of an isometric energy, the registry of the energies by name, and a user's own."""
 
+import functools
 import math
 import weakref
 from abc import ABC, abstractmethod
@@ -11,6 +12,7 @@ from typing import Any, ClassVar, NamedTuple, Self, TypeVar
 from glid_nb._errors import InputError
 from glid_nb._features import enable_x64
 from glid_nb._jax import Array, Float, jax, jnp, once_loaded, settle
+from glid_nb._runtime import double_precision
 
 Scalars = Float[Array, " *samples"]
 
@@ -123,6 +125,13 @@ def as_energy(energy: Energy | str | None) -> Energy:
         wanted = f"SymmetricDirichlet(), CustomEnergy(function) or a name: {', '.join(ENERGIES)}"
         raise EnergyError(f"energy is {energy!r}; pass an energy, such as {wanted}")
     return energy
+
+
+@functools.lru_cache
+@double_precision
+def isometry_energy(energy: Energy) -> float:
+    """``E(1, 0)``, the density of an isometry."""
+    return float(energy.density(jnp.ones(1), jnp.zeros(1))[0])
 
 
 def _checked_parameter(energy: str, name: str, value: Any) -> Any:

@@ -8,6 +8,7 @@ from matplotlib.figure import Figure
 from numpy.typing import ArrayLike
 
 from glid_nb._arrays import Floats
+from glid_nb.energies import isometry_energy
 from glid_nb.figures import drawing
 from glid_nb.figures.drawing import NotebookFigure
 from glid_nb.figures.plots import CertificatePlot, EnergyPlot, StepPlot
@@ -17,7 +18,6 @@ from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging import PixelFrame, as_rgba8
 from glid_nb.pose import Pose
 from glid_nb.solvers import Result
-from glid_nb.solvers.restarts import isometry_energy
 
 # Inches.
 _NARROWEST = 4.5  # figure

@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from glid_nb._arrays import Floats
 from glid_nb._runtime import double_precision
 from glid_nb.certificate import Certificate
-from glid_nb.energies import Energy, SymmetricDirichlet
+from glid_nb.energies import Energy, SymmetricDirichlet, isometry_energy
 from glid_nb.figures import drawing, style
 from glid_nb.figures.drawing import NotebookFigure
 from glid_nb.figures.plots import CertificatePlot
@@ -25,7 +25,6 @@ from glid_nb.imaging.rasterise import render_mesh
 from glid_nb.imaging.texture import Texture
 from glid_nb.methods.mesh.operators import MeshOperators
 from glid_nb.pose import Pose
-from glid_nb.solvers.restarts import isometry_energy
 
 Quantity = Literal["sigma1", "sigma2", "k", "energy", "distortion"]
 AnyMap = HarmonicMap | MeshMap

@@ -89,7 +89,15 @@ class HarmonicMap(Rebuilt):
         uneven = np.flatnonzero(gap > 0) + holes.start
         self.phi[uneven] += (self.psi[uneven].conj() - self.phi[uneven]) / 2
         self.psi[uneven] = self.phi[uneven].conj()
-        vars(self).update(phi=frozen(self.phi), psi=frozen(self.psi))
+        vars(self).update(phi=frozen(self.phi), psi=frozen(self.psi), _kept={})
+
+    @property
+    def kept(self) -> dict[str, Any]:
+        """What other layers have computed of this map and keep with it, such as its certificate.
+
+        It is no part of the value: copies and pickles come without.
+        """
+        return vars(self)["_kept"]
 
     @classmethod
     def identity(cls, domain: Domain) -> Self:

@@ -12,11 +12,12 @@ from glid_nb._arrays import Array
 from glid_nb.certificate import certificate_of
 from glid_nb.geometry import triangulate
 from glid_nb.harmonic import HarmonicMap
+from glid_nb.minima import solve
 from glid_nb.motion.boundary import boundary_of
 from glid_nb.motion.bounded import EXCESS, Bounded, Coefficients
 from glid_nb.motion.settings import EASINGS, MotionError
 from glid_nb.pose import Pose
-from glid_nb.solvers import Options, solve
+from glid_nb.solvers import Options
 
 _SAMPLES = 24  # per lap of an interval, to measure how it bends
 _MOST_PIECES = 8192  # of an interval

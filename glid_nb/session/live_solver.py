@@ -10,11 +10,12 @@ import numpy as np
 from glid_nb._runtime import stage, watched
 from glid_nb.geometry import MeshMap
 from glid_nb.harmonic import HarmonicMap
+from glid_nb.minima import solve
 from glid_nb.pose import DeformationMap, Pose
 from glid_nb.session.document import NamedPose, Solution
 from glid_nb.session.edit_state import Frame, Task
 from glid_nb.session.worker import LatestWins, weakly
-from glid_nb.solvers import Iteration, Newton, Progress, Result, solve
+from glid_nb.solvers import Iteration, Newton, Progress, Result
 from glid_nb.solvers.discretisation import discretise
 from glid_nb.solvers.problem import moved
 

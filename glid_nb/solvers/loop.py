@@ -59,7 +59,7 @@ class Reached(NamedTuple):
 class Descent:
     """A method at work: what the loop asks of it."""
 
-    initial: Iteration  # the start; known at the latest after the first advance
+    initial: Iteration | None = None  # the start; None until the first advance has evaluated it
     shows_start = True  # whether a callback is shown the start too
     uses_lapack = False  # which several BLAS threads would slow down
     discretisation: Discretisation | None = None  # the panels, which may be split
@@ -129,6 +129,7 @@ class Descent:
         """The end, where the iterations of the method's window gain next to nothing."""
         window, tolerance = self.method.window, self.method.tolerance
         assert window is not None
+        assert self.initial is not None
         energies = [entry.energy for entry in (self.initial, *self.history)][-1 - window :]
         first, last = energies[0], energies[-1]
         if len(energies) <= window or not abs(first - last) <= tolerance * abs(last):

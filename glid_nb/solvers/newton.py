@@ -1,7 +1,8 @@
 """Our method: Newton's, several iterations a compiled call, on the host (paper Algorithm 1)."""
 
+import functools
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -17,7 +18,6 @@ from glid_nb.solvers.loop import Advance, Ending, Stopwatch, follow
 from glid_nb.solvers.method import Inputs, Method
 from glid_nb.solvers.options import Options
 from glid_nb.solvers.problem import SubspaceProblem, map_from, restrict_rows, unknowns_of
-from glid_nb.solvers.restarts import improve
 from glid_nb.solvers.result import Iteration, Result, Status
 from glid_nb.solvers.subspace import SubspaceDescent
 from glid_nb.solvers.whitening import pulled_back
@@ -55,14 +55,38 @@ class Newton(Method):
     options = tuple(Options.__dataclass_fields__)
 
     def run(self, inputs: Inputs) -> Result:
-        first = descend(inputs, self)
-        return first if inputs.start is not None else improve(first, inputs, descend)
+        return descend(inputs, self)
 
 
 @double_precision
-def descend(inputs: Inputs, method: Method | None = None) -> Result:
+def descend(inputs: Inputs, method: Method) -> Result:
     """One descent from one map to the local minimum that it leads to."""
-    return follow(lambda: NewtonDescent(method or Newton(), inputs))
+    return follow(lambda: NewtonDescent(method, inputs))
+
+
+@dataclass(frozen=True)
+class Treatment:
+    """How the next compiled call treats the Hessian; :meth:`NewtonDescent.adapt` changes it."""
+
+    ridge: float
+    """Added to the diagonal, relative to its mean."""
+    least_ridge: float
+    """The ridge that stays, where the Hessian is singular by itself."""
+    reuse: bool
+    """Whether the call begins with the last factor."""
+    rough: bool
+    """Whether to converge roughly, since steep coordinates may be put back afterwards."""
+    full_since: int | None = None
+    """The number of iterations after which the Hessian was put on all nodes."""
+
+    def relaxed(self) -> "Treatment":
+        """With less of a ridge that one place needed: at the minimum it would make steps short."""
+        relaxed = self.ridge / _RIDGE_FACTOR
+        return replace(self, ridge=max(relaxed if relaxed >= _RIDGE else 0.0, self.least_ridge))
+
+    def raised(self) -> "Treatment":
+        """With more of a ridge."""
+        return replace(self, ridge=max(_RIDGE_FACTOR * self.ridge, _RIDGE))
 
 
 class NewtonDescent(SubspaceDescent):
@@ -73,16 +97,17 @@ class NewtonDescent(SubspaceDescent):
     def __init__(self, method: Method, inputs: Inputs) -> None:
         super().__init__(method, inputs, reduced=True)
         self.problem = self.problem._replace(p2p_hessian=_p2p_hessian(self.problem))
-        singular = len(inputs.pose) < 2
-        self.ridge, self._least_ridge = (_SINGULAR_RIDGE, _RIDGE) if singular else (0.0, 0.0)
-        self.full_since: int | None = None
-        self._begins = (
-            self.discretisation.whitening.steep.shape[1] > 0
-        )  # some coordinates are left out
         if isinstance(inputs.start, Result) and self._continues(inputs.start):
             # The result keeps its own.
             self.factor = jnp.array(inputs.start.factor, copy=True)
-        self.reuse = self.factor is not None
+        self.decrement = np.inf  # of the last step
+        singular = len(inputs.pose) < 2
+        self.treatment = Treatment(
+            ridge=_SINGULAR_RIDGE if singular else 0.0,
+            least_ridge=_RIDGE if singular else 0.0,
+            reuse=self.factor is not None,
+            rough=self.discretisation.whitening.steep.shape[1] > 0,
+        )
 
     def _continues(self, start: Result) -> bool:
         """Whether the last Hessian of an earlier solve is one of this problem's."""
@@ -99,11 +124,11 @@ class NewtonDescent(SubspaceDescent):
     def settings(self, may_refine: bool = True) -> step.Settings:
         options = self.inputs.options
         return step.Settings(
-            tolerance=max(options.tolerance, _ROUGH * self._begins),
+            tolerance=max(options.tolerance, _ROUGH * self.treatment.rough),
             iterations=min(options.iterations_per_call, self.left, self._most_at_once()),
             may_refine=may_refine and self.discretisation.can_refine,
-            ridge=self.ridge,
-            reuse=self.reuse,
+            ridge=self.treatment.ridge,
+            reuse=self.treatment.reuse,
             corrections=options.corrections,
             projects_first=options.hessian == "projected",
             attempts=2 if options.hessian == "adaptive" else 1,
@@ -117,7 +142,8 @@ class NewtonDescent(SubspaceDescent):
         """One compiled call; with nothing left it still evaluates the energies."""
         watch = Stopwatch()
         if self.factor is None:
-            self.factor, self.reuse = np.zeros(self.problem.p2p_hessian.shape), False
+            self.factor = np.zeros(self.problem.p2p_hessian.shape)
+            self.treatment = replace(self.treatment, reuse=False)
         settings = self.settings(may_refine)
         state = step.run(self.problem, self.coefficients, self.factor, settings)
         int(state.outcome)  # waits for the device
@@ -126,13 +152,13 @@ class NewtonDescent(SubspaceDescent):
 
     def take(self, state: step.State, seconds: float) -> Advance:
         """Go to where a call of so many seconds has come."""
-        self.point, self.coefficients = state.point, state.point.coefficients
+        self.point = state.point
         self.decrement = float(state.decrement)
         end, taken = int(state.outcome), int(state.iteration)
         panels = self.discretisation.panels
         if taken:
             self.prove(state.sigma2_lower, state.turning)
-        if not hasattr(self, "initial"):
+        if self.initial is None:
             iso, p2p = float(state.start_iso), float(state.start_p2p)
             self.initial = Iteration(energy_iso=iso, energy_p2p=p2p)
         for row in np.asarray(state.records)[:taken].tolist():
@@ -143,25 +169,25 @@ class NewtonDescent(SubspaceDescent):
             self.just_split = 0
         refused = np.asarray(state.refused)
         if refused.any():
-            refused = refused & evaluation.tightened_by_splitting(self.problem, self.point)
+            refused = refused & evaluation.tightened_by_splitting(self.problem, state.point)
         # After a split the map is still where its Hessian was taken.
-        self.reuse = end == line_search.REFUSED and bool(self.inputs.options.corrections)
+        reuse = end == line_search.REFUSED and bool(self.inputs.options.corrections)
+        self.treatment = replace(self.treatment, reuse=reuse)
         return Advance(end, taken, refused)
 
     def adapt(self, done: Advance) -> Ending | None:
         """Take the full Hessian or another ridge where that may help; else end."""
-        if done.outcome == line_search.CONVERGED and self._begins:
-            self._begins = self.put_back()
-            self.reuse = not self._begins and bool(self.inputs.options.corrections)
+        if done.outcome == line_search.CONVERGED and self.treatment.rough:
+            rough = self.put_back()
+            reuse = not rough and bool(self.inputs.options.corrections)
+            self.treatment = replace(self.treatment, rough=rough, reuse=reuse)
             return None
         if done.outcome == line_search.CONVERGED:
-            now = map_from(self.inputs.domain, self.point.coefficients)
+            now = map_from(self.inputs.domain, self.coefficients)
             goes_on = self.pin(now) or self.put_back()
             return None if goes_on else Ending(Status.CONVERGED)
         if done.iterations:
-            # Lower an epsilon that one place needed: at the minimum it would make steps short.
-            relaxed = self.ridge / _RIDGE_FACTOR
-            self.ridge = max(relaxed if relaxed >= _RIDGE else 0.0, self._least_ridge)
+            self.treatment = self.treatment.relaxed()
             # Other nodes make no fewer iterations with K+, which are slow anyway.
             coarse = self.discretisation.can_refine and self.inputs.options.hessian != "projected"
             if coarse and _is_slow(self.history):
@@ -173,12 +199,12 @@ class NewtonDescent(SubspaceDescent):
             # The Hessian is singular to rounding where two handles are in one place.
             if self.inputs.options.hessian == "exact":
                 return Ending(Status.INDEFINITE)
-            self.ridge = max(_RIDGE_FACTOR * self.ridge, _RIDGE)
-            return Ending(Status.BLOCKED) if self.ridge > _LARGEST_RIDGE else None
-        stalled = done.iterations and _has_stalled(self.history[self.full_since or 0 :])
+            self.treatment = self.treatment.raised()
+            return Ending(Status.BLOCKED) if self.treatment.ridge > _LARGEST_RIDGE else None
+        stalled = done.iterations and _has_stalled(self.history[self.treatment.full_since or 0 :])
         if not (done.outcome == line_search.NO_DECREASE or stalled) or self._take_full_hessian():
             return None
-        hidden = _ROUNDING * abs(float(self.point.energy))
+        hidden = _ROUNDING * abs(float(self.evaluated.energy))
         return Ending(Status.STATIONARY if self.decrement**2 / 2 <= hidden else Status.BLOCKED)
 
     def put_back(self) -> bool:
@@ -186,9 +212,10 @@ class NewtonDescent(SubspaceDescent):
         steep = self.discretisation.whitening.steep
         if not steep.shape[1]:
             return False
-        gains = _promised(self.problem, self.point, steep, self.inputs.options.conformal)
+        point = self.evaluated
+        gains = _promised(self.problem, point, steep, self.inputs.options.conformal)
         order = np.argsort(gains)
-        least = _GAIN * max(abs(float(self.point.energy)), step.LEAST_ENERGY)
+        least = _GAIN * max(abs(float(point.energy)), step.LEAST_ENERGY)
         chosen = np.sort(order[np.cumsum(gains[order]) > least])
         if not len(chosen):
             return False
@@ -196,15 +223,16 @@ class NewtonDescent(SubspaceDescent):
         basis, t = self.discretisation.basis, self.discretisation.whitening.t
         unknowns = unknowns_of(basis, self.inputs.options.conformal, t)
         # What is steep oscillates between the fewer nodes.
-        self.full_since = len(self.history) if self.full_since is None else self.full_since
+        if self.treatment.full_since is None:
+            self.treatment = replace(self.treatment, full_since=len(self.history))
         self.problem = self.problem._replace(matrices=self._hessian_matrices(), unknowns=unknowns)
         self.problem = self.problem._replace(p2p_hessian=_p2p_hessian(self.problem))
-        self.factor, self.reuse = None, False
+        self.factor, self.treatment = None, replace(self.treatment, reuse=False)
         return True
 
     def _hessian_matrices(self) -> Matrices:
         """The panels' matrices, with the full Hessian where that was taken."""
-        full = self.full_since is not None
+        full = self.treatment.full_since is not None
         return self.discretisation.full(self.matrices) if full else self.matrices
 
     def pin(self, map: HarmonicMap) -> bool:
@@ -220,9 +248,9 @@ class NewtonDescent(SubspaceDescent):
 
     def _take_full_hessian(self) -> bool:
         """From now on the Hessian in double precision on all nodes; False when it is so already."""
-        if self.full_since is not None:
+        if self.treatment.full_since is not None:
             return False
-        self.full_since = len(self.history)
+        self.treatment = replace(self.treatment, full_since=len(self.history))
         self.problem = self.problem._replace(matrices=self._hessian_matrices())
         return True
 
@@ -256,26 +284,40 @@ def _promised(problem: SubspaceProblem, point: Point, columns: Array, conformal:
     return np.where(allowed, gains.sum(axis=0), 0.0)
 
 
-_latest: tuple[list[Any], Any] | None = None
+class _Quadratic:
+    """What the positional energy's Hessian depends on, compared by value: a key of a cache."""
+
+    def __init__(self, problem: SubspaceProblem) -> None:
+        positional, self.unknowns = problem.positional, problem.unknowns
+        self.matrix, self.weights = positional.matrix, positional.weights
+        self.whitening = problem.matrices.whitening
+
+    @property
+    def _arrays(self) -> tuple[Any, ...]:
+        return self.matrix, self.weights, self.unknowns.free, self.whitening
+
+    def __hash__(self) -> int:
+        return hash(tuple(array.shape for array in self._arrays))
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, _Quadratic) and all(
+            a is b or (isinstance(a, np.ndarray) and np.array_equal(a, b))
+            for a, b in zip(self._arrays, other._arrays, strict=True)
+        )
 
 
 def _p2p_hessian(problem: SubspaceProblem) -> Any:
-    """The positional energy's Hessian (F.6), the sum of (F.3), else the identity; the latest is
-    kept on the device."""
-    global _latest
-    positional, unknowns = problem.positional, problem.unknowns
-    inputs = [positional.matrix, positional.weights, unknowns.free, problem.matrices.whitening]
-    known = _latest
-    if known is None or not all(
-        a is b or (isinstance(a, np.ndarray) and np.array_equal(a, b))
-        for a, b in zip(known[0], inputs, strict=True)
-    ):
-        rows = pulled_back(positional.matrix, np.asarray(problem.matrices.whitening))
-        rows = restrict_rows(rows, unknowns)
-        h = rows.T @ (positional.weights[:, None] * rows)
-        h[np.diag_indices_from(h)] += 1 - unknowns.free
-        _latest = known = inputs, jax.device_put(h)
-    return known[1]
+    """The positional energy's Hessian (F.6), the sum of (F.3), else the identity; on the device."""
+    return _hessian_of(_Quadratic(problem))
+
+
+@functools.lru_cache(maxsize=1)  # a drag asks for the same one at each move
+def _hessian_of(quadratic: _Quadratic) -> Any:
+    rows = pulled_back(quadratic.matrix, np.asarray(quadratic.whitening))
+    rows = restrict_rows(rows, quadratic.unknowns)
+    h = rows.T @ (quadratic.weights[:, None] * rows)
+    h[np.diag_indices_from(h)] += 1 - quadratic.unknowns.free
+    return jax.device_put(h)
 
 
 def _is_slow(history: Sequence[Iteration]) -> bool:

@@ -56,7 +56,7 @@ class Options:
     """Begin with the rigid motion that brings the handles closest to their targets. It changes
     neither distortion nor certificate and often saves half of the iterations."""
     restarts: int = option(10, "Other ways to try after a high energy", "Restarts")
-    """How many other ways to a minimum (see :mod:`glid_nb.solvers.restarts`) a solve from the
+    """How many other ways to a minimum (see :mod:`glid_nb.minima.ways`) a solve from the
     identity may try when its first one does not converge, ends at a high energy, or turns parts so
     far that they may as well turn the other way round; 0 tries none.
     The result's ``attempts`` tell what each of them reached."""

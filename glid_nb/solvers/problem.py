@@ -8,12 +8,13 @@ their rows and columns of the Hessian are the identity's. The holes' ``psi_j`` f
 from __future__ import annotations
 
 import functools
+from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from glid_nb._jax import AnyArray, Array, Float, jnp
+from glid_nb._jax import AnyArray, Array, Float, jax, jnp, once_loaded
 from glid_nb.energies import Energy
 from glid_nb.geometry import Domain
 from glid_nb.harmonic import Basis, HarmonicMap, Singularities, as_complex, cauchy, rows_of
@@ -32,11 +33,21 @@ Vector = Float[Array, " 4u"]
 Square = Float[Array, "4u 4u"]
 
 
-class Unknowns(NamedTuple):
-    """The unknowns of one domain, as data for compiled programs."""
+@dataclass(frozen=True, eq=False)
+class Unknowns:
+    """The unknowns of one domain, as data for compiled programs: a pytree."""
 
     free: Float[AnyArray, " 4u"]  # 1 for an unknown, 0 for padding and what is fixed or tied
-    holes: Float[AnyArray, " N"]  # one entry per padded hole column: its length matters
+    n_holes: int  # padded hole columns; every number of them has a program of its own
+
+
+once_loaded(
+    lambda: jax.tree_util.register_pytree_node(
+        Unknowns,
+        lambda unknowns: ((unknowns.free,), unknowns.n_holes),
+        lambda n_holes, leaves: Unknowns(*leaves, n_holes),
+    )
+)
 
 
 class SubspaceProblem(NamedTuple):
@@ -190,7 +201,7 @@ def unknowns_of(basis: Basis, conformal: bool, whitening: AnyArray | None = None
     if conformal:
         psi[:] = False
         phi[len(phi) - n_holes :] = False
-    return Unknowns(np.concatenate([phi, phi, psi, psi]).astype(float), np.ones(n_holes))
+    return Unknowns(np.concatenate([phi, phi, psi, psi]).astype(float), n_holes)
 
 
 def restrict_gradient(g: Vector, unknowns: Unknowns) -> Vector:
@@ -252,7 +263,7 @@ def expand(step: Vector, unknowns: Unknowns) -> Vector:
 
 def _hole_slices(size: int, unknowns: Unknowns) -> tuple:
     """Positions of the holes' ``[Re phi, Im phi]`` and ``[Re psi, Im psi]``, and conj's signs."""
-    n_holes = unknowns.holes.shape[0]
+    n_holes = unknowns.n_holes
     if n_holes == 0:
         return None, None, None
     c, last = size // 4, np.arange(size // 4 - n_holes, size // 4)

@@ -30,7 +30,6 @@ class SubspaceDescent(Descent):
 
     uses_lapack = True
     discretisation: Discretisation
-    point: Point  # where it is; known at the latest after the first advance
     proved: tuple[Panels, Array, Array] | None = None
     """What the last step was proved by: panels, bounds on sigma_2 and turnings."""
     just_split = 0  # panels split since the last iteration
@@ -41,7 +40,9 @@ class SubspaceDescent(Descent):
         options, pose = inputs.options, inputs.pose
         map_, self.given, self.discretisation = _starting_point(method, inputs)
         self.start = problem.aligned(map_, pose) if options.align else map_
-        self.coefficients: Any = problem.real_coefficients(self.start)
+        self.point: Point | None = None
+        """Where it is, with its energies; None until the first advance has evaluated the start."""
+        self._start_coefficients = problem.real_coefficients(self.start)
         basis = self.discretisation.basis
         whitening = self.discretisation.matrices.whitening if reduced else None
         self.problem = SubspaceProblem(
@@ -50,8 +51,19 @@ class SubspaceDescent(Descent):
             unknowns=unknowns_of(basis, options.conformal, whitening),
             positional=problem.positional_energy(self.start, pose, options.p2p_weight),
             energy=inputs.energy,
-            anchor=problem.anchor_of(basis, self.coefficients),
+            anchor=problem.anchor_of(basis, self._start_coefficients),
         )
+
+    @property
+    def coefficients(self) -> Any:
+        """Padded real coefficients of where it is."""
+        return self._start_coefficients if self.point is None else self.point.coefficients
+
+    @property
+    def evaluated(self) -> Point:
+        """Where it is, after the first advance."""
+        assert self.point is not None, "the start is not evaluated yet"
+        return self.point
 
     @property
     def matrices(self) -> Matrices:
@@ -74,7 +86,7 @@ class SubspaceDescent(Descent):
         return apart > 0
 
     def reached(self) -> Reached:
-        point, domain = self.point, self.inputs.domain
+        point, domain = self.evaluated, self.inputs.domain
         iso, p2p = float(point.energy_iso), float(point.energy_p2p)
         entry = Iteration(
             energy_iso=iso,

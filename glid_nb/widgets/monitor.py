@@ -9,12 +9,12 @@ import ipywidgets
 import traitlets
 
 from glid_nb.certificate import certificate_of
+from glid_nb.energies import isometry_energy
 from glid_nb.figures.style import BLUE, FAINT, GREEN, GREY, ORANGE, VERMILION
 from glid_nb.session.deformation import Deformation
 from glid_nb.session.edit_state import Moment
 from glid_nb.session.status_line import StatusLine, describe
 from glid_nb.session.worker import LatestWins, weakly
-from glid_nb.solvers.restarts import isometry_energy
 from glid_nb.widgets.closing import ClosingWidget
 
 _INTERVAL = 0.1  # least number of seconds between two drawings of the plots

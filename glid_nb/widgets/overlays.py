@@ -8,9 +8,8 @@ import numpy as np
 
 from glid_nb._arrays import Array
 from glid_nb._jax import jnp
-from glid_nb.energies import Energy
+from glid_nb.energies import Energy, isometry_energy
 from glid_nb.figures.style import COLORS, FULL_MARGIN
-from glid_nb.solvers.restarts import isometry_energy
 
 # Green, orange, vermilion: visible on white, on black and beside those above.
 MARGIN_COLORS = (

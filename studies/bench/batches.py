@@ -7,8 +7,9 @@ XLA shows a CPU as two devices when the process is started with
 import jax
 import numpy as np
 
+from glid_nb.minima import solve, solve_batch
 from glid_nb.pose import Pose
-from glid_nb.solvers import Options, solve, solve_batch
+from glid_nb.solvers import Options
 from studies.bench.solving import bench_cases
 from studies.cases import Case
 from studies.store import Measurement

@@ -14,8 +14,9 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from glid_nb.geometry import Cage, Domain
+from glid_nb.minima import solve
 from glid_nb.pose import Pose
-from glid_nb.solvers import Options, solve
+from glid_nb.solvers import Options
 from studies.processes import in_new_process
 from studies.store import Measurement
 from studies.study import Plan, Study, Task

@@ -9,9 +9,10 @@ import numpy as np
 
 from glid_nb.figures.style import BLUE, INK, SKY, SMALL
 from glid_nb.harmonic.basis import basis_of
+from glid_nb.minima import solve
 from glid_nb.pose import Pose
 from glid_nb.samples import names
-from glid_nb.solvers import Options, Result, solve
+from glid_nb.solvers import Options, Result
 from glid_nb.solvers.discretisation import discretise
 from studies import figures
 from studies.bench.stages import measure_stages

@@ -16,8 +16,8 @@ import numpy as np
 import glid_nb
 from glid_nb._runtime import double_precision, single_blas_thread
 from glid_nb.energies import as_energy
+from glid_nb.minima import batch, solve, solve_batch
 from glid_nb.pose import Pose
-from glid_nb.solvers import batch, solve, solve_batch
 from glid_nb.solvers.method import Inputs
 from glid_nb.solvers.newton import Newton
 from studies.bench.batches import SPREAD

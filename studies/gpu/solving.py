@@ -17,7 +17,8 @@ import jax.numpy as jnp
 
 import glid_nb
 from glid_nb.certificate import Certificate
-from glid_nb.solvers import Options, Result, solve, step
+from glid_nb.minima import solve
+from glid_nb.solvers import Options, Result, step
 from studies.bench.solving import drag_step
 from studies.bench.stages import measure_stages
 from studies.cases import Case, reference_cases

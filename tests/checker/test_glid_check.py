@@ -32,8 +32,9 @@ from glid_nb.certificate.certify import Certificate, PanelCertificate, proof_tex
 from glid_nb.certificate.proof import dyadic_panels
 from glid_nb.geometry import Cage, Domain, Panels, graded_panels, uniform_panels
 from glid_nb.harmonic import HarmonicMap
+from glid_nb.minima import solve
 from glid_nb.pose import Pose
-from glid_nb.solvers import Options, solve
+from glid_nb.solvers import Options
 
 from ..domains import circle, dense_check, domain, random_map
 from ..reference_map import DenseCheck, Measured

@@ -24,8 +24,9 @@ from glid_nb.energies import AMIPS
 from glid_nb.figures.style import VERMILION
 from glid_nb.geometry import MeshMap, triangulate
 from glid_nb.harmonic import HarmonicMap
+from glid_nb.minima import solve
 from glid_nb.pose import Pose
-from glid_nb.solvers import Iteration, Options, solve
+from glid_nb.solvers import Iteration, Options
 
 from ..domains import domain
 

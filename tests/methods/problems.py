@@ -10,8 +10,9 @@ import numpy as np
 from glid_nb import methods
 from glid_nb.energies import Energy
 from glid_nb.geometry import Domain
+from glid_nb.minima import solve
 from glid_nb.pose import Pose
-from glid_nb.solvers import Options, Result, solve
+from glid_nb.solvers import Options, Result
 
 from ..domains import domain
 

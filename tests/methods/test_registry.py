@@ -15,8 +15,9 @@ from glid_nb.energies import ARAP, EnergyError, SymmetricDirichlet
 from glid_nb.geometry import Cage, Domain
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.methods import METHODS, available, by_name
+from glid_nb.minima import solve
 from glid_nb.pose import Pose, PoseError
-from glid_nb.solvers import MethodError, OptionError, Options, StartError, solve
+from glid_nb.solvers import MethodError, OptionError, Options, StartError
 
 from ..domains import domain
 from .problems import problem, run_method

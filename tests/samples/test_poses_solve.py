@@ -16,8 +16,9 @@ from glid_nb import samples
 from glid_nb.geometry import Domain
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging.trace import trace
+from glid_nb.minima import solve
 from glid_nb.pose import Pose
-from glid_nb.solvers import Options, Status, solve
+from glid_nb.solvers import Options, Status
 
 from ..domains import divided
 

@@ -14,12 +14,13 @@ from glid_nb.energies import AMIPS, CustomEnergy, SymmetricDirichlet
 from glid_nb.geometry import Domain, MeshMap
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.methods import LBFGS, MovingLeastSquares
+from glid_nb.minima import solve
 from glid_nb.pose import Pose
 from glid_nb.session.document import Document, DocumentError, NamedPose
 from glid_nb.session.script import python_code
 from glid_nb.session.timeline import Timeline
 from glid_nb.session.tracing import TracingModel
-from glid_nb.solvers import Options, solve
+from glid_nb.solvers import Options
 
 from .test_tracing import DRAWING, far_vertex
 

@@ -7,8 +7,9 @@ import pytest
 from glid_nb.certificate import certify
 from glid_nb.energies import ARAP
 from glid_nb.harmonic import HarmonicMap
+from glid_nb.minima import solve
 from glid_nb.pose import Pose
-from glid_nb.solvers import Options, Progress, Status, solve
+from glid_nb.solvers import Options, Progress, Status
 
 from ..domains import domain
 

@@ -10,9 +10,10 @@ import pytest
 from glid_nb.geometry import Cage, Domain, MeshMap, triangulate
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.methods import MovingLeastSquares
+from glid_nb.minima import solve, solve_batch
 from glid_nb.pose import Pose
 from glid_nb.session.report import build_report
-from glid_nb.solvers import Options, Status, solve, solve_batch
+from glid_nb.solvers import Options, Status
 from glid_nb.solvers.misses import misses_of, told, unit_of
 
 SQUARE: Any = np.array([[-5.0, -5], [5, -5], [5, 5], [-5, 5]])

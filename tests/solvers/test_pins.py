@@ -7,8 +7,9 @@ import pytest
 
 from glid_nb import methods
 from glid_nb.harmonic import HarmonicMap
+from glid_nb.minima import solve, solve_batch
 from glid_nb.pose import Pose, PoseError
-from glid_nb.solvers import MethodError, Options, Result, solve, solve_batch
+from glid_nb.solvers import MethodError, Options, Result
 
 from ..domains import domain
 from .checks import check_certified

@@ -18,9 +18,10 @@ from glid_nb import methods
 from glid_nb.certificate import certificate_of, certify
 from glid_nb.geometry import Cage, Domain, MeshMap
 from glid_nb.harmonic import HarmonicMap
+from glid_nb.minima import refine, solve, solve_batch
 from glid_nb.motion import Motion
 from glid_nb.pose import Pose
-from glid_nb.solvers import Options, Result, Status, refine, solve, solve_batch
+from glid_nb.solvers import Options, Result, Status
 
 pytestmark = pytest.mark.slow
 

@@ -16,10 +16,11 @@ from glid_nb.energies import SymmetricDirichlet, energy_by_name
 from glid_nb.geometry import Cage, Domain
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging import TraceOptions
+from glid_nb.minima import solve
 from glid_nb.pose import Pose
 from glid_nb.session.document import Document, DocumentError, NamedPose
 from glid_nb.session.report import build_report
-from glid_nb.solvers import Options, Progress, Result, Status, solve
+from glid_nb.solvers import Options, Progress, Result, Status
 from glid_nb.solvers.method import StartError
 
 from ..domains import domain
@@ -143,8 +144,7 @@ def test_a_document_is_saved_by_what_it_is_loaded_by(tmp_path: Path) -> None:
     """The solver's panels are in no file, so what only they prove is not saved."""
     ring = domain("ring")
     result = solve(ring, POSE, options=Options(restarts=0))
-    known = vars(result.map)
-    known["_certificate"] = replace(result.certificate)
+    result.map.kept["proofs"].own = replace(result.certificate)
     assert certificate_of(result.map).certified
     poses = (NamedPose("ring", POSE, result.energy_measure, Options(), result.map),)
     image = np.zeros((20, 20, 4), np.uint8)

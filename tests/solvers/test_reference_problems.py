@@ -12,8 +12,9 @@ import pytest
 import glid_check
 from glid_nb.energies import energy_by_name
 from glid_nb.geometry import Domain
+from glid_nb.minima import solve
 from glid_nb.pose import Pose
-from glid_nb.solvers import Options, Result, Status, solve
+from glid_nb.solvers import Options, Result, Status
 
 from ..domains import divided
 from .checks import measured, turned

@@ -10,8 +10,9 @@ import pytest
 
 from glid_nb import methods
 from glid_nb.geometry import Cage, Domain
+from glid_nb.minima import solve, solve_batch
 from glid_nb.pose import Pose
-from glid_nb.solvers import Options, Result, solve, solve_batch
+from glid_nb.solvers import Options, Result
 
 pytestmark = pytest.mark.slow
 

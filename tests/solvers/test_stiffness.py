@@ -15,8 +15,9 @@ from glid_nb import methods
 from glid_nb._jax import jax
 from glid_nb._runtime import compilation_clock, double_precision
 from glid_nb.energies import SymmetricDirichlet
+from glid_nb.minima import solve, solve_batch
 from glid_nb.pose import FULL_WEIGHT, Pose, Stiffness, StiffnessError
-from glid_nb.solvers import MethodError, Options, evaluation, solve, solve_batch
+from glid_nb.solvers import MethodError, Options, evaluation
 from glid_nb.solvers.discretisation import discretise
 from glid_nb.solvers.hessian import assemble, local_hessian
 from glid_nb.solvers.problem import real_coefficients

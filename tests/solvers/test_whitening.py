@@ -12,8 +12,9 @@ from glid_nb._features import enable_x64
 from glid_nb.geometry import Cage, Domain
 from glid_nb.harmonic import basis_of
 from glid_nb.harmonic.cauchy import cauchy_coordinates
+from glid_nb.minima import solve
 from glid_nb.pose import Pose
-from glid_nb.solvers import Options, Status, solve, step, whitening
+from glid_nb.solvers import Options, Status, step, whitening
 from glid_nb.solvers.discretisation import complex_basis, discretise
 from glid_nb.solvers.evaluation import products
 from glid_nb.solvers.line_search import INDEFINITE

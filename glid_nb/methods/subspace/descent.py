@@ -96,7 +96,7 @@ class DirectedDescent(SubspaceDescent):
     @property
     def size(self) -> float:
         """Norm of the coefficients, without the map's translation."""
-        return float(np.linalg.norm(self.point.coefficients - self.problem.anchor))
+        return float(np.linalg.norm(self.coefficients - self.problem.anchor))
 
     @functools.cached_property
     def free(self) -> Array:
@@ -113,7 +113,7 @@ class DirectedDescent(SubspaceDescent):
     def hessian(self, curvature: Curvature) -> Array:
         """(4c, 4c) Hessian of the isometric energy; on what is fixed or tied a diagonal that scales
         with it."""
-        h = np.array(_hessian(self.problem, self.point, curvature=curvature))
+        h = np.array(_hessian(self.problem, self.evaluated, curvature=curvature))
         fixed = np.flatnonzero(self.free == 0)
         h[fixed, fixed] = self.unit**-2
         return h
@@ -126,13 +126,15 @@ class DirectedDescent(SubspaceDescent):
         if self._chosen is None and (ending := self._choose()) is not None:
             return Advance(ending=ending)
         refining = may_refine and self.discretisation.can_refine
-        move, gradient = _advance(self.problem, self.point, self.gradient, self._chosen, refining)
+        move, gradient = _advance(
+            self.problem, self.evaluated, self.gradient, self._chosen, refining
+        )
         end = int(move.outcome)
         self._seconds += watch.seconds
         if end != RUNNING:
             return Advance(end, refused=np.asarray(move.refused))
         self.point, self.gradient = move.point, np.asarray(gradient)
-        self.coefficients, self.step, self._chosen = move.point.coefficients, float(move.step), None
+        self.step, self._chosen = float(move.step), None
         self.prove(move.panel.sigma2_lower, move.panel.turning)
         self.record(replace(self.reached().entry, time=self._seconds, step=self.step))
         self.just_split, self._seconds = 0, 0.0
@@ -143,7 +145,7 @@ class DirectedDescent(SubspaceDescent):
         ending = self._adapted(done)
         if ending is None or not ending.status.ok:
             return ending
-        if not self.pin(map_from(self.inputs.domain, self.point.coefficients)):
+        if not self.pin(map_from(self.inputs.domain, self.coefficients)):
             return ending
         vars(self).pop("p2p_hessian", None)
         self._chosen = self.memory = None
@@ -166,6 +168,7 @@ class DirectedDescent(SubspaceDescent):
         if self.method.window is not None:
             return self.stagnation()
         before = self.history[-2] if len(self.history) > 1 else self.initial
+        assert before is not None
         gain = (before.energy - self.history[-1].energy) / self._scale()
         crept = max(self.step or 0.0, gain) < _CREEPING
         return Ending(Status.BLOCKED, _CREPT) if crept else None
@@ -200,7 +203,7 @@ class DirectedDescent(SubspaceDescent):
         return -float(self.gradient @ self._chosen)
 
     def _scale(self) -> float:
-        return max(abs(float(self.point.energy)), LEAST_ENERGY)
+        return max(abs(float(self.evaluated.energy)), LEAST_ENERGY)
 
 
 @solver_jit

@@ -58,7 +58,7 @@ class LBFGS(SubspaceMethod):
             factor = scipy.linalg.cho_factor(at.p2p_hessian + iso, lower=True)
             at.memory = Pairs(self.memory, factor)
         pairs: Pairs = at.memory
-        pairs.add(np.asarray(at.point.coefficients) * at.free, at.gradient)
+        pairs.add(np.asarray(at.coefficients) * at.free, at.gradient)
         solve = functools.partial(scipy.linalg.cho_solve, pairs.factor)
         return -two_loop(at.gradient, list(pairs.pairs), solve)
 

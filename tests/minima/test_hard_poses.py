@@ -18,14 +18,15 @@ from glid_nb.geometry import Cage, Domain
 from glid_nb.geometry._loops import subdivided
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging.trace import trace
+from glid_nb.minima import solve
+from glid_nb.minima.known import SAME_ENERGY
 from glid_nb.pose import Pose
-from glid_nb.solvers import Options, Progress, Status, solve
-from glid_nb.solvers.restarts import SAME_ENERGY
+from glid_nb.solvers import Options, Progress, Status
 
 from ..domains import NAMES, circle, domain, real
 from ..geometry.shapes import KINDS as CAGES
 from ..geometry.shapes import random_cage
-from .checks import Turn, check_certified, turned
+from ..solvers.checks import Turn, check_certified, turned
 
 pytestmark = pytest.mark.slow  # most of the time is compiling
 

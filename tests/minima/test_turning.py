@@ -9,11 +9,14 @@ from hypothesis import strategies as st
 
 from glid_nb.geometry import Cage, Domain, meshes
 from glid_nb.harmonic import HarmonicMap
+from glid_nb.minima import solve
+from glid_nb.minima.reversals import cost, reversals
+from glid_nb.minima.stages import stages
+from glid_nb.minima.turning import turning_of
+from glid_nb.minima.ways import FAR
 from glid_nb.pose import Pose
-from glid_nb.solvers import Options, Result, solve
+from glid_nb.solvers import Options, Result
 from glid_nb.solvers.problem import aligned
-from glid_nb.solvers.restarts import FAR
-from glid_nb.solvers.turning import turning_of
 
 DOMAIN = Domain.from_cage(Cage([[-10, -1], [10, -1], [10, 1], [-10, 1]]))
 BAR = np.array([[-9, -0.5], [-9, 0.5], [0, -0.5], [0, 0.5], [9, -0.5], [9, 0.5]])
@@ -29,10 +32,10 @@ def test_a_rigid_motion_turns_no_line_and_stays_rigid(degrees: float, x: float) 
     pose = Pose(BAR, turned(BAR, degrees) + np.array([x, 0]))
     turning = turning_of(aligned(HarmonicMap.identity(DOMAIN), pose), pose)
     np.testing.assert_allclose([line.turn for line in turning.lines], 0, atol=1e-9)
-    assert not turning.reversals(FAR[0])
+    assert not reversals(turning, FAR[0])
     assert not any(line.squeezed for line in turning.lines)
     distances = [np.linalg.norm(BAR - BAR[i], axis=1) for i in range(len(BAR))]
-    for _, stage in turning.stages():
+    for _, stage in stages(turning):
         for i, expected in enumerate(distances):
             there = np.linalg.norm(stage.targets - stage.targets[i], axis=1)
             np.testing.assert_allclose(there, expected, atol=1e-9)
@@ -60,11 +63,11 @@ def test_a_line_turns_by_as_much_as_the_map_turns_it(back: float) -> None:
     far = max(turns, key=lambda child: abs(turns[child]))
     assert abs(turns.pop(far)) == pytest.approx(170, abs=10)
     assert all(abs(turn) < 20 for turn in turns.values())
-    (reversed,) = turning.reversals(FAR[0])
+    (reversed,) = reversals(turning, FAR[0])
     assert reversed == (far,)
     z, w = BAR @ np.array([1, 1j]), pose.targets @ np.array([1, 1j])
     for lines in ((), reversed):
-        way = [BAR, *(stage.targets for _, stage in turning.stages(lines)), pose.targets]
+        way = [BAR, *(stage.targets for _, stage in stages(turning, lines)), pose.targets]
         # The line that turns, against one at the end that does not.
         line, body = (
             np.array([points[i] - points[j] for points in way]) @ np.array([1, 1j])
@@ -82,12 +85,12 @@ def test_stages_lead_evenly_to_the_targets(seed: int, count: int) -> None:
     handles = rng.uniform([-9, -0.9], [9, 0.9], size=(count, 2))
     pose = Pose(handles, rng.normal(size=(count, 2)))
     turning = turning_of(HarmonicMap.identity(DOMAIN), pose)
-    for lines in ((), *turning.reversals(0.1)):
+    for lines in ((), *reversals(turning, 0.1)):
         # They begin turned as a whole.
-        line = np.array([*(stage.targets for _, stage in turning.stages(lines)), pose.targets])
+        line = np.array([*(stage.targets for _, stage in stages(turning, lines)), pose.targets])
         assert np.isfinite(line).all()
-        for i, j, *_ in turning.lines:
-            z = (line[:, i] - line[:, j]) @ np.array([1, 1j])
+        for each in turning.lines:
+            z = (line[:, each.child] - line[:, each.parent]) @ np.array([1, 1j])
             assert np.abs(np.angle(z[1:] / z[:-1])).max() < np.deg2rad(60.1)
 
 
@@ -103,8 +106,8 @@ def test_turns_cost_what_the_solver_finds_while_they_are_small() -> None:
         assert isinstance(result.map, HarmonicMap)
         turning = turning_of(result.map, pose)
         energies.append(result.energy - 2)
-        costs.append(turning.cost())
-        around = turning.cost((max(turning.lines, key=lambda line: abs(line.turn)).child,))
+        costs.append(cost(turning))
+        around = cost(turning, (max(turning.lines, key=lambda line: abs(line.turn)).child,))
         assert around > 1e3 * costs[-1]
     np.testing.assert_allclose(energies, 4 * np.array(costs), rtol=0.02)
 
@@ -112,17 +115,17 @@ def test_turns_cost_what_the_solver_finds_while_they_are_small() -> None:
 def test_targets_that_coincide_are_no_division_by_zero() -> None:
     pose = Pose([[0, 0], [1, 0], [2, 0]], [[0, 0], [0, 0], [0, 0]])
     turning = turning_of(HarmonicMap.identity(DOMAIN), pose)
-    assert all(np.isfinite(stage.targets).all() for _, stage in turning.stages())
+    assert all(np.isfinite(stage.targets).all() for _, stage in stages(turning))
 
 
 def test_the_ways_of_handles_that_nearly_coincide_are_finite() -> None:
     handles = np.array([[0, 0], [1e-9, 0], [5, 0.5]])
     pose = Pose(handles, handles + np.array([[0, 1e-12], [0, 0], [0, -1e-12]]))
     turning = turning_of(HarmonicMap.identity(DOMAIN), pose)
-    costs = np.array([turning.cost((line.child,)) for line in turning.lines])
+    costs = np.array([cost(turning, (line.child,)) for line in turning.lines])
     assert np.isfinite(costs).all()
     assert costs.min() > 0
-    assert turning.cost() > 0
+    assert cost(turning) > 0
 
 
 def test_a_line_is_squeezed_where_its_targets_are_closer_and_it_stays_straight() -> None:
@@ -151,9 +154,9 @@ def test_other_handles_of_a_shape_need_no_other_mesh(monkeypatch: pytest.MonkeyP
 def test_the_map_of_lines_led_the_other_way_round_is_known_by_its_key() -> None:
     pose, first = half_turned()
     turning = turning_of(first, pose)
-    (lines,) = [lines for lines in turning.reversals(np.deg2rad(80)) if len(lines) == 1]
+    (lines,) = [lines for lines in reversals(turning, np.deg2rad(80)) if len(lines) == 1]
     start: Result | None = None
-    for _, stage in turning.stages(lines):
+    for _, stage in stages(turning, lines):
         start = solve(first.domain, stage, start=start)
     other = solve(first.domain, pose, start=start)
     assert turning_of(other.map, pose).key() == turning.key(lines) != turning.key()

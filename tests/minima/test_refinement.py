@@ -11,14 +11,15 @@ from glid_nb.cli.output import summary_text
 from glid_nb.geometry import Domain
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.methods import BDHM
+from glid_nb.minima import refine, solve
+from glid_nb.minima.solve import in_finer_basis
 from glid_nb.pose import Pose
 from glid_nb.session.report import build_report
-from glid_nb.solvers import Options, refine, solve
+from glid_nb.solvers import Options
 from glid_nb.solvers.method import MethodError
-from glid_nb.solvers.solve import in_finer_basis
 
 from ..domains import domain, random_map
-from .checks import check_certified
+from ..solvers.checks import check_certified
 
 
 @pytest.mark.parametrize("name", ["ell", "ring", "twin"])

@@ -21,16 +21,16 @@ from glid_nb._jax import jax, jnp
 from glid_nb._runtime import double_precision, single_blas_thread
 from glid_nb.energies import Energy, as_energy
 from glid_nb.geometry import Domain
+from glid_nb.minima import search
 from glid_nb.pose import Pose, PoseError, Stiffness
 from glid_nb.solvers import step
 from glid_nb.solvers.discretisation import discretise
 from glid_nb.solvers.line_search import RUNNING
 from glid_nb.solvers.loop import Advance, Stopwatch, followed
 from glid_nb.solvers.method import Inputs
-from glid_nb.solvers.newton import SLOW_ITERATIONS, Newton, NewtonDescent, descend
+from glid_nb.solvers.newton import SLOW_ITERATIONS, Newton, NewtonDescent
 from glid_nb.solvers.options import Options
 from glid_nb.solvers.problem import SubspaceProblem
-from glid_nb.solvers.restarts import improve
 from glid_nb.solvers.result import Result
 
 # Poses per device and call; few sizes, for each compiles a program of its own.
@@ -94,7 +94,7 @@ def solve_batch(
             with jax.default_device(device):
                 if not alone:
                     return _in_lockstep(group)
-                return [replace(Newton().run(inputs), factor=None) for inputs in group]
+                return [replace(search.run(Newton(), inputs), factor=None) for inputs in group]
         finally:
             free.put(device)
 
@@ -155,7 +155,7 @@ class _Pose(NewtonDescent):
         with single_blas_thread():
             ending = followed(self, self.done)
         times = compile_time + watch.compiling, self.seconds + watch.seconds
-        return improve(self.result(ending, *times), self.inputs, descend)
+        return search.improve(self.result(ending, *times), self.inputs, self.method)
 
 
 def _run(poses: list[_Pose]) -> float:

@@ -16,12 +16,13 @@ import pytest
 from glid_nb._features import enable_x64
 from glid_nb.energies import as_energy
 from glid_nb.geometry import Domain
+from glid_nb.minima import batch, solve, solve_batch
 from glid_nb.pose import Pose, PoseError
-from glid_nb.solvers import Options, Status, batch, solve, solve_batch
+from glid_nb.solvers import Options, Status
 from glid_nb.solvers.method import Inputs
 
 from ..domains import domain
-from .checks import check_certified
+from ..solvers.checks import check_certified
 
 HANDLES = np.array([[-2.5, 2.5], [2.5, -2.5], [-2.0, -2.0]])
 

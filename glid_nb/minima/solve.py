@@ -14,6 +14,7 @@ from glid_nb.energies import Energy, as_energy
 from glid_nb.geometry import Cage, Domain, MeshMap, as_points
 from glid_nb.geometry._loops import subdivided
 from glid_nb.harmonic import HarmonicMap
+from glid_nb.minima import search
 from glid_nb.pose import DeformationMap, Pose
 from glid_nb.solvers.method import Inputs, Method, MethodError, StartError
 from glid_nb.solvers.newton import Newton
@@ -85,7 +86,7 @@ def solve(
     start_map = inputs.start_map
     if isinstance(start_map, HarmonicMap) and not start_map.domain.equals(domain):
         raise StartError("the map to start from belongs to another domain; take one of this one")
-    return method.run(inputs)
+    return search.run(method, inputs)
 
 
 def refine(result: Result, gain: float = 0.01, callback: Callback | None = None) -> Result:

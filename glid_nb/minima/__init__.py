@@ -1,0 +1,4 @@
+"""Solving a pose: one descent, and other ways to a minimum where that ends high."""
+
+from glid_nb.minima.batch import solve_batch
+from glid_nb.minima.solve import refine, solve
