@@ -1,4 +1,4 @@
-"""Minimising a deformation energy over certified harmonic maps (paper Sections 7 and 9)."""
+"""Minimise a deformation energy over certified harmonic maps (paper Sections 7 and 9)."""
 
 from glid_nb.pose import DeformationMap, Pose, PoseError
 from glid_nb.solvers.batch import solve_batch
