@@ -1,4 +1,4 @@
-"""Measurements for the foreground: brightness, distance from a colour, border colour, thresholds."""
+"""Measurements for the foreground: brightness, colour distance, border colour, thresholds."""
 
 from typing import NamedTuple
 

@@ -136,7 +136,7 @@ class Sheets:
         return found[np.lexsort((self._order(found), self._opaque(found)))[-1]]
 
     def sources(self, places: Array) -> Array:
-        """Like `source` for many places (k, 2), with the accuracy of a mesh; NaN outside the shape."""
+        """Like `source` for many places (k, 2), with a mesh's accuracy; NaN outside the shape."""
         which, found = self._drawn_at(places, 0.0)
         order = np.lexsort((self._order(found), self._opaque(found)))
         seen = np.full(places.shape, np.nan)

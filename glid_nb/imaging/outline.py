@@ -42,7 +42,7 @@ class Component:
 
 @dataclass(frozen=True, eq=False)
 class Components:
-    """All components of a foreground, the largest first. Pixels that share a corner are connected."""
+    """All components of a foreground, the largest first. Pixels also connect at corners."""
 
     found: NDArray[np.int32]  # (h, w) labels, 0 in the background
     labels: NDArray[np.intp]  # (n,) the label of each component
@@ -156,7 +156,7 @@ def _steps(inside: NDArray[np.bool_]) -> int:
 
 
 def _fill_specks(inside: NDArray[np.bool_], least: float) -> int:
-    """If the mask is noisy, fill its holes of less than `least` pixels in place. Returns how many."""
+    """If the mask is noisy, fill its holes below `least` pixels in place. Returns how many."""
     if _steps(inside) < _NOISY:  # few holes: dropping them after tracing is faster
         return 0
     background = np.zeros(inside.shape, dtype=np.int32)

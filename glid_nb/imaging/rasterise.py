@@ -257,7 +257,7 @@ class ScanConverter:
         return Hits(triangle[span], place, x, (row[span] + 0.5) / n)
 
     def _spans(self, tile: Tile, n: int) -> tuple[Ints, Ints, Floats, Floats]:
-        """(s,) triangle, row and half-open interval of each span. The row has y = (row + 1/2) / n."""
+        """(s,) triangle, row and half-open interval of each span. Rows are at (row + 1/2) / n."""
         near = (self._y[:, 2] > tile.top) & (self._y[:, 0] < tile.top + tile.rows)
         near &= (self._right > tile.left) & (self._left < tile.left + tile.width)
         chosen = np.flatnonzero(near)

@@ -174,7 +174,7 @@ def _decode(data: bytes, name: str) -> RGBA:
 
 
 def picture_format(data: bytes) -> str | None:
-    """Pillow's name for the format of a picture's file, such as "JPEG"; None if it is no picture."""
+    """Pillow's name for the format of a picture's file, such as "JPEG"; None for other files."""
     try:
         with Image.open(io.BytesIO(data), formats=formats()) as picture:
             return picture.format
