@@ -133,7 +133,7 @@ def convergence(
 
 
 def _by_name(results: Any) -> Mapping[str, Result]:
-    """Results by name. Results without names get the names of their methods, numbered if need be."""
+    """Results by name. Results without names get their methods' names, numbered if need be."""
     given = [results] if isinstance(results, Result) else results
     if not isinstance(given, Mapping):
         if not isinstance(given, list | tuple) or not all(isinstance(r, Result) for r in given):

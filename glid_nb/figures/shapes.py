@@ -275,7 +275,7 @@ def _listed(maps: Any, pose: Pose | None) -> tuple[list[AnyMap], list[DrawnMap]]
 
 
 def _scale(quantity: Quantity | Energy, known: Floats) -> tuple[Any, Any]:
-    """Norm and colours. A hundredth of the triangles, at the cage's corners, may exceed the norm."""
+    """Norm and colours. 1 % of the triangles, at the cage's corners, may exceed the norm."""
     least, high, colors = float(known.min()), float(np.quantile(known, 0.99)), distortion_colors()
     linear = {"sigma1": (1.0, float(np.clip(high, 1.5, 6.0))), "sigma2": (0.0, 1.0)}
     linear["k"] = 0.0, float(np.clip(high, 0.1, 1.0))

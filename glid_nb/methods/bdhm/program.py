@@ -51,7 +51,7 @@ class SampleRows(NamedTuple):
 
 
 class BoundedProblem:
-    """The energy of a map. With fixed frames it is ``|v|^2 / 2`` plus a linear function of ``v``."""
+    """The energy of a map. With fixed frames it is ``|v|^2 / 2`` plus a linear function."""
 
     @double_precision
     def __init__(

@@ -12,7 +12,7 @@ from glid_nb.pose import Pose
 from glid_nb.solvers import MethodError
 from glid_nb.solvers.loop import Steps
 
-# For each of our energies: libigl's name, and the factor from libigl's energy to ours.
+# For each of our energies: libigl's name, and libigl's energy divided by ours.
 _ENERGIES = {
     "iso": ("SYMMETRIC_DIRICHLET", 2.0),
     "exp": ("EXP_SYMMETRIC_DIRICHLET", 1.0),

@@ -65,7 +65,7 @@ class SubspaceMethod(Method):
 
 @dataclass(frozen=True)
 class SecondOrderMethod(SubspaceMethod):
-    """A variant of Newton's method. It has converged if ``decrement^2 / 2 < tolerance * energy``."""
+    """A variant of Newton's method. It converges at ``decrement^2 / 2 < tolerance * energy``."""
 
     window = None
 

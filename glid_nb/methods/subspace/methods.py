@@ -260,7 +260,7 @@ class LevenbergMarquardt(GaussNewton):
 
 
 def _solve_semidefinite(h: Array, gradient: Array) -> Array | Ending:
-    """``-H^-1 g``. If too few samples or handles make H singular, Section 9.1's epsilon is added."""
+    """``-H^-1 g``. If H is singular (few samples or handles), Section 9.1's epsilon is added."""
     direction = _solve(h, gradient)
     if direction is None:
         ridge = _RIDGE * float(np.diag(h).mean())
