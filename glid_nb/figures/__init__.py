@@ -1,6 +1,6 @@
-"""Figures of maps, proofs and solves: what notebooks draw, and the plots of the editor."""
+"""Figures of maps, proofs and solves for notebooks, and the plots of the editor."""
 
 import lazy_loader as _lazy
 
-# On first use, so that `glid_nb.figures.style` does not import matplotlib.
+# Load submodules on first use, so that `glid_nb.figures.style` does not import matplotlib.
 __getattr__, __dir__, __all__ = _lazy.attach_stub(__name__, __file__)

@@ -19,7 +19,7 @@ from glid_nb.geometry import as_points, loop_name, uniform_panels
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.solvers import Result
 
-# Different in grey too; vermilion is kept for folds and thresholds.
+# These looks differ in grey too. Vermilion is reserved for folds and thresholds.
 _LOOKS = [
     {"color": color, "linestyle": line}
     for line in ("-", (0, (4, 1.5)))
@@ -33,9 +33,9 @@ _SAMPLES = 8000  # of the boundary
 def energy_levels(*energies: Energy | str) -> NotebookFigure:
     """Level sets of energies' densities over (sigma_1, sigma_2), side by side.
 
-    The energies are values or names, such as `SymmetricDirichlet()` or "amips". The cross is the
-    isometry (1, 1). On and below the line sigma_2 = 0 a map folds; above the diagonal there is
-    nothing, since sigma_2 <= sigma_1.
+    The energies are values or names, such as `SymmetricDirichlet()` or "amips". The cross marks the
+    isometry (1, 1). On and below the line sigma_2 = 0 a map folds. The area above the diagonal is
+    empty, because sigma_2 <= sigma_1.
     """
     chosen = [as_energy(energy) for energy in energies]
     if not chosen:
@@ -49,7 +49,7 @@ def energy_levels(*energies: Energy | str) -> NotebookFigure:
     isometry: Any = np.ones(1), np.zeros(1)
     for place, energy in enumerate(chosen, 1):
         axes = figure.add_subplot(rows, columns, place)
-        # An exponential may overflow near a fold; what is infinite would be left white.
+        # An exponential may overflow near a fold, and infinite values would stay white.
         density = np.minimum(energy.density(x, y), 1e200)
         least = float(energy.density(*isometry)[0])
         above = np.where(sigma2 <= sigma1, density - least, np.nan)
@@ -70,10 +70,11 @@ def energy_levels(*energies: Energy | str) -> NotebookFigure:
 
 
 def derivative_curve(map: HarmonicMap, which: Literal["fz", "fzb"] = "fz") -> NotebookFigure:
-    """The curve that a derivative runs through along the boundary, loop by loop, around 0.
+    """The curve of a derivative along the boundary, loop by loop, around 0.
 
-    A legend tells how often each loop's curve, which begins at a dot, winds around 0, by samples
-    (holes clockwise). For f_z all windings add up to its zeros in the domain (Section 8).
+    Each loop's curve begins at a dot. The legend gives how often the curve winds around 0, computed
+    from samples (holes clockwise). For f_z the windings add up to the number of its zeros in the
+    domain (Section 8).
     """
     if which not in ("fz", "fzb"):
         raise ValueError(f"which is {which!r}; choose 'fz' or 'fzb'")
@@ -104,10 +105,10 @@ def convergence(
     against: Literal["iterations", "seconds"] = "iterations",
     gap_to: float | None = None,
 ) -> NotebookFigure:
-    """Total energies of results, on a logarithmic axis, by their names or their methods'.
+    """Total energies of results, on a logarithmic axis, labelled by the results' or methods' names.
 
-    Against "iterations" or "seconds", those of `Iteration.time`: without compiling. With
-    ``gap_to``, such as the lowest energy known, (E - gap_to) / gap_to is drawn instead.
+    The horizontal axis shows "iterations" or "seconds" (`Iteration.time`, without compiling). With
+    ``gap_to``, for example the lowest known energy, the curves show (E - gap_to) / gap_to.
     """
     if against not in ("iterations", "seconds"):
         raise ValueError(f"against is {against!r}; choose 'iterations' or 'seconds'")
@@ -116,7 +117,7 @@ def convergence(
     axes = figure.add_subplot()
     for below, (name, result) in zip(range(len(results))[::-1], results.items(), strict=True):
         look = _LOOKS[(len(results) - 1 - below) % len(_LOOKS)]
-        # Wider below, so that curves which lie on each other are all seen.
+        # Lower curves are wider, so that all curves are visible where they coincide.
         look = {**look, "linewidth": style.LINE + 0.9 * below, "markersize": 2.5 + 1.2 * below}
         steps = [result.initial, *result.history]
         seconds = np.cumsum([s.time for s in steps])
@@ -132,7 +133,7 @@ def convergence(
 
 
 def _by_name(results: Any) -> Mapping[str, Result]:
-    """Results by names; those that have none are called like their methods, and numbered."""
+    """Results by name. Results without names get their methods' names, numbered if need be."""
     given = [results] if isinstance(results, Result) else results
     if not isinstance(given, Mapping):
         if not isinstance(given, list | tuple) or not all(isinstance(r, Result) for r in given):
@@ -163,8 +164,8 @@ def function(
 ) -> NotebookFigure:
     """A labelled line plot of functions: for each name (n,) values at the (n,) places ``x``.
 
-    ``log`` names the axes that are logarithmic, ``dots`` marks the points themselves. Named
-    ``vertical`` and ``horizontal`` values become straight lines across the plot.
+    ``log`` names the logarithmic axes. ``dots`` marks the points. Each named value of ``vertical``
+    and ``horizontal`` becomes a straight line across the plot.
     """
     figure = NotebookFigure(_WIDTH * 0.75, 3.0)
     axes = figure.add_subplot()

@@ -1,4 +1,4 @@
-"""What figures of shapes are made of: the figure itself, loops, dots, pictures, colour bars."""
+"""Parts of figures of shapes: the figure itself, loops, dots, pictures, colour bars."""
 
 import io
 import math
@@ -22,23 +22,23 @@ from glid_nb.imaging import PixelFrame
 from glid_nb.pose import Pose
 
 _MISS = 0.004  # of the axes' size: handles farther from their target get a line
-_SHOWN_DPI = 150.0  # in a notebook, at
-_CSS_DPI = 108.0  # this many of the page's pixels per inch
-_MANY = 256  # values of a field
+_SHOWN_DPI = 150.0  # resolution of a figure in a notebook
+_CSS_DPI = 108.0  # its size there: CSS pixels per inch
+_MANY = 256  # a collection with more values than this is a field
 _ROUND, _COARSE = (1, 1.1, 1.2, 1.5, 2, 2.5, 3, 4, 5, 7), (1, 2, 5)  # ticks of a decade
 
-ON_WHITE: Any = [withStroke(linewidth=2.0, foreground="white")]  # shows on every picture
+ON_WHITE: Any = [withStroke(linewidth=2.0, foreground="white")]  # legible on every picture
 
 
 class NotebookFigure(Figure):
-    """A matplotlib figure unknown to pyplot, which a notebook shows as a picture."""
+    """A matplotlib figure that a notebook shows as a picture. It is not registered in pyplot."""
 
     def __init__(self, width: float, height: float, dpi: float = _SHOWN_DPI) -> None:
         super().__init__((width, height), dpi, facecolor="white", layout="constrained")
         FigureCanvasAgg(self)
 
     def __repr__(self) -> str:
-        """Without the size, which depends on fonts, so that saved outputs stay comparable."""
+        """Leave out the size, which depends on fonts, so that saved outputs stay comparable."""
         return f"<{type(self).__name__}>"
 
     def _repr_png_(self) -> tuple[bytes, dict[str, int]]:
@@ -46,14 +46,14 @@ class NotebookFigure(Figure):
         file, picture = io.BytesIO(), Image.open(io.BytesIO(figure_png(self, _SHOWN_DPI)))
         values = [collection.get_array() for collection in self.findobj(Collection)]
         field = any(array is not None and array.size > _MANY for array in values)
-        # A palette has too few of one field's colours, and so would have bands.
+        # A palette has too few colours for a smooth field, which would then show bands.
         smooth = field and not self.findobj(AxesImage)
         drawn = (_rounded if smooth else _in_256_colors)(picture.convert("RGB"))
         drawn.save(file, "png", optimize=True)
         return file.getvalue(), {"width": width, "height": height}
 
     def _ipython_display_(self) -> None:
-        # Not by IPython's formatters: ipywidgets' interact gives them one of its own for figures.
+        # Do not use IPython's formatters: ipywidgets' interact sets one of its own for figures.
         from IPython.display import publish_display_data  # noqa: PLC0415 - notebooks alone need it
 
         png, size = self._repr_png_()
@@ -61,7 +61,8 @@ class NotebookFigure(Figure):
 
 
 def _in_256_colors(picture: Image.Image) -> Image.Image:
-    """A quarter as large as a file; the named colours, which may cover few pixels, stay exact."""
+    """Reduce a picture to 256 colours, for a file of a quarter of the size. The named colours,
+    which may cover few pixels, stay exact."""
     named = [ImageColor.getrgb(color) for color in NAMED]
     drawn = picture.quantize(256 - len(named), Image.Quantize.MAXCOVERAGE, kmeans=3)
     colors = (drawn.getpalette() or [])[: 3 * (256 - len(named))]
@@ -73,7 +74,7 @@ def _in_256_colors(picture: Image.Image) -> Image.Image:
 
 
 def _rounded(picture: Image.Image) -> Image.Image:
-    """All colours, off by at most 3 of 255: half as large as a file."""
+    """Round all colours, by at most 3 of 255, for a file of half the size."""
     step = 255 / 47
     return Image.fromarray(np.round(np.round(np.asarray(picture) / step) * step).astype(np.uint8))
 
@@ -93,7 +94,7 @@ def box_around(points: Floats, margin: float = 0.02) -> Floats:
 
 
 def enlarged(box: Floats, points: Floats) -> Floats:
-    """The box enlarged to hold the points, by at most a quarter of its size on each side."""
+    """Enlarge the box to contain the points, by at most a quarter of its size on each side."""
     size = np.ptp(box, axis=0).max()
     held = points.clip(box[0] - 0.22 * size, box[1] + 0.22 * size)
     corners = np.concatenate([box, held - 0.03 * size, held + 0.03 * size])
@@ -101,7 +102,7 @@ def enlarged(box: Floats, points: Floats) -> Floats:
 
 
 def picture(axes: Axes, pixels: NDArray[np.uint8], frame: PixelFrame) -> None:
-    """Put an RGBA picture behind everything else, on white."""
+    """Draw an RGBA picture on white, behind everything else."""
     white = Image.new("RGBA", pixels.shape[1::-1], "white")
     white.alpha_composite(Image.fromarray(pixels))
     xmin, ymin, xmax, ymax = frame.bounds
@@ -124,7 +125,7 @@ def dots(axes: Axes, points: Floats, color: str, size: float, edge: float, label
 
 
 def targets(axes: Axes, map: Any, pose: Pose) -> None:
-    """Targets, the handles' images, and lines between those that are seen to be apart."""
+    """Draw targets and the handles' images, with lines between pairs that are visibly apart."""
     size = max(np.ptp(axes.get_xlim()), np.ptp(axes.get_ylim()))
     images = map(pose.handles) if len(pose) else pose.handles
     apart = np.linalg.norm(images - pose.targets, axis=1) > _MISS * size
@@ -137,7 +138,7 @@ def targets(axes: Axes, map: Any, pose: Pose) -> None:
 
 
 def label_levels(axes: Axes, lines: Any, labels: dict[float, str]) -> None:
-    """Write values at contour lines, legible on every colour."""
+    """Write values on contour lines, legible on every colour."""
     texts = axes.clabel(lines, [*labels], fmt=labels, fontsize=SMALL, colors=INK, inline_spacing=2)
     for text in texts:
         text.set_path_effects(ON_WHITE)
@@ -156,7 +157,7 @@ def log_ticks(low: float, high: float) -> list[float]:
 
 
 def color_bar(axes: Any, colors: Any, label: str, **look: Any) -> Axes:
-    """A slim colour bar below axes; returns its own."""
+    """Add a slim colour bar below axes. Returns the axes of the bar."""
     place = {"location": "bottom", "shrink": 0.8, "aspect": 24, "pad": 0.02, "panchor": False}
     scale = np.ravel(axes)[0].figure.colorbar(colors, ax=axes, **{**place, **look})
     scale.set_label(label, fontsize=SMALL, labelpad=1, color=INK)

@@ -1,4 +1,4 @@
-"""The overview figure: a picture, its deformation, and how the solver got there."""
+"""The overview figure: a picture, its deformation, and the course of the solve."""
 
 from typing import Any
 
@@ -39,17 +39,18 @@ def overview(
 ) -> Figure:
     """A figure that summarises a solve.
 
-    The upper row has one scale unless sizes differ a lot: the picture with both cages and the
-    handles; the deformed one with targets (cyan discs) and the handles' images (black dots), joined
-    where they differ; the distortion max(sigma_1, 1 / sigma_2). The lower row: energies and Newton
-    steps per iteration, and along the boundary the certified and the sampled sigma_2.
+    The upper row shows three pictures, with one scale unless sizes differ a lot. The first is the
+    picture with both cages and the handles. The second is the deformed picture with targets (cyan
+    discs) and the handles' images (black dots); lines join them where they differ. The third is the
+    distortion max(sigma_1, 1 / sigma_2). The lower row shows the energies and the Newton steps per
+    iteration, and the certified and the sampled sigma_2 along the boundary.
 
-    The image is the one that the cage was traced from, the result what :func:`glid_nb.solve`
-    returned. A pose has handles and targets to show instead of the solve's. The width is in inches,
-    at least 4.5; the text's size does not depend on it.
+    The image is the one from which the cage was traced. The result is that of
+    :func:`glid_nb.solve`. The handles and targets of a given pose are shown instead of the solve's.
+    The width is in inches, at least 4.5; the size of the text does not depend on it.
 
-    The figure has 300 dots per inch and is unknown to pyplot; ``figure.savefig(path)`` writes it.
-    A ValueError when the width is too small, a TypeError when the map is one of a mesh.
+    The figure has 300 dots per inch and is not registered in pyplot. ``figure.savefig(path)``
+    writes it. Raises a ValueError when the width is too small, a TypeError for a map of a mesh.
     """
     if not width >= _NARROWEST:
         raise ValueError(f"width is {width} inches; the text needs at least {_NARROWEST}")
@@ -90,7 +91,7 @@ def overview(
 
 
 def _common_scale(*boxes: Floats) -> Floats:
-    """Boxes with one aspect ratio around these, of one size unless one would be tiny in it."""
+    """Enlarge boxes to one aspect ratio and one size, unless a box would become much too large."""
     sizes = np.array([np.ptp(box, axis=0) for box in boxes])
     common = sizes.max(axis=0)
     half = common / 2 * np.minimum(1, _SHRINK / (common / sizes).min(axis=1))[:, None]

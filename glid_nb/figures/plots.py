@@ -1,7 +1,8 @@
 """The plots of a solve: energy, Newton steps, time per iteration, certificate.
 
-Each is drawn once and then updated, so the same code serves a printed figure and the editor's live
-plots. ``update`` says whether the axes' limits changed; if not, only ``artists`` need drawing.
+Each plot is drawn once and then updated. So the same code serves a printed figure and the editor's
+live plots. ``update`` returns whether the axes' limits changed. If not, only ``artists`` must be
+drawn again.
 """
 
 import itertools
@@ -26,28 +27,28 @@ from glid_nb.harmonic import HarmonicMap
 from glid_nb.solvers import Iteration
 
 _AXIS_NAME = 13.0  # points from the axis down to its name
-_WIDE = 4.0  # inches; above narrower axes a line of text does not fit beside the legend
+_WIDE = 4.0  # inches; on narrower axes a line of text does not fit beside the legend
 _LEGEND_HEIGHT = 12.0  # points
 _NARROW = 1.3  # inches; above narrower axes the legend does not fit
-_DECADES = 12  # most decades that a logarithmic axis shows
-_BELOW_LAST = 1e-3  # where an energy's axis begins at the lowest, in multiples of the last energy
-_AT_MINIMUM = 1e-9  # an energy above its minimum by less is drawn as so much
-_DOTTED = 12  # most iterations that are drawn with dots; a single one needs its dot to be seen
+_DECADES = 12  # most decades of a logarithmic axis
+_BELOW_LAST = 1e-3  # the lowest start of an energy's axis, in multiples of the last energy
+_AT_MINIMUM = 1e-9  # the smallest distance of an energy from its minimum that is drawn
+_DOTTED = 12  # most iterations drawn with dots; a single iteration is visible only as a dot
 
-# Round limits change seldom, and only a change of limits needs a full redraw.
+# Round limits change rarely, and only a change of limits needs a full redraw.
 _ROUND = MaxNLocator(1, steps=[1, 1.2, 1.5, 2, 2.5, 3, 4, 5, 6, 8, 10], min_n_ticks=1)
 _LOG_ENDS = np.outer(10.0 ** np.arange(-16, 300), [1.0, 2.0, 5.0]).ravel()
 _ROUND_ITERATIONS = MaxNLocator(3, steps=[1, 2, 5, 10], integer=True)
 
-_CHARACTER = 0.62  # mean width of a character over the font's size
+_CHARACTER = 0.62  # mean width of a character, relative to the font's size
 _PEAK = 1.5  # the certificate's axis ends at this multiple of the 90th percentile
 _SAMPLES = np.array([0.0, 0.25, 0.5, 0.75, 1.0])  # where sigma_2 is sampled within a panel
 
 
 class Plot:
-    """Axes, whose look is set here, and artists that are updated, or animated to be blitted."""
+    """Axes with a common look, and artists that are updated. Animated artists are blitted."""
 
-    artists: tuple[Artist, ...]  # what ``update`` changes
+    artists: tuple[Artist, ...]  # the artists that ``update`` changes
     _show: Any
 
     def __init__(self, axes: Axes, animated: bool = False) -> None:
@@ -56,14 +57,14 @@ class Plot:
         self._animated = animated
 
     def update(self, *arguments: Any, **named: Any) -> bool:
-        """Show this, as ``_show`` takes it; True when limits or scale of the axes changed."""
+        """Pass the arguments to ``_show``. Returns whether limits or scale of the axes changed."""
         axes = self.axes
         before = axes.get_xlim(), axes.get_ylim(), axes.get_yscale()
         self._show(*arguments, **named)
         return before != (axes.get_xlim(), axes.get_ylim(), axes.get_yscale())
 
     def entitle(self, name: str, above: float = _LEGEND_HEIGHT) -> None:
-        """Write the plot's name above its legend, or so many points above the axes."""
+        """Write the plot's name ``above`` points over the axes, by default above its legend."""
         self._beside(name, (0, 1), above, va="bottom", fontweight="bold", in_layout=False)
 
     def _line(self, color: str, linewidth: float = style.LINE, **look: Any) -> Line2D:
@@ -81,13 +82,13 @@ class Plot:
         return self.axes.annotate(text, place, xycoords="axes fraction", **look)
 
     def _note(self, legend: bool = True) -> Text:
-        """Text above the axes at the right: beside the legend if they are wide, else above it."""
+        """Text above the axes at the right: beside the legend on wide axes, else above it."""
         above = _LEGEND_HEIGHT if legend and self._inches < _WIDE else 2.0
         look = {"ha": "right", "va": "bottom", "annotation_clip": False, "in_layout": False}
         return self._beside("", (1, 1), above, animated=self._animated, **look)
 
     def _legend(self, *lines: Line2D) -> None:
-        """Above the axes, or inside those of a narrow plot that is not animated."""
+        """Place the legend above the axes; inside a narrow plot that is not animated."""
         place: dict[str, Any] = {"loc": "upper right", "borderaxespad": 0.0}
         if self._animated or self._inches > _NARROW:
             place = {"loc": "lower left", "bbox_to_anchor": (-0.03, 1.0), "borderaxespad": 0.3}
@@ -100,11 +101,12 @@ class Plot:
 
 
 class _OverIterations(Plot):
-    """Fields of iterations: as lines that join the ends of solves, with dots for one's others."""
+    """Fields of iterations as lines that join the last iterations of solves. Faint dots show the
+    other iterations of one field."""
 
     _looks: ClassVar[dict[str, dict[str, Any]]] = {}
     """The look of each line by the field that it shows, the lowest line first."""
-    _dotted: ClassVar[int]  # which line has faint dots for the iterations that it leaves out
+    _dotted: ClassVar[int]  # index of the line with faint dots for the iterations left out
 
     def __init__(self, axes: Axes, animated: bool = False) -> None:
         super().__init__(axes, animated)
@@ -119,8 +121,11 @@ class _OverIterations(Plot):
             self.artists = *self._lines, self._within
 
     def _join(self, x: Floats, values: Floats, starts: Collection[int], solving: bool) -> Floats:
-        """Show the lines' (l, n) values over the numbers of iterations; returns those joined: the
-        last of each solve that has ended, or all of a single one. Solves begin at ``starts``."""
+        """Show the lines' (l, n) values over the numbers of iterations. Returns the joined values.
+
+        They are the last values of each finished solve, or all values of a single solve. Solves
+        begin at ``starts``.
+        """
         begins = np.isin(x[1:], np.fromiter(starts, dtype=float))
         ends = np.append(begins, not solving)[: len(x)]
         ends |= not begins.any()
@@ -142,8 +147,8 @@ class _OverIterations(Plot):
 
 
 class EnergyPlot(_OverIterations):
-    """Energy after each iteration above the least one there is: the total, the isometric part, and
-    the targets' part as it is; on a logarithmic axis."""
+    """Energy after each iteration, on a logarithmic axis: the total and the isometric part above
+    their minimum, and the targets' part."""
 
     _looks: ClassVar = {
         "energy_p2p": {"color": ORANGE, "label": "targets", "linewidth": 2.4},
@@ -166,11 +171,11 @@ class EnergyPlot(_OverIterations):
         solving: bool = False,
         minimum: float = 0.0,
     ) -> None:
-        """Show iterations; ``minimum`` is the isometric part of a shape that is not deformed."""
+        """Show iterations. ``minimum`` is the isometric energy of the undeformed shape."""
         rows = _rows(history, *self._looks)
         above, least = rows[1:], _AT_MINIMUM * max(1.0, minimum)
         above[1:] = np.maximum(above[1:] - minimum, least)
-        # Only the lines count for the limits: the peaks after moved targets would flatten them.
+        # Use only the lines for the limits. The peaks after moved targets would flatten the lines.
         _, isometric, total = self._join(rows[0], above, starts, solving)
         finite, total = (v[v < _LOG_ENDS[-9]] for v in (np.append(isometric, total), total))
         low, high = (float(finite.min()), float(finite.max())) if len(finite) else (0.11, 0.9)
@@ -205,13 +210,13 @@ class StepPlot(_OverIterations):
         self.axes.yaxis.set_minor_locator(NullLocator())
         positive = values[np.isfinite(values)]
         least, most = (positive.min(), positive.max()) if len(positive) else (0.3, 0.3)
-        # Whole decades around the values, without the lowest if they span too many.
+        # Show whole decades around the values. If there are too many, leave out the lowest.
         low, high = np.floor(np.log10(least) - 0.1), np.ceil(np.log10(most) + 0.1)
         self.axes.set_ylim(10.0 ** max(low, high - _DECADES), 10.0**high)
 
 
 class TimePlot(_OverIterations):
-    """How long each iteration took, as bars in milliseconds."""
+    """The time of each iteration, as bars in milliseconds."""
 
     def __init__(self, axes: Axes, animated: bool = False) -> None:
         super().__init__(axes, animated)
@@ -229,7 +234,7 @@ class TimePlot(_OverIterations):
         self._bars.set_xy(corners if len(corners) else [[0.0, 0.0]])
         usual = float(np.median(times)) if len(times) else 0.0
         self._text.set_text(f"{usual:.3g} ms each" if usual else "")
-        # A single slow iteration must not make the other bars too low to see.
+        # A single slow iteration must not make the other bars invisibly low.
         most = min(float(times.max()), 3 * usual) if usual else 1.0
         self.axes.set_ylim(0.0, _rounded_up(1.1 * most))
         self._limit_iterations(x)
@@ -238,7 +243,7 @@ class TimePlot(_OverIterations):
 class CertificatePlot(Plot):
     """The certified lower bound on sigma_2 along the boundary of a cage, and the sampled sigma_2.
 
-    The loops lie side by side. Which names fit is found once: by the final size of the axes.
+    The loops lie side by side. The final size of the axes decides once which names fit.
     """
 
     def __init__(self, axes: Axes, cage: Cage, animated: bool = False) -> None:
@@ -257,7 +262,7 @@ class CertificatePlot(Plot):
         self.artists = self._fill, self._bound, self._truth, self._least, self._text
 
     def _name_loops(self, starts: Floats) -> None:
-        """Name the loops, which begin at these places; the last is the boundary's end."""
+        """Name the loops. ``starts`` are the places where they begin, and the boundary's end."""
         axes, end = self.axes, float(starts[-1])
         axes.set_xlim(0.0, end)
         if len(starts) == 2:
@@ -279,7 +284,7 @@ class CertificatePlot(Plot):
         axes.tick_params(axis="x", length=0, pad=3)
 
     def _show(self, certificate: Certificate | None, map: HarmonicMap | None = None) -> None:
-        """Show what is proved; with the map also its sigma_2, sampled five times per panel."""
+        """Show the proved bound. With the map, also its sigma_2, sampled five times per panel."""
         for line in (self._bound, self._truth, self._least):
             line.set_data([], [])
         certified = certificate is not None and certificate.certified
@@ -292,7 +297,7 @@ class CertificatePlot(Plot):
         self._text.set_text(f"{proof}, {_winding(certificate)}")
         panels = certificate.panels
         length, bound = panels.length, np.nan_to_num(panels.sigma2_lower, nan=-1.0)
-        # The panels come in order, loop by loop; the first one of each at the loop's start.
+        # The panels are in order, loop by loop. These are the first panels of the loops.
         first = np.flatnonzero(np.diff(panels.loop, prepend=-1))
         ends = np.cumsum(length)[:, None] - length[:, None] * [1.0, 0.0]
         levels = np.stack([bound, bound], axis=1)
@@ -307,7 +312,7 @@ class CertificatePlot(Plot):
             seen = np.asarray(map.sigma2(points)).reshape(len(bound), -1)
             places = ends[:, :1] + length[:, None] * _SAMPLES
             self._truth.set_data(_with_gaps(places, first), _with_gaps(seen, first))
-        # High peaks are cut off: what matters is the distance from 0.
+        # Cut off high peaks, because the distance from 0 matters.
         top = max(0.1, min(float(seen.max()), _PEAK * float(np.quantile(seen, 0.9))))
         bottom, high = min(float(seen.min()), float(bound.min())), _rounded_up(1.2 * top)
         low = max(min(-0.04 * high, -_rounded_up(-1.05 * bottom)), -max(high, 1.0))
@@ -315,7 +320,7 @@ class CertificatePlot(Plot):
 
 
 def _rows(history: Sequence[Iteration], *fields: str) -> Floats:
-    """(1 + fields, n) the iterations' numbers, and their values of some fields."""
+    """(1 + fields, n) array of the iterations' numbers and of their values of some fields."""
     records = [[getattr(i, field) for field in ("iteration", *fields)] for i in history]
     return np.array(records, dtype=float).reshape(-1, 1 + len(fields)).T
 
@@ -325,8 +330,11 @@ def _rounded_up(value: float) -> float:
 
 
 def _loop_names(starts: Floats, character: float) -> list[tuple[float, str]]:
-    """(place along the boundary, name) of the loops between ``starts``; neighbours too short for
-    their names, with characters of this width, share one."""
+    """(place along the boundary, name) of the loops between ``starts``.
+
+    Neighbours that are too short for their names share a name. ``character`` is a character's
+    width.
+    """
 
     def fits(name: str, loop: int) -> bool:
         return (len(name) + 1) * character <= starts[loop + 1] - starts[loop]

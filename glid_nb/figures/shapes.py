@@ -1,4 +1,4 @@
-"""Figures of maps, drawn on the shapes: distortion, pictures, basis functions, panels."""
+"""Figures of maps on the shapes: distortion, pictures, basis functions, panels."""
 
 from collections.abc import Iterable, Sequence
 from typing import Any, Literal, NamedTuple, Self
@@ -37,15 +37,17 @@ _PIXELS = 600  # of the longer side of one drawn picture
 _WIDTH, _WIDTH_OF_ONE, _TALLEST = 7.4, 4.6, 3.8  # inches
 _ABREAST = 4
 _CHECKS = 24  # along the longer side of a shape
-_FEW, _SMALL = 5, 0.03  # triangles, and of the axes' size: folds that get rings
-# Face, edge, its width and hatch of folds, one upon the other: colour-blind people see them too.
+# Folds get rings if they have fewer triangles than _FEW, or together span less than _SMALL of the
+# axes' size.
+_FEW, _SMALL = 5, 0.03
+# Face, edge, edge width and hatch of folds, drawn on each other. Colour-blind people see them too.
 _FOLDED = ("none", "white", 2.8, ""), ("none", INK, 1.5, "")
 _FOLDED += (VERMILION, "face", 0.5, ""), ("none", INK, 0.0, "/////")
-_MANY = 400  # panels, among which the dots at their ends would hide the colours
+_MANY = 400  # with more panels than this, the dots at their ends would hide the colours
 
 
 class DrawnMap(NamedTuple):
-    """A map as triangles, (t,) |f_z| and |f_zbar| on each."""
+    """A map as triangles, with (t,) |f_z| and |f_zbar| on each triangle."""
 
     mesh: DeformedMesh
     abs_fz: Floats
@@ -57,12 +59,13 @@ class DrawnMap(NamedTuple):
     def of(
         cls, map: AnyMap, pose: Pose | None = None, count: int = _VERTICES, tolerance: float = 0.03
     ) -> Self:
-        """A map's; of a harmonic one with ``count`` vertices, more to stay in the tolerance."""
+        """The triangles of a map. For a harmonic map there are ``count`` vertices, or more to stay
+        within ``tolerance``."""
         if isinstance(map, HarmonicMap):
             mesh = deformed_mesh(map, count, tolerance, pose)
             middles = map.wirtinger(mesh.vertices[mesh.triangles].mean(axis=1))
             corners = [w[mesh.triangles.T] for w in map.wirtinger(mesh.vertices)]
-            # A fold begins on the boundary: there the corners see it before the middles do.
+            # A fold begins on the boundary, so corners show it earlier than middles.
             fz, fzb = np.abs([np.vstack(w) for w in zip(middles, corners, strict=True)])
             at = np.where((fz > fzb).all(axis=0), 0, (fz - fzb).argmin(axis=0))[None]
             fz, fzb = (np.take_along_axis(w, at, axis=0)[0] for w in (fz, fzb))
@@ -76,7 +79,7 @@ class DrawnMap(NamedTuple):
 
     @property
     def folded(self) -> NDArray[np.bool_]:
-        """(t,) bool: where the map turns over."""
+        """(t,) bool: the triangles that the map flips."""
         return ~(self.abs_fz > self.abs_fzb)
 
     @double_precision
@@ -104,11 +107,11 @@ def distortion(
 ) -> NotebookFigure:
     """Fields of distortion on the deformed shapes, side by side, with one scale of colours.
 
-    ``maps`` is a HarmonicMap or MeshMap, or several, each with a title. Dark is distorted, hatched
-    vermilion is folded, and the title says so; few or tiny folds have a ring. Of a pose the targets
-    (cyan) and the handles' images (black) are drawn. The quantity is "sigma1", "sigma2" (Equation
-    (2)), "k" (the little dilatation), "distortion" (max(sigma_1, 1 / sigma_2)), "energy" (the
-    symmetric Dirichlet density), or an Energy, for its density.
+    ``maps`` is one or several maps, HarmonicMap or MeshMap. ``titles`` has one title for each map.
+    Dark parts are distorted. Folded parts are hatched in vermilion, and the title says so. Rings
+    mark few or tiny folds. The targets of a pose are cyan, the handles' images black. The quantity
+    is "sigma1", "sigma2" (Equation (2)), "k" (the little dilatation), "distortion" (max(sigma_1,
+    1 / sigma_2)), "energy" (the symmetric Dirichlet density), or the density of a given Energy.
     """
     maps, sheets = _listed(maps, pose)
     figure, grid = _side_by_side(maps, sheets, pose, titles, 0.55)
@@ -120,7 +123,7 @@ def distortion(
 def draw_distortion(
     grid: Sequence[Axes], sheets: Sequence[DrawnMap], quantity: Quantity | Energy, **bar: Any
 ) -> None:
-    """Fields of a quantity on sheets, each in its axes, with one scale and a colour bar below."""
+    """Draw a quantity on each sheet in its axes, with one scale and a colour bar below."""
     values = [sheet.values(quantity) for sheet in sheets]
     known = np.concatenate([v[~s.folded] for v, s in zip(values, sheets, strict=True)])
     known = known if len(known) else np.ones(1)  # a map that folds everywhere
@@ -147,11 +150,11 @@ def picture(
     cages: bool = False,
     numbers: bool = False,
 ) -> NotebookFigure:
-    """A picture under each map, side by side; maps, pose, titles and folds as in `distortion`.
+    """A picture under each map, side by side. Maps, pose, titles and folds are as in `distortion`.
 
-    The image is the one that the cage was traced from, or None for a chequered one. With ``cages``
-    a map's cage (solid) and offset cage (dotted) are drawn, at rest; with ``numbers`` the targets'
-    numbers stand in place of dots.
+    The image is the one from which the cage was traced, or None for a chequered one. ``cages``
+    draws a map's undeformed cage (solid) and offset cage (dotted). ``numbers`` draws the targets'
+    numbers instead of dots.
     """
     maps, sheets = _listed(maps, pose)
     figure, grid = _side_by_side(maps, sheets, None if numbers else pose, titles, 0.05)
@@ -168,7 +171,7 @@ def picture(
 
 
 def boundary(maps: Maps, *, titles: Sequence[str] = ()) -> NotebookFigure:
-    """The image of the boundary alone under harmonic maps: the exterior solid, holes dashed."""
+    """The image of the boundary under harmonic maps: the exterior solid, holes dashed."""
     figure, grid = _side_by_side(*(listed := _listed(maps, None)), None, titles, 0.05)
     for axes, sheet in zip(grid, listed[1], strict=True):
         drawing.loops(axes, sheet.outline[:1], color=BLUE)
@@ -177,7 +180,7 @@ def boundary(maps: Maps, *, titles: Sequence[str] = ()) -> NotebookFigure:
 
 
 def draw_deformed(axes: Axes, image: ArrayLike | None, sheet: DrawnMap, pixels: float) -> None:
-    """A deformed picture behind axes whose limits are set, of so many pixels along them."""
+    """Draw a deformed picture in axes whose limits are set. Its longer side has ``pixels``."""
     view = np.transpose([axes.get_xlim(), axes.get_ylim()])
     sides = np.ptp(view, axis=0)
     width, height = (pixels * sides / sides.max()).round().astype(int).clip(1).tolist()
@@ -192,19 +195,20 @@ def draw_deformed(axes: Axes, image: ArrayLike | None, sheet: DrawnMap, pixels: 
 def basis(domain: Domain, j: int, part: Literal["re", "im", "abs"] = "re") -> NotebookFigure:
     """One basis function inside the offset cage, and the cage on which maps are certified.
 
-    ``j`` is the column of the basis: the Cauchy coordinate C_j (Equation (8)) of the offset cage's
-    vertex j, counted loop by loop from 0; after the last, each hole's ln|z - rho|. The part is
-    "re", "im" or "abs". Vertices, singular, are dots, hole points crosses; that of j is green.
+    ``j`` is the column of the basis. The first columns are the Cauchy coordinates C_j (Equation
+    (8)) of the offset cage's vertices, counted loop by loop from 0. Then follows ln|z - rho| of
+    each hole. The part is "re", "im" or "abs". Dots mark the vertices, where the basis is singular,
+    and crosses the hole points. The mark of j is green.
     """
     n, n_vertices = domain.n_coefficients, domain.n_coefficients - domain.n_holes
     if not 0 <= j < n:
         raise ValueError(f"j is {j}; the domain has {n} basis functions, from 0 to {n - 1}")
     mesh, unit = triangulate(domain.offset_cage, 2 * _VERTICES), np.eye(n)[j]
     points = mesh.vertices.copy()
-    # A little inside the offset cage: the function is singular at its vertices.
+    # Evaluate a little inside the offset cage, because the function is singular at its vertices.
     middles = np.repeat(mesh.vertices[mesh.triangles].mean(axis=1), 3, axis=0)
     points[mesh.triangles.ravel()] = 0.999 * mesh.vertices[mesh.triangles.ravel()] + 0.001 * middles
-    is_log = j >= n_vertices  # its coefficient belongs to phi and psi by halves
+    is_log = j >= n_vertices  # phi and psi each have half of a logarithm's coefficient
     map = HarmonicMap(domain, unit / 2, unit / 2) if is_log else HarmonicMap(domain, unit, 0 * unit)
     re, im = map(points).T
     values = {"re": re, "im": im, "abs": np.hypot(re, im)}[part]
@@ -231,10 +235,11 @@ def basis(domain: Domain, j: int, part: Literal["re", "im", "abs"] = "re") -> No
 
 
 def panels(certificate: Certificate) -> NotebookFigure:
-    """The boundary's panels with what is proved on each: on the shape, and along arc length.
+    """The boundary's panels with the proved bound of each: on the shape, and along arc length.
 
-    A panel is dark where the certified lower bound of sigma_2 is small, vermilion where nothing is
-    proved; up to 400 panels end at dots. The plot has the bounds and the sampled sigma_2.
+    A panel is dark if the certified lower bound of sigma_2 is small, and vermilion if nothing is
+    proved. Up to 400 panels have dots at their ends. The plot shows the bounds and the sampled
+    sigma_2.
     """
     proved, cage = certificate.panels, certificate.map.domain.cage
     bound = np.nan_to_num(proved.sigma2_lower, nan=-1.0)
@@ -269,7 +274,7 @@ def _listed(maps: Any, pose: Pose | None) -> tuple[list[AnyMap], list[DrawnMap]]
 
 
 def _scale(quantity: Quantity | Energy, known: Floats) -> tuple[Any, Any]:
-    """Norm and colours; a hundredth of the triangles, at the cage's corners, may lie beyond."""
+    """Norm and colours. 1 % of the triangles, at the cage's corners, may exceed the norm."""
     least, high, colors = float(known.min()), float(np.quantile(known, 0.99)), distortion_colors()
     linear = {"sigma1": (1.0, float(np.clip(high, 1.5, 6.0))), "sigma2": (0.0, 1.0)}
     linear["k"] = 0.0, float(np.clip(high, 0.1, 1.0))
@@ -285,7 +290,7 @@ def _scale(quantity: Quantity | Energy, known: Floats) -> tuple[Any, Any]:
 def _side_by_side(
     maps: list[AnyMap], sheets: list[DrawnMap], pose: Pose | None, names: Sequence[str], room: float
 ) -> tuple[NotebookFigure, list[Axes]]:
-    """Axes with one scale, titles, folds and targets, one for each map; ``room`` is below them."""
+    """Axes with one scale, titles, folds and targets, one for each map, with ``room`` below."""
     if len(names) not in (0, len(maps)):
         raise ValueError(f"there are {len(names)} titles for {len(maps)} maps")
     box = drawing.box_around(np.concatenate([sheet.mesh.images for sheet in sheets]))
@@ -308,7 +313,7 @@ def _side_by_side(
 
 
 def _mark_folds(axes: Axes, corners: Floats) -> None:
-    """Hatched vermilion on triangles (f, 3, 2), edged in ink and white; rings around a few."""
+    """Hatch triangles (f, 3, 2) in vermilion with dark and white edges. Rings mark a few."""
     for face, edge, width, hatch in _FOLDED:
         look: Any = {"facecolors": face, "edgecolors": edge, "linewidths": width, "hatch": hatch}
         axes.add_collection(PolyCollection([*corners], **look))
@@ -337,7 +342,8 @@ def hold(axes: Axes, box: Floats) -> None:
 
 
 def _texture(image: ArrayLike | None, rest: Floats) -> tuple[Texture, Floats]:
-    """A picture, or a chequered one, and the places (v, 2) of a shape's vertices in it, pixels."""
+    """The picture, or a chequered one, and the places (v, 2), in pixels, of a shape's vertices in
+    it."""
     if image is not None:
         texture = Texture.from_image(image)
         return texture, PixelFrame(*texture.size).to_pixel(rest)

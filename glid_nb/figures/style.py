@@ -7,7 +7,7 @@ import numpy as np
 
 from glid_nb._arrays import Array
 
-if TYPE_CHECKING:  # matplotlib takes half a second to import; the editor's first canvas needs none
+if TYPE_CHECKING:  # matplotlib takes half a second to import, and the first canvas does without
     from matplotlib.axes import Axes
     from matplotlib.colors import Colormap
 
@@ -33,17 +33,17 @@ FULL_MARGIN = 0.5  # panels with at least this certified sigma_2 have the best c
 
 LEGEND = {"fontsize": SMALL, "frameon": False, "labelcolor": INK}
 LEGEND |= {"handlelength": 1.1, "handletextpad": 0.4, "borderpad": 0.1}
-"""The look of every legend: keywords of matplotlib's."""
+"""The look of every legend, as keywords of matplotlib."""
 
 COLORS = (
     *("#fcf4b6", "#fecc8f", "#fea16e", "#f8765c", "#e75263"),
     *("#c43c75", "#a02f7f", "#7b2382", "#57157e", "#331067"),
 )
-"""From isometric to distorted: ten stops of `distortion_colors`, without matplotlib."""
+"""Ten stops of `distortion_colors`, from isometric to distorted, without matplotlib."""
 
 
 def distortion_colors() -> "Colormap":
-    """Pale where isometric, dark where not, in grey too: magma without its black."""
+    """Pale for isometric, dark for distorted, also in grey: magma without its black end."""
     from matplotlib import colormaps  # noqa: PLC0415 - as above
     from matplotlib.colors import ListedColormap  # noqa: PLC0415
 
@@ -57,7 +57,7 @@ def rgb(colors: Sequence[str]) -> Array:
 
 
 def tidy(axes: "Axes") -> None:
-    """Two thin spines, small ticks outside, no box."""
+    """Draw two thin spines and small ticks outside, but no box."""
     axes.spines[["top", "right"]].set_visible(False)
     axes.spines[["left", "bottom"]].set(color=INK, linewidth=HAIRLINE)
     ticks = {"colors": INK, "labelsize": SMALL, "width": HAIRLINE, "length": 2.5, "pad": 2}

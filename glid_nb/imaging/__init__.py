@@ -1,4 +1,4 @@
-"""Pictures to cages, maps to pictures."""
+"""Trace cages from pictures, and draw pictures through maps."""
 
 from glid_nb.imaging.frame import PixelFrame, TraceError
 from glid_nb.imaging.holes import Hole

@@ -1,22 +1,23 @@
-"""Colours for what is transparent, for programs that mix them in.
+"""Extend the colours of a picture into its transparent parts.
 
 A viewer that interpolates a texture with straight alpha mixes the colours of transparent texels
-into the rim of the shape: white ones make a white fringe. So in textures that are handed out
-transparent texels have the colours of the nearest part that is seen.
+into the rim of the shape. For example, white transparent texels make a white fringe. So in exported
+textures, transparent texels get the colours of the nearest visible part.
 """
 
 import numpy as np
 from numpy.typing import NDArray
 
-_RINGS = 4  # texels around the seen ones that take exactly their neighbours' mean
+_RINGS = 4  # rings of texels around the visible ones that get the exact mean of their neighbours
 _AROUND = [(0, 1), (1, 0), (0, -1), (-1, 0), (1, 1), (1, -1), (-1, 1), (-1, -1)]
 
 
 def bled(rgba: NDArray[np.uint8]) -> NDArray[np.uint8]:
-    """An (h, w, 4) picture with straight alpha whose seen colours go on into what is transparent.
+    """Extend the visible colours of an (h, w, 4) picture with straight alpha.
 
-    Alpha stays, and the colours of all pixels that are seen at all. Near these the others take the
-    mean of their neighbours, farther away that of larger and larger blocks, for mipmaps.
+    Alpha stays the same, and so do the colours of all pixels with alpha above 0. Transparent pixels
+    near these get the mean of their neighbours. Farther away they get the mean of larger and larger
+    blocks, so that mipmaps also have the right colours.
     """
     seen = rgba[..., 3] > 0
     if seen.all() or not seen.any():
@@ -29,7 +30,7 @@ def bled(rgba: NDArray[np.uint8]) -> NDArray[np.uint8]:
 
 
 def _grown(rgba: NDArray[np.uint8], seen: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    """Give the texels around the seen ones their colours, in place; which have one then."""
+    """Give colours to the texels around the seen ones, in place. Returns which have one then."""
     height, width = seen.shape
     known = np.pad(seen, 1)
     for _ in range(_RINGS):
@@ -50,7 +51,7 @@ def _grown(rgba: NDArray[np.uint8], seen: NDArray[np.bool_]) -> NDArray[np.bool_
 
 
 def _spread(colours: NDArray[np.uint8], known: NDArray[np.bool_]) -> NDArray[np.uint8]:
-    """Colours everywhere: where none is known, the mean of the smallest block that has some."""
+    """Fill unknown colours with the mean of the smallest block around that has known ones."""
     height, width = known.shape
     if known.all() or max(height, width) == 1:
         return colours

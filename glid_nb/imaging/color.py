@@ -1,8 +1,9 @@
-"""Colours of any space to sRGB, by what a file says of them.
+"""Convert colours from the colour space that a file declares to sRGB.
 
-A file says it by an embedded ICC profile, which LittleCMS converts (`PIL.ImageCms`, in 8 bit), or a
-PNG by its chunks cICP, sRGB, gAMA and cHRM. In a PNG the first of cICP, iCCP, sRGB and gAMA counts,
-as the PNG specification, third edition, section 4.3, has it. A file that says nothing is sRGB.
+A file can declare its colour space by an embedded ICC profile, which LittleCMS converts
+(`PIL.ImageCms`, in 8 bit). A PNG can also declare it by its chunks cICP, sRGB, gAMA and cHRM. In a
+PNG the first of cICP, iCCP, sRGB and gAMA counts (PNG specification, third edition, section 4.3).
+A file that declares nothing is sRGB.
 """
 
 import io
@@ -20,13 +21,13 @@ from PIL.PngImagePlugin import PngImageFile
 from glid_nb.imaging.decode import RGBA, eight_bit
 
 _ROWS = 256  # converted at a time, to bound the memory
-_SRGB_GAMMA = 1 / 2.2  # as the gAMA chunk of an sRGB picture has it
-_SAME = 2e-3  # primaries and exponents that are this near are equal: files round them
-_STEPS = 9  # of each channel, to tell whether a profile changes anything
+_SRGB_GAMMA = 1 / 2.2  # the value in the gAMA chunk of an sRGB picture
+_SAME = 2e-3  # primaries and exponents this close count as equal, because files round them
+_STEPS = 9  # levels of each channel in the test whether a profile changes anything
 
 _D65 = (0.3127, 0.3290)
 _SRGB = (0.64, 0.33, 0.30, 0.60, 0.15, 0.06)
-_PRIMARIES = {  # white, red, green, blue by the code points of ITU-T H.273, as cICP has them
+_PRIMARIES = {  # white, red, green, blue of each code point of ITU-T H.273, which cICP uses
     1: (*_D65, *_SRGB),
     5: (*_D65, 0.64, 0.33, 0.29, 0.60, 0.15, 0.06),
     6: (*_D65, 0.630, 0.340, 0.310, 0.595, 0.155, 0.070),
@@ -43,7 +44,7 @@ Curve = Callable[[NDArray[np.float64]], NDArray[np.float64]]
 
 
 class ColorWarning(UserWarning):
-    """A file says of its colours what cannot be used; they are taken as sRGB."""
+    """A file declares a colour space that cannot be used. Its colours are read as sRGB."""
 
 
 def _srgb_curve(value: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -52,7 +53,7 @@ def _srgb_curve(value: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def _bt709_curve(value: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Likewise of ITU-R BT.709."""
+    """Linear light of encoded values in [0, 1] (ITU-R BT.709)."""
     return np.where(value < 0.081, value / 4.5, ((value + 0.099) / 1.099) ** (1 / 0.45))
 
 
@@ -68,17 +69,17 @@ _CURVES: dict[int, Curve] = {  # by the code points of ITU-T H.273
 
 @dataclass(frozen=True)
 class ColorSpace:
-    """What a file says of its colours: an ICC profile, or primaries and a curve; or nothing."""
+    """The colour space of a file: an ICC profile, or primaries and a curve; sRGB by default."""
 
     profile: bytes | None = None
     primaries: tuple[float, ...] = _PRIMARIES[1]  # x and y of white, red, green and blue
     curve: Curve = _srgb_curve
-    unknown: str = ""  # what is said but cannot be used
+    unknown: str = ""  # a declaration that cannot be used, as a clause of a sentence
 
     @classmethod
     def of(cls, picture: Image.Image, data: bytes | None = None) -> Self:
-        """The space of an opened picture; of a PNG all that is said if ``data``, its file, is
-        known."""
+        """The space of an opened picture. ``data`` is its file; without it, the cICP chunk of a PNG
+        is not read."""
         told = picture.info
         if data is not None and isinstance(picture, PngImageFile):
             code = next((body for kind, body in _png_chunks(data) if kind == b"cICP"), None)
@@ -105,7 +106,7 @@ class ColorSpace:
 
 
 def in_srgb(pixels: RGBA, space: ColorSpace, name: str) -> RGBA:
-    """Pixels (h, w, 4) of a space in sRGB; in 8 bit where a profile changes them."""
+    """Convert pixels (h, w, 4) from a space to sRGB. If a profile changes them, to 8 bit."""
     if space.unknown:
         _warn(name, space.unknown)
     if space.profile is not None:
@@ -129,7 +130,7 @@ def in_srgb(pixels: RGBA, space: ColorSpace, name: str) -> RGBA:
 
 
 def cmyk_in_srgb(picture: Image.Image, space: ColorSpace, name: str) -> RGBA | None:
-    """The pixels of a CMYK picture by its profile; None if it has none that can be used."""
+    """Convert a CMYK picture by its profile; None if it has no usable profile."""
     if space.profile is None:
         return None
     transform = _transform_of(space.profile, "CMYK", "RGB", name)
@@ -173,7 +174,7 @@ def _transform_of(data: bytes, mode: str, wanted: str, name: str) -> Any:
 
 
 def _changes_nothing(transform: Any, grey: bool) -> bool:
-    """Whether a profile is sRGB's, by a transform to that: pixels then stay bit for bit."""
+    """Whether a transform to sRGB changes nothing. Then pixels are kept bit for bit."""
     if grey:
         given = np.arange(256, dtype=np.uint8)[np.newaxis]
         before = given[..., np.newaxis]
@@ -186,8 +187,8 @@ def _changes_nothing(transform: Any, grey: bool) -> bool:
 
 
 def _matrix_to_srgb(primaries: tuple[float, ...]) -> NDArray[np.float32] | None:
-    """(3, 3) from linear RGB to that of sRGB, whites adapted by Bradford's method; None for
-    primaries that make no RGB."""
+    """(3, 3) from linear RGB to linear sRGB, with whites adapted by Bradford's method; None for
+    primaries that form no triangle around white."""
     ours = _matrix_to_xyz(_PRIMARIES[1])
     theirs = _matrix_to_xyz(primaries)
     if ours is None or theirs is None:
@@ -198,7 +199,7 @@ def _matrix_to_srgb(primaries: tuple[float, ...]) -> NDArray[np.float32] | None:
 
 
 def _matrix_to_xyz(primaries: tuple[float, ...]) -> NDArray[np.float64] | None:
-    """(3, 3) from linear RGB to CIE XYZ, white having Y = 1."""
+    """(3, 3) from linear RGB to CIE XYZ, where white has Y = 1."""
     x, y = np.reshape(primaries, (4, 2)).T
     if (y <= 0).any():
         return None
@@ -210,7 +211,7 @@ def _matrix_to_xyz(primaries: tuple[float, ...]) -> NDArray[np.float64] | None:
 
 
 def _png_chunks(data: bytes) -> Iterator[tuple[bytes, bytes]]:
-    """The chunks of a PNG before its pixels: their kinds and contents."""
+    """The kinds and contents of a PNG's chunks before its pixels."""
     place = 8
     while place + 8 <= len(data):
         length, kind = struct.unpack_from(">I4s", data, place)

@@ -1,7 +1,7 @@
-"""Pixels from opened pictures, with every bit and every kind of transparency that they hold.
+"""Decode pictures with all their bits and every kind of transparency.
 
-Pillow rounds 16-bit colours to 8 bit and compares the transparent colour of a PNG (its tRNS chunk)
-with pixels that it has scaled. So what PNG and TIFF hold beyond 8 bit is read here.
+Pillow rounds 16-bit colours to 8 bit. It also compares the transparent colour of a PNG (its tRNS
+chunk) with pixels that it has scaled. So this module reads PNG and TIFF of more than 8 bit itself.
 """
 
 import functools
@@ -20,17 +20,18 @@ from glid_nb.imaging.frame import TraceError
 RGBA = NDArray[np.uint8] | NDArray[np.uint16]
 """(h, w, 4) red, green, blue and alpha (not premultiplied), row 0 at the top."""
 
-MAX_SIDE = 8000  # longest side in pixels that is accepted
+MAX_SIDE = 8000  # longest accepted side, in pixels
 
-# Pillow's others start programs (EPS), are no pictures, or have no signature to tell them by.
+# Pillow's other formats start programs (EPS), are no pictures, or have no signature.
 _FORMATS = (
     *("PNG", "JPEG", "GIF", "TIFF", "WEBP", "BMP", "AVIF", "JPEG2000"),
     *("ICO", "ICNS", "PPM", "PSD", "PCX", "QOI", "SGI"),
 )
 _TIFF_STARTS = (b"II*\0", b"MM\0*", b"II+\0", b"MM\0+")
 _BITS_PER_SAMPLE, _ORIENTATION, _PROFILE = 258, 274, 34675  # TIFF tags
-_GREY_BITS = {"1": 1, "L;2": 2, "L;4": 4, "L": 8}  # of grey PNGs, by Pillow's raw mode
-_ORIENTED = {  # by the EXIF orientation: how a picture is flipped, after it was transposed
+_GREY_BITS = {"1": 1, "L;2": 2, "L;4": 4, "L": 8}  # bits of grey PNGs, by Pillow's raw mode
+# For each EXIF orientation: the signs of the steps down and across, and whether to transpose first.
+_ORIENTED = {
     **{2: (1, -1, False), 3: (-1, -1, False), 4: (-1, 1, False), 5: (1, 1, True)},
     **{6: (1, -1, True), 7: (-1, -1, True), 8: (-1, 1, True)},
 }
@@ -38,13 +39,13 @@ _ORIENTED = {  # by the EXIF orientation: how a picture is flipped, after it was
 
 @functools.cache
 def formats() -> tuple[str, ...]:
-    """Names of the formats that are read and that this Pillow knows (AVIF: from 11.3 on)."""
+    """Names of the formats that are read and that this Pillow knows (AVIF since 11.3)."""
     Image.init()
     return tuple(name for name in _FORMATS if name in Image.OPEN)
 
 
 def opened(data: bytes, name: str) -> Image.Image | None:
-    """The picture of a file's bytes, not decoded yet; None for a TIFF that Pillow does not know."""
+    """Open a picture from a file's bytes, without decoding; None for a TIFF unknown to Pillow."""
     if not data:
         raise TraceError(f"{name} is empty")
     try:
@@ -59,7 +60,7 @@ def opened(data: bytes, name: str) -> Image.Image | None:
 
 
 def unread_file(picture: Image.Image) -> bytes | None:
-    """The file of a PNG or TIFF that was opened and not yet decoded; None of other pictures."""
+    """The file's bytes of an opened PNG or TIFF that is not decoded yet; None for others."""
     file = getattr(picture, "fp", None)
     fresh = isinstance(picture, PngImageFile | TiffImageFile) and picture.tile
     if not fresh or file is None or picture.tell() != 0:
@@ -72,8 +73,8 @@ def unread_file(picture: Image.Image) -> bytes | None:
 
 
 def picture_pixels(picture: Image.Image, data: bytes | None, name: str) -> NDArray[Any]:
-    """(h, w) or (h, w, c) pixels of an opened picture, upright; ``data`` is its file, if it is
-    known. RGBA unless the picture holds more than 8 bit."""
+    """(h, w) or (h, w, c) pixels of an opened picture, upright. They are RGBA unless the picture
+    has more than 8 bit. ``data`` is the picture's file, or None if it is not known."""
     if 0 in picture.size:
         raise TraceError(f"{name} is empty: it has {picture.width} x {picture.height} pixels")
     check_size(*picture.size, name)  # before the pixels are decoded
@@ -99,8 +100,10 @@ def picture_pixels(picture: Image.Image, data: bytes | None, name: str) -> NDArr
 def tiff_pixels(
     data: bytes, name: str, as_stored: bool = False
 ) -> tuple[NDArray[Any], bytes | None]:
-    """Pixels of a TIFF of any depth that tifffile decodes, upright, and the ICC profile; or all
-    samples as they are stored, whatever they mean."""
+    """Upright pixels and the ICC profile of a TIFF of any depth, decoded by tifffile.
+
+    ``as_stored`` returns all samples unchanged, also samples that are no colours.
+    """
     import tifffile  # noqa: PLC0415  (slow to import and seldom needed; scikit-image brings it)
 
     with tifffile.TiffFile(io.BytesIO(data)) as file:
@@ -116,7 +119,7 @@ def tiff_pixels(
 
 
 def eight_bit(rgba: RGBA) -> NDArray[np.uint8]:
-    """Pixels rounded to 8 bit; themselves if they have that already."""
+    """Round pixels to 8 bit. Pixels of 8 bit are returned as they are."""
     if rgba.dtype == np.uint8:
         return rgba.view(np.uint8)
     return (rgba // 257 + (rgba % 257 > 128)).astype(np.uint8)
@@ -130,7 +133,7 @@ def check_size(width: int, height: int, name: str = "the image") -> None:
 
 
 def _wide_png(picture: Image.Image, data: bytes, raw: str) -> NDArray[np.uint16]:
-    """A PNG of 16 bit, grey with alpha where one of its colours is transparent."""
+    """The pixels of a 16-bit PNG. Alpha is added if one of its colours is transparent."""
     if raw == "LA;16B":  # four bytes, as RGBA has
         array = _decoded_as(data, "RGBA").view(">u2").astype(np.uint16)
     elif raw == "I;16B":
@@ -145,8 +148,11 @@ def _wide_png(picture: Image.Image, data: bytes, raw: str) -> NDArray[np.uint16]
 
 
 def _both_bytes(data: bytes, raw: str) -> NDArray[np.uint16]:
-    """The 16-bit colours of a file that Pillow decodes in a raw mode such as "RGB;16B": it keeps
-    the high byte of each, and the low one if it is told of the other byte order."""
+    """The 16-bit colours of a file that Pillow decodes in a raw mode such as "RGB;16B".
+
+    Pillow keeps only the high byte of each colour. Decoding again with the other byte order gives
+    the low byte.
+    """
     mode, _, order = raw.partition(";16")
     if order == "N":
         order = sys.byteorder[0].upper()
@@ -168,17 +174,18 @@ def _decoded_as(data: bytes, raw: str) -> NDArray[np.uint8]:
 
 
 def _correct_key(picture: Image.Image, raw: str) -> None:
-    """Scale the transparent colour of a grey PNG as Pillow scales its pixels."""
+    """Scale the transparent colour of a grey PNG in the same way as Pillow scales its pixels."""
     key = picture.info.get("transparency")
     if isinstance(key, tuple):
         picture.info["transparency"] = tuple(value & 255 for value in key)
     elif isinstance(key, int) and raw in _GREY_BITS:
-        most = (1 << _GREY_BITS[raw]) - 1  # of one bit newer versions of Pillow say 255 for 1
+        # With one bit, newer versions of Pillow give the key 255 instead of 1.
+        most = (1 << _GREY_BITS[raw]) - 1
         picture.info["transparency"] = (key & most) * (255 // most)
 
 
 def _straight_grey(picture: Image.Image) -> NDArray[np.uint8]:
-    """(h, w, 2) grey and alpha of a picture with premultiplied grey."""
+    """(h, w, 2) straight grey and alpha of a picture with premultiplied grey."""
     array = np.array(picture)
     grey, alpha = array[..., 0].astype(np.uint32), array[..., 1].astype(np.uint32)
     array[..., 0] = np.minimum((grey * 255 + alpha // 2) // np.maximum(alpha, 1), 255)
@@ -186,7 +193,8 @@ def _straight_grey(picture: Image.Image) -> NDArray[np.uint8]:
 
 
 def _wide_tiff(picture: TiffImageFile, data: bytes, name: str) -> NDArray[Any]:
-    """A TIFF of more than 8 bit: by tifffile, or by Pillow if only that knows the compression."""
+    """Decode a TIFF of more than 8 bit with tifffile. If tifffile lacks the compression, use
+    Pillow."""
     try:
         return tiff_pixels(data, name)[0]
     except ValueError as error:
@@ -201,7 +209,7 @@ def _wide_tiff(picture: TiffImageFile, data: bytes, name: str) -> NDArray[Any]:
 
 
 def _as_colours(array: NDArray[Any], page: Any, tifffile: Any) -> NDArray[Any]:
-    """Pixels of a page with white above black, and with straight alpha if any."""
+    """Convert a page's pixels so that white is the largest value and alpha is straight."""
     if page.photometric == tifffile.PHOTOMETRIC.MINISWHITE and array.dtype.kind == "u":
         colour = array if array.ndim == 2 else array[..., :1]
         np.subtract(np.iinfo(array.dtype).max, colour, out=colour)
@@ -209,7 +217,7 @@ def _as_colours(array: NDArray[Any], page: Any, tifffile: Any) -> NDArray[Any]:
 
 
 def _with_alpha(array: NDArray[Any], page: Any, tifffile: Any) -> NDArray[Any]:
-    """Pixels of a page without samples that are no colours, and with straight alpha."""
+    """Drop a page's samples that are neither colour nor alpha, and make alpha straight."""
     if array.ndim != 3 or not page.extrasamples:
         return array
     colours = array.shape[2] - len(page.extrasamples)

@@ -1,4 +1,4 @@
-"""Tell the foreground of a picture from its background: choose a method and run it."""
+"""Separate the foreground of a picture from its background: choose a method and run it."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -14,28 +14,29 @@ from glid_nb.imaging.measure import RGBA, full
 from glid_nb.imaging.options import Color, ForegroundMethod, Point, Scribbles
 from glid_nb.imaging.scribbles import scaled_picture, scribble_score
 
-_LEAST_SHARE = 0.001  # of transparent or opaque pixels; fewer are a speck
-_SMOOTHING = 0.001  # of the longer side
-_LEAST_SMOOTHING = 0.5  # pixels; less is not worth the time
+_LEAST_SHARE = 0.001  # of transparent or opaque pixels; a smaller share is a speck
+_SMOOTHING = 0.001  # automatic smoothing, relative to the longer side
+_LEAST_SMOOTHING = 0.5  # pixels; less smoothing is not worth the time
 
-# What a method measures where its name does not tell; the first word is the editor's control.
+# The quantity that a method measures, if its name differs. The first word names the editor's
+# control.
 _MEASURES = {"threshold": "brightness", "color": "colour distance"}
 
 
 @dataclass(frozen=True, eq=False)
 class Foreground:
-    """A field, high in the foreground; its level sets are the outlines, to parts of a pixel."""
+    """A field that is high in the foreground. Its level sets are outlines of sub-pixel accuracy."""
 
     score: NDArray[np.float32]  # (h, w) read-only, in [0, 1], sampled at the pixels' centres
     method: str  # never "auto"
     automatic_threshold: float  # as in `TraceOptions.threshold`
-    inverted: bool  # score is 1 minus what the method measures
+    inverted: bool  # whether score is 1 minus the measured quantity
     notes: tuple[str, ...]
     alpha: tuple[float, float] = (1.0, 1.0)
     """The least and the greatest alpha of the picture, in [0, 1]."""
 
     def threshold(self, threshold: float | None = None) -> float:
-        """`threshold`, or by default the automatic one."""
+        """The given `threshold`, or the automatic one for None."""
         return self.automatic_threshold if threshold is None else threshold
 
     def level(self, threshold: float | None = None) -> float:
@@ -51,7 +52,7 @@ class Foreground:
         raise self._refusal(self.threshold(threshold), empty=not mask.any())
 
     def _refusal(self, threshold: float, empty: bool) -> TraceError:
-        """What was measured, and a threshold or a method that parts the picture."""
+        """An error that gives the measured values and a threshold or method that would work."""
         measured = _MEASURES.get(self.method, self.method)
         problem = "the image has no foreground"
         problem = problem if empty else "the foreground covers the whole image"
@@ -86,8 +87,8 @@ class Foreground:
         )
 
     def _working_threshold(self, low: float, high: float) -> float | None:
-        """A threshold, in few digits, between the least and the greatest of what is measured, that
-        parts the picture; None if nothing varies."""
+        """A threshold of few digits that gives both foreground and background; None if the measured
+        quantity, which runs from ``low`` to ``high``, does not vary."""
         measured = 1 - self.score if self.inverted else self.score
         middle = (low + high) / 2
         for value in (self.automatic_threshold, measure.otsu(measure.histogram(measured)), middle):
@@ -108,7 +109,8 @@ def find_foreground(
     scribbles: Scribbles | None = None,
     scaled: Callable[[RGBA], NDArray[np.float64]] = scaled_picture,
 ) -> Foreground:
-    """The foreground of an (h, w, 4) image by options of `TraceOptions`, without smoothing."""
+    """Find the foreground of an (h, w, 4) image, without smoothing. For the options see
+    `TraceOptions`."""
     _check_not_uniform(image)
     if not image[..., 3].any():
         what = "the image has no foreground: it is fully transparent"
@@ -146,7 +148,7 @@ def find_foreground(
         score = score * (alpha / alpha.max())  # transparent pixels are background in any case
     if method == "color" and not inverted:
         threshold = measure.color_threshold(score, spread)
-    elif method == "color":  # the shape's; the spread of the border's colours is irrelevant
+    elif method == "color":  # the colour is the shape's, so the border's spread is irrelevant
         threshold = measure.otsu(measure.histogram(1 - score))
     return Foreground(read_only(score.view()), method, threshold, inverted, tuple(notes), seen)
 
@@ -161,13 +163,13 @@ def smoothed(foreground: Foreground, sigma: float | None) -> Foreground:
         return foreground
     score = np.asarray(gaussian_filter(score, sigma, mode="nearest", truncate=3.0), np.float32)
     if automatic and not (score > foreground.level()).any():
-        return foreground  # of a thin shape nothing would be left
+        return foreground  # smoothing would erase a thin shape
     return replace(foreground, score=read_only(score))
 
 
 def _check_not_uniform(image: RGBA) -> None:
     first = image[0, 0]
-    # A coarse sample suffices for nearly every picture.
+    # A coarse sample is enough for nearly every picture.
     if (image[::37, ::37] != first).any() or (image != first).any():
         return
     red, green, blue, opacity = (f"{value * (255 / full(image)):.4g}" for value in first)
@@ -190,7 +192,7 @@ def _choose_method(
     if background is not None or background_at is not None:
         return "color", "colour distance, as a background colour was given"
     alpha = image[..., 3]
-    # Of a faint drawing nothing is half opaque.
+    # In a faint drawing no pixel is half opaque.
     middle = (full(image) if alpha.max() > full(image) / 2 else int(alpha.max())) / 2
     if _LEAST_SHARE < np.mean(alpha < middle) < 1 - _LEAST_SHARE:
         return "alpha", "alpha, as part of the image is transparent"

@@ -21,12 +21,12 @@ class PixelFrame:
     """The similarity transform between the pixels of a picture and world coordinates.
 
     Pixel coordinates are continuous, (x right, y down), with (0, 0) at the top left *corner* of the
-    picture: the pixel in row i and column j covers [j, j + 1] x [i, i + 1] and has its centre at (j
-    + 0.5, i + 0.5). World coordinates are (x right, y up). The world's origin is at the centre of a
-    picture that is traced, and its longer side is 20 units long. The longer side of a drawn picture
-    shows 20 / zoom units, and its middle the world point ``centre``.
+    picture. The pixel in row i and column j covers [j, j + 1] x [i, i + 1] and has its centre at
+    (j + 0.5, i + 0.5). World coordinates are (x right, y up). The world's origin is at the centre
+    of a traced picture, whose longer side is 20 units long. The longer side of a drawn picture
+    shows 20 / zoom units, and its middle shows the world point ``centre``.
 
-    Raises a TraceError for a width or height that is no whole number of pixels, at least 1.
+    Raises a TraceError if width or height is not a whole number of pixels, at least 1.
 
     >>> frame = PixelFrame(width=200, height=100)
     >>> frame.to_world([[0, 0], [100, 50]])
@@ -58,8 +58,10 @@ class PixelFrame:
         return x - w, y - h, x + w, y + h
 
     def showing(self, bounds: ArrayLike, margin: float = 0.0) -> Self:
-        """The frame of a picture of this size that shows a rectangle as large as possible, with a
-        ``margin`` of a share of the picture's sides."""
+        """The frame, of the same size, that shows a rectangle as large as possible.
+
+        ``margin`` is the free room on each side, as a share of the picture's sides.
+        """
         low, high = np.reshape(bounds, (2, 2))
         pixels_per_unit = (2 * self._middle / (high - low)).min() * (1 - 2 * margin)
         zoom = float(pixels_per_unit * LONGER_SIDE / max(self.width, self.height))
@@ -77,7 +79,8 @@ class PixelFrame:
         return (_points(world) - self.centre) / [unit, -unit] + self._middle
 
     def index_at(self, point: tuple[float, float], name: str = "point") -> tuple[int, int]:
-        """(row, column) of the pixel at a point (x, y); a TraceError, with ``name``, if outside."""
+        """(row, column) of the pixel at a point (x, y). Raises a TraceError with ``name`` if the
+        point lies outside."""
         x, y = point
         if not (0 <= x < self.width and 0 <= y < self.height):
             size = f"{self.width} x {self.height} pixels"

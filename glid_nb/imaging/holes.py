@@ -1,4 +1,4 @@
-"""Which holes of a shape stay holes of its cage, and the offset of its outline."""
+"""Choose the holes that a cage keeps, and offset the outline."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -13,32 +13,37 @@ from glid_nb._arrays import Array, read_only
 from glid_nb.imaging.options import Point
 from glid_nb.imaging.outline import Outline, ring_loop, thinned
 
-# Least area of a hole, relative to the component and in square pixels. Holes in the alpha channel
-# are intended; those found by colour may be eyes or highlights.
+# The least area of a kept hole.
+# _LEAST_SHARE: relative to the component. Holes in the alpha channel are intended.
+# _LEAST_SHARE_BY_COLOR: the same for holes found by colour, which may be eyes or highlights.
+# _LEAST_AREA: in square pixels.
 _LEAST_SHARE, _LEAST_SHARE_BY_COLOR, _LEAST_AREA = 0.002, 0.0075, 9.0
-# Automatic offset, over the root of the shape's area; its least pixels, and their largest share.
+# The automatic offset.
+# _OFFSET: relative to the square root of the shape's area.
+# _LEAST_OFFSET: the least, in pixels.
+# _MOST_OFFSET: the largest share of the square root of the area that this least may be.
 _OFFSET, _LEAST_OFFSET, _MOST_OFFSET = 0.01, 2.0, 0.05
-_SLIT = 0.5  # times the offset, on each side
+_SLIT = 0.5  # slits up to twice this many offsets wide are closed
 _ROUGH, _FINE = 0.05, 0.03  # tolerances of simplification before and after, times the offset
 _SHRUNK = 0.2  # a hole that would keep less than this share of its area gets a smaller offset
 
 
 @dataclass(frozen=True, eq=False)
 class Hole:
-    """A hole, kept or filled."""
+    """A hole of the shape. The cage keeps it or fills it."""
 
     loop: NDArray[np.float64]
     """(k, 2) read-only vertices in pixel coordinates, before the offset."""
     area: float
-    """In square pixels."""
+    """Area in square pixels."""
     bounds: tuple[float, float, float, float]
     """Bounding box (xmin, ymin, xmax, ymax) in pixel coordinates."""
     pixel: Point
     """A point (x, y) in the hole, for `TraceOptions.keep_holes` and `drop_holes`."""
     kept: bool
-    """Whether the cage has it."""
+    """Whether the cage has this hole."""
     by_offset: bool = False
-    """Whether the offset made it, by closing a bay."""
+    """Whether the offset made this hole by closing a bay."""
 
     @property
     def place(self) -> str:
@@ -47,7 +52,7 @@ class Hole:
 
 
 class HoleRule(NamedTuple):
-    """Which holes are kept: those of a least area in square pixels, with exceptions by pixels."""
+    """The rule for keeping holes: a least area in square pixels, with exceptions by pixels."""
 
     min_area: float
     min_bay_area: float  # for holes that the offset makes, which cannot be eyes or highlights
@@ -69,7 +74,8 @@ def choose_holes(
     keep: Sequence[Point] = (),
     drop: Sequence[Point] = (),
 ) -> tuple[tuple[Hole, ...], HoleRule, tuple[str, ...]]:
-    """The holes of an outline that `method` found, the rule for those of the offset, and notes."""
+    """The holes of an outline found by `method`, the rule for holes that the offset makes, and
+    notes."""
     by_color = _LEAST_SHARE_BY_COLOR if method in ("color", "threshold") else _LEAST_SHARE
     least, least_bay = (
         max(share * outline.component.area, _LEAST_AREA) if min_hole_area is None else min_hole_area
@@ -90,7 +96,7 @@ def choose_holes(
 
 
 def filled_mask(outline: Outline, holes: tuple[Hole, ...]) -> NDArray[np.bool_]:
-    """(h, w) read-only mask of the component with the holes that are not kept filled."""
+    """(h, w) read-only mask of the component, where all holes that are not kept are filled."""
     filling = Image.new("1", outline.inside.shape[::-1])
     for hole in holes:
         if not hole.kept:

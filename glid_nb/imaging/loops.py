@@ -1,4 +1,4 @@
-"""Where the loops of a cage meet, and the importance of each vertex."""
+"""Find places where the loops of a cage meet, and rate the importance of each vertex."""
 
 import numpy as np
 import shapely
@@ -9,17 +9,20 @@ from glid_nb.geometry._loops import Loops
 
 
 def passed_over(loops: Loops, kept: NDArray[np.bool_]) -> list[NDArray[np.intp]]:
-    """For each edge of ``loops[kept]`` the vertices that it skips, in order."""
+    """For each edge of ``loops[kept]``: the vertices that it skips, in order."""
     over = []
     for loop in loops.split(np.arange(len(kept))):
-        ahead = np.roll(loop, -int(np.argmax(kept[loop])))  # from a kept one on
+        ahead = np.roll(loop, -int(np.argmax(kept[loop])))  # starts at a kept vertex
         over += [run[1:] for run in np.split(ahead, np.flatnonzero(kept[ahead])[1:])]
     return over
 
 
 def in_conflict(loops: Loops, gap: float) -> NDArray[np.intp]:
-    """The edges that cross another edge, or come closer to it than `gap` and not just along a
-    loop, as the neighbours of a short edge do."""
+    """The edges that cross another edge or come closer to it than `gap`.
+
+    Close edges of one loop do not count if the way between them along the loop is short, as it is
+    for the two neighbours of a short edge.
+    """
     segments, after = loops.segments, loops.after
     e, f = shapely.STRtree(segments).query(segments, predicate="dwithin", distance=gap)
     apart = (e < f) & (after[e] != f) & (after[f] != e)
@@ -31,7 +34,7 @@ def in_conflict(loops: Loops, gap: float) -> NDArray[np.intp]:
 
 
 def repair(loops: Loops, importance: Array, kept: Array, gap: float) -> list[str]:
-    """Put vertices back into `kept` where simplified loops meet or nearly meet; notes."""
+    """Put vertices back into `kept` where simplified loops meet or nearly meet. Returns notes."""
     before = np.count_nonzero(kept)
     place = loops.points[0]
     while True:
@@ -71,7 +74,8 @@ def _jumped(simplified: Loops, over: list[NDArray[np.intp]]) -> list[int]:
 
 
 def significance(loop: Floats) -> NDArray[np.float64]:
-    """(n,) tolerances at which Ramer, Douglas and Peucker drop a loop's points, two never."""
+    """(n,) tolerances at which the algorithm of Ramer, Douglas and Peucker drops each point of a
+    loop. It never drops two of them."""
     n = len(loop)
     start = int(np.argmax(np.hypot(*(loop - loop.mean(axis=0)).T)))
     points = np.roll(loop, -start, axis=0)
@@ -95,7 +99,7 @@ def significance(loop: Floats) -> NDArray[np.float64]:
 
 def _farthest(z: NDArray[np.complex128], a: complex, b: complex) -> tuple[int, float]:
     length = abs(b - a)
-    # Rotated so that the segment runs from 0 along the real axis.
+    # Rotate so that the segment starts at 0 and runs along the real axis.
     turned = (z - a) * ((b - a).conjugate() / length if length > 0 else 1.0)
     along, across = turned.real, turned.imag
     beyond = np.maximum(np.maximum(-along, along - length), 0)

@@ -1,4 +1,4 @@
-"""What the methods measure: brightness, distance from a colour, the border's colour, thresholds."""
+"""Measurements for the foreground: brightness, colour distance, border colour, thresholds."""
 
 from typing import NamedTuple
 
@@ -15,13 +15,13 @@ _LEVELS = 16  # per channel, to find the most frequent colour
 _SAME = 0.1  # colours closer than this (black to white is 1) count as one
 _UNIFORM = 0.6  # share of the border with one colour
 _BINS = 256
-_SAMPLES = 2_000_000  # a histogram of more tells nothing new
+_SAMPLES = 2_000_000  # most samples of a histogram
 _INCLUSIVE = 0.12  # a colour threshold that keeps parts similar to the background
 _BETWEEN = 0.1  # share of the shape's pixels between the background and Otsu's threshold
 
 
 def full(image: RGBA) -> int:
-    """The value of a channel at its brightest."""
+    """The largest value of a channel."""
     return int(np.iinfo(image.dtype).max)
 
 
@@ -32,8 +32,10 @@ def brightness(image: RGBA) -> Field:
 
 
 def color_distance(image: RGBA, color: tuple[float, float, float]) -> Field:
-    """(h, w) Euclidean distance from a colour in sRGB, black to white being 1: linear along an
-    anti-aliased edge, and sixty times as fast as a distance in CIELAB."""
+    """(h, w) Euclidean distance from a colour in sRGB, where black and white are 1 apart.
+
+    It is linear along an anti-aliased edge, and sixty times as fast as a distance in CIELAB.
+    """
     scale = np.float32(1 / (full(image) * np.sqrt(3)))
     centre = np.array(color, dtype=np.float32) * np.float32(1 / np.sqrt(3))
     total = np.zeros(image.shape[:2], dtype=np.float32)
@@ -46,12 +48,12 @@ class BorderColor(NamedTuple):
     """The most frequent colour of the border, which mostly shows the background."""
 
     color: tuple[float, float, float]  # (red, green, blue) in [0, 1]
-    share: float  # the part of the border that has it, nearly
-    spread: float  # 99th percentile of the distances of that part from `color`
+    share: float  # share of the border with nearly this colour
+    spread: float  # 99th percentile of the distances of these pixels from `color`
 
     @property
     def is_uniform(self) -> bool:
-        """Whether `color` can be taken for the background's."""
+        """Whether `color` may be assumed to be the background's."""
         return self.share >= _UNIFORM
 
 
@@ -64,7 +66,7 @@ def border_color(image: RGBA) -> BorderColor | None:
     bins = np.minimum((scaled * _LEVELS).astype(np.intp), _LEVELS - 1)
     codes = np.ravel_multi_index(tuple(bins.T), (_LEVELS,) * 3)
     color = scaled[codes == np.bincount(codes).argmax()].mean(axis=0)
-    for _ in range(3):  # a few steps towards the mode, which may lie at the bin's boundary
+    for _ in range(3):  # a few steps towards the mode, which may lie at a bin's boundary
         color = np.median(scaled[_distances(scaled, color) <= _SAME], axis=0)
     distance = _distances(scaled, color)
     near = distance <= _SAME
@@ -74,14 +76,15 @@ def border_color(image: RGBA) -> BorderColor | None:
 
 
 def border_is_bright(image: RGBA, values: Field, threshold: float) -> bool:
-    """Whether most of the border's pixels that are not transparent are above the threshold."""
+    """Whether at least half of the border's pixels that are not fully transparent are above the
+    threshold."""
     border = _border(values)[_border(image[..., 3]) > 0]
-    # A picture with a transparent border is likely dark ink.
+    # A picture with a transparent border probably shows dark ink.
     return not border.size or float(np.mean(border > threshold)) >= 0.5
 
 
 def _border(array: NDArray) -> NDArray:
-    """(k, ...) pixels of a frame 1 % wide, at least one pixel; a regular sample of a wide one."""
+    """(k, ...) pixels of a border 1 % wide, at least one pixel; a wide border is sampled."""
     frame = max(1, round(_FRAME * min(array.shape[:2])))
     step, (top, left) = max(1, frame // 4), np.minimum(array.shape[:2], frame)
     middle = array[top:-frame]
@@ -94,7 +97,7 @@ def _distances(colors: NDArray[np.float64], color: NDArray[np.float64]) -> NDArr
 
 
 def histogram(score: NDArray[np.float32]) -> NDArray[np.float64]:
-    """(256,) relative frequencies of a field in [0, 1]; from a regular sample if it is large."""
+    """(256,) relative frequencies of a field in [0, 1]. A large field is sampled regularly."""
     step = int(np.ceil(np.sqrt(score.size / _SAMPLES)))
     sample = score[::step, ::step]
     bins = np.minimum((sample * _BINS).astype(np.intp), _BINS - 1)
@@ -103,8 +106,11 @@ def histogram(score: NDArray[np.float32]) -> NDArray[np.float64]:
 
 
 def otsu(shares: NDArray[np.float64]) -> float:
-    """Otsu's threshold in [0, 1]; of a range that separates equally well the middle, where
-    scikit-image takes the low end, at anti-aliased pixels."""
+    """Otsu's threshold in [0, 1].
+
+    If a range of thresholds separates equally well, this is the middle of the range. scikit-image
+    takes its low end, which lies at anti-aliased pixels.
+    """
     centres = (np.arange(_BINS) + 0.5) / _BINS
     low = np.cumsum(shares)[:-1]
     high = 1 - low
@@ -114,14 +120,17 @@ def otsu(shares: NDArray[np.float64]) -> float:
         between = low * high * (low_sum / low - high_sum / high) ** 2
     between = np.where((low > 1e-12) & (high > 1e-12), between, 0.0)
     best = np.flatnonzero(between >= between.max() * (1 - 1e-3))
-    # The first plateau only.
+    # Use the first plateau only.
     run = best[: 1 + int(np.argmax(np.append(np.diff(best) > 1, True)))]
     return float((run[0] + run[-1] + 2) / 2 / _BINS)
 
 
 def color_threshold(distance: NDArray[np.float32], spread: float) -> float:
-    """A threshold for the distance from the background's colour: Otsu's, or, if parts of the shape
-    resemble the background, as low as the background's own spread allows."""
+    """A threshold for the distance from the background's colour.
+
+    It is Otsu's threshold. If parts of the shape resemble the background, it is as low as the
+    background's own spread allows.
+    """
     shares = histogram(distance)
     middle, floor = otsu(shares), min(1.5 * spread + 0.02, 0.9)
     if middle <= floor:

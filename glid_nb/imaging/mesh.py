@@ -1,4 +1,4 @@
-"""Deformed shapes as triangles and as loops, fine enough to be drawn with straight edges."""
+"""Deformed shapes as triangles and as loops, fine enough to draw them with straight edges."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -13,15 +13,16 @@ from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging.order import order_of
 from glid_nb.pose import Pose
 
-# Limits of refinement: no mesh follows a map close to its singularities.
+# Limits of refinement, because no mesh can follow a map close to its singularities.
 _MOST_VERTICES = 1_000_000
 _MOST_ROUNDS = 12
 
-_PER_EDGE = 4  # parts of a cage's edge before refinement
+_PER_EDGE = 4  # parts of each edge of the cage before refinement
 _ALL = -np.inf, -np.inf, np.inf, np.inf
 
-# The pieces of a triangle, by the sum of 1, 2 and 4 for sides 0, 1 and 2 that have a new vertex.
-# 0 to 2 are its corners, 3 to 5 the new vertices on the sides opposite to them.
+# The pieces of a triangle with new vertices on some sides. A new vertex on side 0, 1 or 2 adds 1, 2
+# or 4 to the row's index. In a row, 0 to 2 are the corners, and 3 to 5 are the new vertices on the
+# sides opposite to them.
 _NONE = (-1, -1, -1)
 _PIECES = np.array(
     [
@@ -46,10 +47,11 @@ class DeformedMesh:
     """A triangulated domain and its image."""
 
     vertices: Floats
-    images: Floats  # (v, 2) the vertices and where the map takes them, world coordinates
-    triangles: Ints  # (t, 3) counter-clockwise, the lower ones first
+    images: Floats  # (v, 2) images of the vertices; both in world coordinates
+    triangles: Ints  # (t, 3) counter-clockwise, sorted by height, the lowest first
     heights: Floats
-    """(v,) where the image overlaps itself the higher part lies over the lower; see `order_of`."""
+    """(v,) heights. Where the image overlaps itself, the higher part covers the lower one; see
+    `order_of`."""
 
     def __post_init__(self) -> None:
         for array in (self.vertices, self.images, self.triangles, self.heights):
@@ -63,11 +65,11 @@ def deformed_mesh(
     pose: Pose | None = None,
     seen: Bounds = _ALL,
 ) -> DeformedMesh:
-    """Triangulate a map's domain with about so many even vertices, and map them.
+    """Triangulate a map's domain with about ``n_vertices`` even vertices, and map them.
 
-    With a ``tolerance``, world units, edges are halved until the map takes no midpoint of an edge
-    further than this from the middle of the image edge, or there are a million vertices; far from
-    the part of the plane that is ``seen`` they are not.
+    With a ``tolerance``, in world units, edges are halved. It ends when the image of each edge's
+    midpoint is within ``tolerance`` of the midpoint of the image edge, or at a million vertices.
+    Edges far from ``seen``, a rectangle of the plane, are not halved.
     """
     vertices, images, triangles = fine_mesh(map.domain.cage, map, n_vertices, tolerance, seen)
     heights = order_of(map.domain.cage, pose)(vertices)
@@ -78,14 +80,16 @@ def deformed_mesh(
 def fine_mesh(
     cage: Cage, image: Evaluation, n_vertices: int, tolerance: float | None, seen: Bounds = _ALL
 ) -> tuple[Floats, Floats, Ints]:
-    """Vertices (v, 2), their images (v, 2 m) under m maps, as ``image`` evaluates, and triangles,
-    as fine as the map that bends most needs them."""
+    """Vertices (v, 2), their images (v, 2 m) under m maps, and triangles.
+
+    ``image`` evaluates all m maps. The mesh is as fine as the map that bends edges most requires.
+    """
     if tolerance is not None and not tolerance > 0:
         raise ValueError(f"tolerance is {tolerance}; it must be positive")
     start = triangulate(cage, n_vertices)
     vertices, triangles = start.vertices, start.triangles
     images = image(vertices)
-    # Below this share of its size rounding bends an edge too.
+    # Below this share of the image's size, rounding errors also bend edges.
     least = 1e-9 * float(np.ptp(images, axis=0).max())
     tolerance = np.inf if tolerance is None else max(tolerance, least)
     first = 0
@@ -93,7 +97,7 @@ def fine_mesh(
         edges, edge_of = unique_edges(triangles)
         near = np.zeros(len(edges), dtype=bool)
         near[edge_of[_near(images[triangles], seen)]] = True
-        # All others were straight enough in an earlier round.
+        # All other edges were straight enough in an earlier round.
         fresh = np.flatnonzero(near & (edges.max(axis=1) >= first))
         middles, middle_images, bend = _halved(image, vertices, images, edges[fresh])
         bent = bend > tolerance
@@ -109,7 +113,7 @@ def fine_mesh(
 
 
 def deformed_loops(map: HarmonicMap, tolerance: float = 0.002) -> list[Floats]:
-    """Images of the cage's loops, polylines within ``tolerance`` units or 1e-6 of their size."""
+    """Images of the cage's loops as polylines, within ``tolerance`` units or 1e-6 of their size."""
     loops = []
     for loop in map.domain.cage.loops_complex:
         points = as_points(subdivided(loop, np.full(len(loop), _PER_EDGE)))
@@ -132,7 +136,7 @@ def deformed_loops(map: HarmonicMap, tolerance: float = 0.002) -> list[Floats]:
 def _halved(
     image: Evaluation, points: Floats, images: Floats, edges: NDArray[np.integer]
 ) -> tuple[Floats, Floats, Floats]:
-    """The middles of edges, their images, and how far these are from the image edges' middles."""
+    """The edges' midpoints, their images, and their distances from the image edges' midpoints."""
     middles = points[edges].mean(axis=1)
     middle_images = image(middles)
     away = middle_images - images[edges].mean(axis=1)
@@ -140,14 +144,17 @@ def _halved(
 
 
 def _near(corners: Floats, seen: Bounds) -> NDArray[np.bool_]:
-    """(t,) bool: images (t, 3, 2 m) under m maps that are at most their size, being bent, away."""
+    """(t,) bool: triangles whose image, under one of m maps, is at most its own size away.
+
+    ``corners`` (t, 3, 2 m) are the images. The extra room allows for bent edges.
+    """
     low, high = (limit.reshape(len(corners), -1, 2) for limit in (corners.min(1), corners.max(1)))
     room = (high - low).max(axis=2, keepdims=True)
     return ((low - room <= seen[2:]) & (high + room >= seen[:2])).all(axis=2).any(axis=1)
 
 
 def unique_edges(triangles: NDArray[np.integer]) -> tuple[NDArray[np.integer], Ints]:
-    """Unique edges (e, 2), and (t, 3) which one is opposite to each vertex of each triangle."""
+    """Unique edges (e, 2), and (t, 3) the index of the edge opposite to each vertex."""
     sides = np.stack([np.roll(triangles, -1, axis=1), np.roll(triangles, 1, axis=1)], axis=2)
     sides = np.sort(sides.reshape(-1, 2), axis=1)
     keys = sides @ np.array([1 << 32, 1])
@@ -156,7 +163,7 @@ def unique_edges(triangles: NDArray[np.integer]) -> tuple[NDArray[np.integer], I
 
 
 def _split(triangles: Ints, middle: Ints) -> Ints:
-    """Split triangles at the new vertices on their sides (t, 3), -1 for none; order kept."""
+    """Split triangles at the new vertices on their sides (t, 3), -1 for none. Keeps the order."""
     pieces = _PIECES[(middle >= 0) @ [1, 2, 4]]
     corners = np.concatenate([triangles, middle], axis=1)
     new = np.take_along_axis(corners, pieces.reshape(-1, 12), axis=1).reshape(-1, 4, 3)

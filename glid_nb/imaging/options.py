@@ -34,8 +34,8 @@ _PIXELS: Any = {"least": -math.inf, "form": "a list of pixels (x, y) of finite n
 class Scribbles:
     """Strokes that a user drew over the shape and over the background.
 
-    Either polylines, a list of (k, 2) arrays of pixel coordinates (x, y), or a boolean mask of the
-    picture's shape (h, w). If ``background`` is empty, the picture's border is taken for it.
+    Each is a list of polylines, (k, 2) arrays of pixel coordinates (x, y), or a boolean mask of the
+    picture's shape (h, w). If ``background`` is empty, the picture's border is the background.
     """
 
     foreground: Strokes
@@ -49,9 +49,9 @@ class Scribbles:
     def load(cls, path: str | Path) -> Self:
         """Read strokes from a JSON file.
 
-        It holds an object with the keys ``foreground`` and, optionally, ``background``, each a list
-        of strokes; a stroke is a list of pixels ``[x, y]`` from the picture's top left corner.
-        Raises an InputFileError, which names the field, or an OSError.
+        The file holds an object with the keys ``foreground`` and, optionally, ``background``. Each
+        is a list of strokes. A stroke is a list of pixels ``[x, y]``, counted from the picture's
+        top left corner. Raises an InputFileError that names the wrong field, or an OSError.
         """
         with about(path):
             data = read_object(path)
@@ -62,22 +62,24 @@ class Scribbles:
 
 @dataclass(frozen=True)
 class TraceOptions:
-    """How a cage is traced. None: the value is chosen to suit the picture.
+    """How a cage is traced. For None, the value is chosen automatically for the picture.
 
     Raises a TraceError that names a value outside its range.
     """
 
     method: ForegroundMethod = option("auto", "How the foreground is found")
     """``"alpha"`` (the alpha channel), ``"threshold"`` (brightness), ``"color"`` (distance from the
-    background's colour), ``"scribbles"`` (a user's strokes), or ``"auto"``: scribbles if there are
-    any, else alpha if it is informative, else colour if the border is uniform, else threshold."""
+    background's colour), ``"scribbles"`` (a user's strokes), or ``"auto"``. ``"auto"`` uses
+    scribbles if there are any, else alpha if part of the picture is transparent, else colour if the
+    border is uniform, else threshold."""
     threshold: float | None = option(None, "Least value of the foreground, 0 to 1", most=1)
-    """Least value of the foreground: of alpha (None: 0.5), of brightness (None: Otsu), of the
-    distance from the background's colour, where black and white are 1 apart (None: from the
-    distances themselves), of the probability from scribbles (None: 0.5)."""
+    """Least value of the foreground. The value is alpha (None: 0.5), brightness (None: Otsu's
+    threshold), the distance from the background's colour, where black and white are 1 apart (None:
+    chosen from the distances), or the probability from scribbles (None: 0.5)."""
     invert: bool | None = option(None, "Swap foreground and background")
-    """Swap: by threshold dark pixels become foreground, by colour those that have the colour. None:
-    no; by threshold, so that the border becomes background."""
+    """Swap foreground and background. With "threshold", dark pixels become foreground. With
+    "color", pixels of the background's colour become foreground. None: with "threshold", chosen so
+    that the border is background; else no."""
     background: Color | None = option(
         None,
         "Background colour, each 0 to 1 (default: estimated from the border)",
@@ -90,27 +92,31 @@ class TraceOptions:
     scribbles: Scribbles | None = option(None, _STROKES)
     """Strokes for ``"scribbles"``."""
     smoothing: float | None = option(None, "Blur before the outline is taken, pixels")
-    """Of a Gaussian blur, pixels. None: 0.1 % of the longer side, 0 for alpha and scribbles."""
+    """Standard deviation of a Gaussian blur, in pixels. None: 0.1 % of the longer side, or 0 for
+    alpha and scribbles."""
     component: int = option(0, "Which component, 0 being the largest")
-    """Which connected component of the foreground, counted from 0, the largest."""
+    """Index of the connected component of the foreground; 0 is the largest."""
     component_at: Point | None = option(None, "A pixel in the component to trace", **_PIXEL)
     """A pixel (x, y) in the component, instead of `component`."""
     min_hole_area: float | None = option(None, "Smaller holes are filled, square pixels")
-    """Least area of a hole that is kept. None: 0.2 % of the component, or 0.75 % by colour or
-    threshold, where eyes and highlights look like holes; at least 9."""
+    """Least area of a kept hole, in square pixels. None: 0.2 % of the component, at least 9. With
+    "color" and "threshold" it is 0.75 %, because eyes and highlights look like holes."""
     keep_holes: Sequence[Point] = option((), "A pixel in a hole to keep, of any size", **_PIXELS)
     drop_holes: Sequence[Point] = option((), "A pixel in a hole to fill, of any size", **_PIXELS)
-    """Pixels (x, y) in holes that are filled whatever their area; wins over `keep_holes`."""
+    """Pixels (x, y) in holes that are filled, of any area; takes precedence over `keep_holes`."""
     offset: float | None = option(None, "Distance of the cage from the outline, pixels")
-    """Outwards, and into holes. None: about 1 % of the shape, less if that would close a bay."""
+    """Distance outwards, and into holes. None: about 1 % of the shape's size, less if that would
+    close a bay."""
     simplify: float | None = option(None, "How far simplification may move the outline, pixels")
-    """Largest distance from the outline, before edges that cut off a part of the shape are moved
-    outwards. None: for a typical character this gives 60 to 120 vertices."""
+    """Largest distance from the outline. Afterwards, edges that cut off a part of the shape are
+    moved outwards. None: a value that gives a typical character 60 to 120 vertices."""
     max_vertices: int | None = option(None, "Most vertices of the cage", least=3)
     min_edge: float | None = option(None, "Shorter edges are merged, pixels")
-    """Least length: short edges make the harmonic basis stiff. None: a fifth of the mean edge."""
+    """Least length of an edge. Short edges make the harmonic basis stiff. None: a fifth of the mean
+    edge."""
     max_edge: float | None = option(None, "Longer edges are divided, pixels", least=0.5, most=_ANY)
-    """Largest length, so that limbs can bend. None: perimeter / 25; `math.inf`: never."""
+    """Largest length of an edge. Edges must be short enough for limbs to bend. None: perimeter /
+    25; `math.inf`: edges are never divided."""
 
     def __post_init__(self) -> None:
         for known in fields(self):

@@ -1,6 +1,7 @@
-"""Which part of a shape covers which: one order for the canvas, picking, pictures and exports.
+"""The order in which parts of a shape cover each other, for canvas, picking, pictures and exports.
 
-`Sheets` is the inverse of a map under it: what is drawn at a place, and what lies hidden below.
+`Sheets` inverts a map in this order: it finds the source of what is drawn at a place, and the
+points that are hidden below others.
 """
 
 import functools
@@ -20,22 +21,22 @@ from glid_nb.imaging.frame import PixelFrame
 from glid_nb.pose import DeformationMap, Pose
 
 _VERTICES = 4000
-_CANDIDATES = 2000  # vertices that the innermost one is chosen from
+_CANDIDATES = 2000  # vertices among which the innermost one is chosen
 _REACH = 0.15  # of the cage's size: the distance over which a depth falls to about a third
-_TIE = 0.02  # of one step of depth: the range of the order that holds where depths are equal
+_TIE = 0.02  # range of the limbs' heights, which decide where depths are equal, in steps of depth
 _STIFFNESS = 1e6  # of a pin, relative to the mesh
 
 _SHEET_VERTICES = 2000
 _NEWTON_STEPS = 8
 _ROUNDING = 1e-7
 _OVERHANG = 0.5  # straight triangles miss the map's image by less than this share of their size
-_NEAR = 0.02  # of the shape's size: nothing that near is another sheet
+_NEAR = 0.02  # of the shape's size: sources closer than this are on the same sheet
 _OPAQUE = 128  # of 255
 
 
 class Order:
-    """Heights of a shape's points, by which one part covers another: they grow from the trunk to
-    the limbs; depths of handles outweigh that around their pins."""
+    """Heights of a shape's points; the higher part covers the lower one. Heights grow from the
+    trunk to the limbs. Around a handle, its depth outweighs this."""
 
     def __init__(self, mesh: Triangulation, limbs: Array, depths: Array) -> None:
         self._mesh, self._limbs, self._depths = mesh, limbs, depths
@@ -46,24 +47,24 @@ class Order:
         return self._mesh.weights(points) @ self._heights
 
     def towards(self, other: "Order", share: float) -> "Order":
-        """The order at a share of the way to another one of this shape."""
+        """The order at a share of the way to another order of the same shape."""
         if other is self:
             return self
         return Order(self._mesh, self._limbs, self._depths + share * (other._depths - self._depths))
 
     def depths(self, points: Any) -> Array:
-        """(k,) depths that the handles' depths give to (k, 2) points."""
+        """(k,) depths of (k, 2) points, spread from the handles' depths."""
         return self._mesh.weights(points) @ self._depths
 
 
 def order_of(cage: Cage, pose: Pose | None = None) -> Order:
-    """The order of a shape's parts under the depths of a pose; kept for the next call."""
+    """The order of a shape's parts under the depths of a pose. Orders are cached."""
     if pose is None or not pose.depths.any():
         return _orders(cage)()
     return _orders(cage)(pose.handles.tobytes(), pose.depths.tobytes())
 
 
-@functools.lru_cache(maxsize=4)  # cages, not orders: each has a mesh of several MB
+@functools.lru_cache(maxsize=4)  # cages, not orders: each cage has a mesh of several MB
 def _orders(cage: Cage) -> Callable[..., Order]:
     mesh, limbs = _limbs_over_trunk(cage)
 
@@ -79,7 +80,11 @@ def _orders(cage: Cage) -> Callable[..., Order]:
 
 def _limbs_over_trunk(cage: Cage) -> tuple[Triangulation, Array]:
     """A mesh, and (v,) heights from 0 to 1 that grow with the geodesic distance from its innermost
-    point; and less with that from the opposite end and with x: rings and arms have two ends."""
+    point.
+
+    They also grow, less, with the distance from the opposite end and with x. Otherwise the two ends
+    of a ring or two arms would have the same height.
+    """
     mesh = triangulate(cage, _VERTICES)
     candidates = np.arange(0, len(mesh.vertices), max(1, len(mesh.vertices) // _CANDIDATES))
     outline = shapely.boundary(cage.polygon)
@@ -91,11 +96,11 @@ def _limbs_over_trunk(cage: Cage) -> tuple[Triangulation, Array]:
 
 
 def _spread(mesh: Triangulation, pins: Array, depths: Array, reach: float) -> Array:
-    """(v,) solution of ``u = reach^2 Laplace(u)`` with depths at pins: 0 on limbs without any."""
+    """(v,) solution of ``u = reach^2 Laplace(u)`` with depths at pins; about 0 far from pins."""
     z, triangles = mesh.vertices @ np.array([1, 1j]), mesh.triangles
     sides = np.roll(z[triangles], 1, axis=1) - np.roll(z[triangles], -1, axis=1)
     area = 0.5 * np.imag(np.conj(sides[:, 0]) * sides[:, 1])[:, None, None]
-    # Linear elements: the cotangent Laplacian, and a mass of a third of a triangle per corner.
+    # Linear elements: the cotangent Laplacian and a lumped mass, a third of a triangle per corner.
     local = np.real(np.conj(sides[:, :, None]) * sides[:, None]) / (4 * area)
     local += np.eye(3) * area / 3 / reach**2
     entries = np.repeat(triangles, 3, axis=1).ravel(), np.tile(triangles, 3).ravel()
@@ -106,7 +111,7 @@ def _spread(mesh: Triangulation, pins: Array, depths: Array, reach: float) -> Ar
 
 
 class Sheets:
-    """A deformed shape where it overlaps itself; transparent parts of a picture hide nothing."""
+    """A deformed shape that may overlap itself. Transparent parts of a picture hide nothing."""
 
     def __init__(self, map: DeformationMap, order: Order, image: Array | None = None) -> None:
         self._map, self._order, self._image = map, order, image
@@ -119,7 +124,8 @@ class Sheets:
         self._near = _NEAR * float(np.ptp(self._mesh.vertices, axis=0).max())
 
     def source(self, point: Any) -> Array | None:
-        """The source (2,) of what is seen at a point, the highest of transparent parts; or None."""
+        """The source (2,) of the visible part at a point; None outside the shape. If all parts at
+        the point are transparent, the source of the highest."""
         curved = isinstance(self._map, HarmonicMap)
         place = np.reshape(np.asarray(point, dtype=float), (1, 2))
         _, found = self._drawn_at(place, _OVERHANG if curved else 0.0)
@@ -130,21 +136,21 @@ class Sheets:
         return found[np.lexsort((self._order(found), self._opaque(found)))[-1]]
 
     def sources(self, places: Array) -> Array:
-        """As `source` for many places (k, 2), to the precision of a mesh; NaN outside the shape."""
+        """Like `source` for many places (k, 2), with a mesh's accuracy; NaN outside the shape."""
         which, found = self._drawn_at(places, 0.0)
         order = np.lexsort((self._order(found), self._opaque(found)))
         seen = np.full(places.shape, np.nan)
-        seen[which[order]] = found[order]  # of several the last one stays
+        seen[which[order]] = found[order]  # the last of several assignments stays
         return seen
 
     def hidden(self, points: Any) -> NDArray[np.bool_]:
-        """(k,) bool: which of (k, 2) points of the undeformed shape another part covers."""
+        """(k,) bool: the points, (k, 2) of the undeformed shape, that another part covers."""
         points = np.reshape(np.asarray(points, dtype=float), (-1, 2))
         result = np.zeros(len(points), dtype=bool)
         if not len(points):
             return result
         which, found = self._drawn_at(self._map(points), 0.0)
-        # Most are the sheet that the point itself is on.
+        # Most of the found sources are on the point's own sheet.
         other = np.linalg.norm(found - points[which], axis=1) > self._near
         which, found = which[other], found[other]
         above = self._order(found) > self._order(points)[which]
@@ -152,8 +158,9 @@ class Sheets:
         return result
 
     def _drawn_at(self, places: Array, overhang: float) -> tuple[Array, Array]:
-        """(m,) of which of (k, 2) places, and (m, 2) sources in the triangles that hold it, or miss
-        it by less than a share of their size."""
+        """(m,) indices of (k, 2) places, and (m, 2) their sources, one for each triangle over a
+        place. Triangles that miss a place by less than ``overhang``, a share of their size, count
+        too."""
         low, high = self._corners.min(axis=1), self._corners.max(axis=1)
         low, high = low - overhang * (high - low), high + overhang * (high - low)
         x, y = places[:, :1], places[:, 1:]
@@ -173,7 +180,7 @@ class Sheets:
             fz, fzb = self._map.wirtinger(as_points(z))
             with np.errstate(divide="ignore", invalid="ignore"):
                 dz = (fzb * w.conj() - fz.conj() * w) / (np.abs(fz) ** 2 - np.abs(fzb) ** 2)
-            known = np.isfinite(dz) & (np.abs(dz) < self._near)  # else it runs away
+            known = np.isfinite(dz) & (np.abs(dz) < self._near)  # otherwise Newton diverges
             z = np.where(known, z + dz, z)
             found = known & (np.abs(dz) < _ROUNDING * self._near)
             if (found | ~known).all():

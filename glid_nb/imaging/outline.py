@@ -19,8 +19,9 @@ _LISTED = 50  # components that are described
 _PRECISION = 0.05  # pixels; vertices that change the outline by less are dropped
 _SPECK_SHARE, _SPECK = 1e-5, 4  # smaller holes, relative to the component and in pixels, are noise
 _MOST_HOLES = 100
-# `_steps` from which small holes are filled before tracing, and from which an outline is traced at
-# a lower resolution. A drawing of 8,000 px has some 30,000.
+# Limits on `_steps`. A drawing of 8,000 px has some 30,000 steps.
+# _NOISY: from this number on, small holes are filled before tracing.
+# _ROUGH: above this number, the outline is traced at a lower resolution.
 _NOISY, _ROUGH = 20_000, 100_000
 _LEAST_DIFFERENCE = 0.02  # between a pixel and the level, relative to the level
 
@@ -30,7 +31,7 @@ class Component:
     """A connected part of the foreground."""
 
     rank: int
-    """By area, from 0 for the largest."""
+    """Rank by area; 0 is the largest."""
     area: int
     """Number of pixels."""
     bounds: tuple[int, int, int, int]
@@ -41,7 +42,7 @@ class Component:
 
 @dataclass(frozen=True, eq=False)
 class Components:
-    """All components of a foreground, the largest first; pixels are connected at corners too."""
+    """All components of a foreground, the largest first. Pixels also connect at corners."""
 
     found: NDArray[np.int32]  # (h, w) labels, 0 in the background
     labels: NDArray[np.intp]  # (n,) the label of each component
@@ -50,11 +51,11 @@ class Components:
 
     @cached_property
     def largest(self) -> tuple[Component, ...]:
-        """At most fifty."""
+        """The largest components, at most fifty."""
         return tuple(map(self._described, range(min(len(self.areas), _LISTED))))
 
     def component(self, rank: int) -> Component:
-        """The component of a rank; a TraceError if there is none."""
+        """The component of a rank. Raises a TraceError if it does not exist."""
         if not 0 <= rank < (count := len(self.areas)):
             has = f"the foreground has {count} component{'' if count == 1 else 's'}"
             counted = "counted from 0, the largest; choose another"
@@ -68,7 +69,8 @@ class Components:
         return Component(rank, int(self.areas[rank]), bounds, (left + 0.5, rows.start + 0.5))
 
     def rank_at(self, point: Point) -> int:
-        """Rank of the component at a point (x, y) in pixel coordinates; a TraceError if none."""
+        """Rank of the component at a point (x, y) in pixel coordinates. Raises a TraceError if the
+        point is background."""
         found = self.found[PixelFrame(*self.found.shape[::-1]).index_at(point, "component_at")]
         if found == 0:
             where = f"component_at: the pixel ({point[0]:g}, {point[1]:g})"
@@ -80,7 +82,8 @@ class Components:
 
 
 def find_components(foreground: Foreground, threshold: float | None = None) -> Components:
-    """Label the components of a foreground; a TraceError if it is empty or everything."""
+    """Label the components of a foreground. Raises a TraceError if the foreground is empty or
+    covers the whole image."""
     mask = foreground.mask(threshold)
     rows, columns = np.flatnonzero(mask.any(axis=1)), np.flatnonzero(mask.any(axis=0))
     box = slice(int(rows[0]), int(rows[-1]) + 1), slice(int(columns[0]), int(columns[-1]) + 1)
@@ -94,13 +97,13 @@ def find_components(foreground: Foreground, threshold: float | None = None) -> C
 
 @dataclass(frozen=True, eq=False)
 class Outline:
-    """Read-only loops in pixel coordinates that neither cross nor touch; they run along the border
-    of the image where the component meets it."""
+    """Read-only loops in pixel coordinates that neither cross nor touch. Where the component meets
+    the border of the image, its loop runs along the border."""
 
     component: Component
     exterior: NDArray[np.float64]
     holes: tuple[NDArray[np.float64], ...]  # the largest first
-    n_specks: int  # holes that were filled, as noise or as not among the hundred largest
+    n_specks: int  # holes filled because they are noise or not among the hundred largest
     speck: float  # square pixels; smaller holes are noise
     notes: tuple[str, ...]
     inside: NDArray[np.bool_]  # (h, w) the pixels in the component or in a speck
@@ -131,7 +134,7 @@ def find_outline(
         (contour[:-1, ::-1] - 0.5) * block + [left, top]
         for contour in find_contours(field, 0.0, fully_connected="high")
     ]
-    # The component is connected, so one loop goes around it and all others around its holes.
+    # The component is connected. So one loop goes around it, and all others go around its holes.
     areas = [abs(signed_area(loop)) for loop in loops]
     order = sorted(range(len(loops)), key=lambda i: -areas[i])
     chosen = [i for i in order[: _MOST_HOLES + 1] if areas[i] >= least or i == order[0]]
@@ -148,13 +151,13 @@ def find_outline(
 
 
 def _steps(inside: NDArray[np.bool_]) -> int:
-    """Number of changes along the columns: about half the number of pixel sides in the outline."""
+    """Number of changes along the columns, about half the number of pixel sides in the outline."""
     return int(np.count_nonzero(inside[1:] != inside[:-1]))
 
 
 def _fill_specks(inside: NDArray[np.bool_], least: float) -> int:
-    """If the mask is noisy, fill its holes of less than `least` pixels in place; their number."""
-    if _steps(inside) < _NOISY:  # there are few: to drop them after tracing is faster
+    """If the mask is noisy, fill its holes below `least` pixels in place. Returns how many."""
+    if _steps(inside) < _NOISY:  # few holes: dropping them after tracing is faster
         return 0
     background = np.zeros(inside.shape, dtype=np.int32)
     label(~inside, output=background)
@@ -165,8 +168,8 @@ def _fill_specks(inside: NDArray[np.bool_], least: float) -> int:
 
 
 def _field(score: NDArray[np.float32], level: float, inside: Array) -> NDArray[np.float32]:
-    """Score minus level, positive exactly in the component, in a frame of one pixel."""
-    # Values near 0 are moved away: a level set through the centre of a pixel could touch itself.
+    """Score minus level, with a frame of one pixel; positive exactly in the component."""
+    # Move values away from 0: a level set through the centre of a pixel could touch itself.
     field = np.pad(score - np.float32(level), 1, mode="edge")
     np.abs(field, out=field)
     least = np.float32(_LEAST_DIFFERENCE * max(min(level, 1 - level), 0.05))
@@ -176,7 +179,7 @@ def _field(score: NDArray[np.float32], level: float, inside: Array) -> NDArray[n
 
 
 def thinned(polygon: shapely.Polygon, tolerance: float) -> shapely.Polygon:
-    """`polygon` simplified by `tolerance`, if it stays a valid polygon with all its holes."""
+    """Simplify `polygon` by `tolerance`, if it stays a valid polygon with all its holes."""
     # Ignoring the topology is ten times as fast and nearly always right.
     for preserve_topology in (False, True):
         thin = polygon.simplify(tolerance, preserve_topology=preserve_topology)

@@ -1,8 +1,8 @@
 """Draw a textured triangle mesh into a picture, on the CPU and without OpenGL.
 
-Triangles are cut into horizontal spans. The crossing of an edge with a row of samples depends only
-on the edge's end points, in the order of y, so triangles that share an edge get the same number to
-the last bit and every sample belongs to exactly one of them.
+Triangles are cut into horizontal spans. The crossing of an edge with a row of samples is computed
+from the edge's end points alone, in the order of y. So two triangles that share an edge get exactly
+the same number, and every sample belongs to exactly one of them.
 """
 
 import functools
@@ -20,8 +20,8 @@ from glid_nb.imaging.progress import Progress, report
 from glid_nb.imaging.texture import Sampler, Texture, affine, gradients, placed
 
 _TILE = 1 << 17  # pixels drawn at a time, to bound the memory
-_TILE_WIDTH = 512  # compact, so that a tile needs a small part of the picture
-_MOST_THREADS = 8  # each of which needs some 50 MB
+_TILE_WIDTH = 512  # pixels; a compact tile needs only a small part of the picture
+_MOST_THREADS = 8  # each thread needs some 50 MB
 SUBSAMPLES = 8  # rows and columns of the samples in an outline pixel
 
 Ints = NDArray[np.integer]
@@ -29,7 +29,7 @@ Colours = NDArray[np.float32]
 
 
 class Tile(NamedTuple):
-    """A rectangle of the output's pixels, which are numbered row by row."""
+    """A rectangle of the output's pixels. Its pixels are numbered row by row."""
 
     left: int
     top: int
@@ -42,7 +42,7 @@ class Tile(NamedTuple):
 
     @property
     def part(self) -> tuple[slice, slice]:
-        """Where it lies in the output."""
+        """The slices of the tile in the output."""
         return slice(self.top, self.top + self.rows), slice(self.left, self.left + self.width)
 
 
@@ -58,15 +58,16 @@ def render_mesh(
     """Warp a picture with a triangle mesh; (h, w, 4) RGBA with straight alpha.
 
     The vertices lie at ``places`` (v, 2) in the picture and go to ``positions`` (v, 2) in the
-    output, which has the ``size`` (w, h): continuous pixels, x right, y down, (0, 0) the top left
-    corner. Parts beyond the picture are transparent. Pass a :class:`Texture` to draw it many times.
+    output, which has the ``size`` (w, h). Both are continuous pixels, x right, y down, with (0, 0)
+    at the top left corner. Parts beyond the picture are transparent. Pass a :class:`Texture` to
+    draw it many times.
 
-    Where triangles overlap, the higher one by the ``heights`` (v,) of the vertices, or of equally
-    high ones the later, is composed over the other; intersecting sheets meet along a line.
+    ``heights`` (v,) order overlapping triangles: the higher one is drawn over the lower one. Of
+    equally high ones, the later one is drawn over the other. Intersecting sheets meet along a line.
     Triangles that share an edge leave no seam and share no pixel. Outlines are anti-aliased with 64
     samples per pixel. The picture is filtered with premultiplied alpha: by cubic interpolation
     where it is magnified, anisotropically on an image pyramid where it is minified. ``progress`` is
-    told the numbers of finished and of all tiles, and stops by returning True (`Stopped`).
+    called with the numbers of finished and of all tiles. If it returns True, `Stopped` is raised.
     """
     picture = np.zeros((size[1], size[0], 4), np.uint8)
     outline = ScanConverter(_strips(positions[outline_edges(triangles, positions[triangles])]))
@@ -91,9 +92,10 @@ def render_nearest(
 ) -> NDArray[Any]:
     """Move the values of a picture (h, w, c) of any type with a triangle mesh; (h, w, c).
 
-    As `render_mesh`, but each pixel of the output takes the value of the pixel that its centre
-    comes from, of the highest triangle where that is not ``fill`` (of uint8 and uint16 with four
-    channels, where alpha is not 0). Where there is none it takes ``fill``.
+    Like `render_mesh`, but each pixel of the output takes the value of one pixel of the picture:
+    the source of its centre. Where triangles overlap, the highest one counts whose value is not
+    ``fill``. For uint8 and uint16 with four channels, it is the highest whose alpha is not 0. If
+    there is no such triangle, the output is ``fill``.
     """
     result = np.full((size[1], size[0], values.shape[2]), fill, values.dtype)
     scan, triangles, height = _seen(positions, triangles, size, heights)
@@ -107,7 +109,7 @@ def render_nearest(
 
 
 def tiles(size: tuple[int, int]) -> list[Tile]:
-    """What a picture of (w, h) pixels is drawn in, row by row."""
+    """The tiles of a picture of (w, h) pixels, row by row."""
     width, height = size
     across = min(width, _TILE_WIDTH)
     down = max(1, _TILE // across)
@@ -131,14 +133,14 @@ def _for_all(draw: Callable[[Tile], None], tiles: list[Tile], progress: Progress
     try:
         for done, _ in enumerate(pool.map(draw, tiles)):
             report(progress, done + 1, len(tiles))
-    finally:  # after Ctrl-C too, what has not begun is left out
+    finally:  # cancel tiles that have not begun, also after Ctrl-C
         pool.shutdown(cancel_futures=True)
 
 
 def _seen(
     positions: Floats, triangles: Ints, size: tuple[int, int], heights: Floats | None
 ) -> "tuple[ScanConverter | None, Ints, tuple[Floats, Floats]]":
-    """The triangles in the output, and their heights: ``level`` + ``slope`` (x, y)."""
+    """The triangles visible in the output, and their heights ``level + slope . (x, y)``."""
     corners = positions[triangles]
     low, high = corners.min(axis=1), corners.max(axis=1)
     visible = ((high > 0) & (low < size)).all(axis=1)
@@ -200,7 +202,7 @@ def _draw_nearest(
 
 
 class Hits(NamedTuple):
-    """Samples of the output inside triangles, (k,) each; one for every triangle over a sample."""
+    """Samples of the output inside triangles, (k,) arrays; one hit per sample and triangle."""
 
     triangle: Ints
     place: Ints  # number of the sample
@@ -224,7 +226,7 @@ class ScanConverter:
             self._slope = (self._x[:, upper] - self._x[:, lower]) / rise
 
     def centres(self, tile: Tile) -> Hits:
-        """The centres of a tile's pixels in triangles; a pixel's number is its place."""
+        """Hits of the centres of a tile's pixels. The ``place`` is the number of the pixel."""
         triangle, row, left, right = self._spans(tile, 1)
         first = np.ceil(left - 0.5 - tile.left).clip(0, tile.width).astype(np.intp)
         count = np.ceil(right - 0.5 - tile.left).clip(0, tile.width).astype(np.intp) - first
@@ -233,10 +235,11 @@ class ScanConverter:
         return Hits(np.repeat(triangle, count), place, x, np.repeat(row + 0.5, count))
 
     def samples(self, tile: Tile, chosen: NDArray[np.bool_], n: int) -> Hits:
-        """Samples in the chosen pixels (tile.size,) of a tile.
+        """Hits of the samples in the chosen pixels (tile.size,) of a tile.
 
-        A pixel has n rows of n, shifted, so that a vertical edge has n^2 levels of coverage. The
-        p-th chosen pixel's are numbered from p n^2, row by row.
+        A pixel has n rows of n samples. The rows are shifted, so that a vertical edge has n^2
+        levels of coverage. The samples of the p-th chosen pixel are numbered from p n^2, row by
+        row.
         """
         shift = ((np.arange(n) * 3) % n + 0.5) / n
         columns = (np.arange(n) + shift[:, None]) / n
@@ -254,7 +257,7 @@ class ScanConverter:
         return Hits(triangle[span], place, x, (row[span] + 0.5) / n)
 
     def _spans(self, tile: Tile, n: int) -> tuple[Ints, Ints, Floats, Floats]:
-        """(s,) triangle, row of samples y = (row + 1/2) / n, half-open interval of each span."""
+        """(s,) triangle, row and half-open interval of each span. Rows are at (row + 1/2) / n."""
         near = (self._y[:, 2] > tile.top) & (self._y[:, 0] < tile.top + tile.rows)
         near &= (self._right > tile.left) & (self._left < tile.left + tile.width)
         chosen = np.flatnonzero(near)
@@ -273,7 +276,7 @@ class ScanConverter:
 
 
 class _Surface(NamedTuple):
-    """Triangles with a texture and heights: ``level`` + ``slope`` (x, y)."""
+    """Triangles with a texture and heights ``level + slope . (x, y)``."""
 
     scan: ScanConverter
     sampler: Sampler
@@ -281,7 +284,7 @@ class _Surface(NamedTuple):
     slope: Floats
 
     def draw(self, tile: Tile, chosen: NDArray[np.bool_], n: int) -> tuple[Colours, Ints]:
-        """(p, n^2, 4) premultiplied colours of `samples`, and how many triangles are over each."""
+        """(p, n^2, 4) premultiplied colours of `samples`, and the number of triangles at each."""
         hits = self.scan.samples(tile, chosen, n)
         colours = self.sampler(hits.triangle, hits.x, hits.y) if n == 1 else self._shaded(hits, n)
         canvas = np.zeros((np.count_nonzero(chosen) * n**2, 4), np.float32)
@@ -292,7 +295,8 @@ class _Surface(NamedTuple):
         return canvas.reshape(-1, n**2, 4), count.reshape(-1, n**2)
 
     def _shaded(self, samples: Hits, n: int) -> Colours:
-        """(k, 4) colours: look-ups filter a whole pixel, so one for a triangle's samples in it."""
+        """(k, 4) colours. A look-up filters a whole pixel, so all samples of one triangle in one
+        pixel share a look-up."""
         pixel, n_triangles = samples.place // n**2, len(self.level)
         keys = pixel * n_triangles + samples.triangle
         _, first, fragment, count = np.unique(
@@ -303,20 +307,21 @@ class _Surface(NamedTuple):
 
 
 def _ranks(hits: Hits, level: Floats, slope: Floats) -> Iterable[Ints]:
-    """Which hits are the lowest at their places, which the second, and so on."""
+    """Indices of the hits that are the lowest at their places, then of the second, and so on."""
     count = np.bincount(hits.place)
     if count.max(initial=0) <= 1:
         return [np.arange(len(hits.place))]
     rise_x, rise_y = slope[hits.triangle].T
     height = level[hits.triangle] + rise_x * hits.x + rise_y * hits.y
-    # Below the hits of rank k of a place there are k others.
+    # A hit of rank k has k other hits below it at its place.
     order = np.lexsort((height, hits.place))
     rank = np.arange(len(order)) - (np.cumsum(count) - count)[hits.place[order]]
     return (order[rank == k] for k in range(count.max()))
 
 
 def outline_edges(triangles: Ints, corners: Floats) -> Ints:
-    """(e, 2) edges where the mesh ends or folds: not between two triangles of one orientation."""
+    """(e, 2) edges where the mesh ends or folds: all but those between two triangles of the same
+    orientation."""
     edges, edge_of = unique_edges(triangles)
     e = corners[:, 1:] - corners[:, :1]
     turn = np.where(e[:, 0, 0] * e[:, 1, 1] < e[:, 0, 1] * e[:, 1, 0], -1, 1)
@@ -340,7 +345,7 @@ def _runs(first: Ints, count: Ints) -> Ints:
 
 
 def _straight(premultiplied: Colours) -> NDArray[np.uint8]:
-    """(k, 4) pixels of 8 bit with straight alpha; overwrites the colours given."""
+    """(k, 4) pixels of 8 bit with straight alpha. Overwrites the given colours."""
     alpha = premultiplied[:, 3].copy()
     unseen = alpha < 0.5 / 255
     alpha[unseen] = 1

@@ -1,4 +1,4 @@
-"""Pictures from files and arrays as (h, w, 4) RGBA of 8 or 16 bit."""
+"""Read pictures from files and arrays as (h, w, 4) RGBA of 8 or 16 bit."""
 
 import io
 import os
@@ -33,25 +33,25 @@ ImageSource = str | os.PathLike[str] | bytes | Image.Image | ArrayLike
 """What is accepted as a picture: a path, a file's bytes, a PIL image or an array."""
 
 _ADDRESS = re.compile(r"([a-z][a-z0-9+.-]+):/{1,2}(.*)", re.IGNORECASE | re.DOTALL)
-_ROWS = 256  # per block where a whole picture in float would need gigabytes
-_PERCEPTUAL = b"\0"  # the rendering intent that an sRGB chunk names
+_ROWS = 256  # rows per block; a whole picture in float would need gigabytes
+_PERCEPTUAL = b"\0"  # the rendering intent in an sRGB chunk
 
 
 def read_image(source: ImageSource, name: str | None = None) -> RGBA:
     """Read a picture as an (h, w, 4) array of red, green, blue and alpha, row 0 at the top.
 
     Alpha is not premultiplied. The source is the path or the bytes of a file (PNG, JPEG, TIFF, GIF,
-    WebP, BMP, AVIF, JPEG 2000, Photoshop or another format of pixels; its first frame), a PIL
-    image, or an array as in `as_rgba`. EXIF orientation is applied. Transparency is read however
-    a file has it: as alpha, or as one colour or entries of a palette that are transparent.
+    WebP, BMP, AVIF, JPEG 2000, Photoshop or another pixel format; the first frame is read), a PIL
+    image, or an array as in `as_rgba`. EXIF orientation is applied. All kinds of transparency are
+    read: alpha, one transparent colour, and transparent entries of a palette.
 
-    The colours are sRGB: what an embedded ICC profile, or a PNG's cICP, gAMA and cHRM chunks say is
-    converted; a profile that is damaged is ignored, with a ColorWarning. The result is uint8, or
-    uint16 where the source holds more than 8 bit (PNG, TIFF, arrays), unless its profile is another
-    one than sRGB's. Messages call the picture ``name``, by default the file's path.
+    Colours are converted to sRGB from an embedded ICC profile, or from a PNG's cICP, gAMA and cHRM
+    chunks. A damaged profile is ignored, with a ColorWarning. The result is uint8. It is uint16 if
+    the source has more than 8 bit (PNG, TIFF, arrays) and no profile other than sRGB. Messages call
+    the picture ``name``, by default the file's path.
 
-    Raises a TraceError when the file is missing, damaged or not a picture, the path is a URL, or
-    the picture is empty or too large.
+    Raises a TraceError when the file is missing, damaged or not a picture, when the path is a URL,
+    or when the picture is empty or too large.
     """
     if isinstance(source, (str, os.PathLike)):
         name, source = name or str(Path(source)), _bytes_of(source)
@@ -60,7 +60,7 @@ def read_image(source: ImageSource, name: str | None = None) -> RGBA:
         if isinstance(source, Image.Image):
             if (data := unread_file(source)) is not None:
                 pixels = _decode(data, name)
-                source.load()  # as whatever uses a picture does; that closes its file
+                source.load()  # closes its file, as any use of a picture does
                 return pixels
             return _from_pillow(source, None, name)
         if isinstance(source, (bytes, bytearray, memoryview)):
@@ -75,12 +75,13 @@ def read_image(source: ImageSource, name: str | None = None) -> RGBA:
 
 
 def as_rgba(image: ArrayLike) -> RGBA:
-    """Bring an array to (h, w, 4) RGBA.
+    """Convert an array to (h, w, 4) RGBA.
 
     The array is (h, w) or (h, w, 1) grey, (h, w, 2) grey and alpha, (h, w, 3) RGB or (h, w, 4)
-    RGBA; bool, uint8, uint16, or float in [0, 1]. The result is uint8 for bool and uint8 (the array
-    itself if it is RGBA already), uint16 for the other types. Raises a TraceError for what is
-    empty, too large, of another shape or type, NaN, or outside [0, 1].
+    RGBA. Its type is bool, uint8, uint16, or float in [0, 1]. The result is uint8 for bool and
+    uint8, and uint16 for the other types. A uint8 or uint16 RGBA array is returned itself. Raises a
+    TraceError for an array that is empty, too large or of another shape or type, and for floats
+    that are NaN or outside [0, 1].
     """
     try:
         array: NDArray[Any] = np.asarray(image)
@@ -114,7 +115,7 @@ def as_rgba(image: ArrayLike) -> RGBA:
 
 
 def png(pixels: NDArray[np.uint8], compress_level: int = 6) -> bytes:
-    """A PNG file of (h, w), (h, w, 3) or (h, w, 4) pixels, which says that they are sRGB."""
+    """A PNG file of (h, w), (h, w, 3) or (h, w, 4) pixels, marked as sRGB."""
     buffer = io.BytesIO()
     picture = Image.fromarray(pixels)
     picture.save(buffer, "PNG", compress_level=compress_level, pnginfo=srgb_chunk())
@@ -122,7 +123,7 @@ def png(pixels: NDArray[np.uint8], compress_level: int = 6) -> bytes:
 
 
 def srgb_chunk() -> PngInfo:
-    """What Pillow is told to write into a PNG for it to say that its colours are sRGB."""
+    """The chunk, for Pillow, that marks the colours of a PNG as sRGB."""
     chunks = PngInfo()
     chunks.add(b"sRGB", _PERCEPTUAL)
     return chunks
@@ -173,11 +174,11 @@ def _decode(data: bytes, name: str) -> RGBA:
 
 
 def picture_format(data: bytes) -> str | None:
-    """Pillow's name for the format of a picture's file, such as "JPEG"; None for no picture."""
+    """Pillow's name for the format of a picture's file, such as "JPEG"; None for other files."""
     try:
         with Image.open(io.BytesIO(data), formats=formats()) as picture:
             return picture.format
-    except Exception:  # a damaged picture is none either
+    except Exception:  # damaged pictures count as no picture
         return None
 
 
@@ -192,7 +193,7 @@ def _from_pillow(picture: Image.Image, data: bytes | None, name: str) -> RGBA:
 
 
 def _from_array(array: NDArray[Any], name: str) -> RGBA:
-    # Pillow gives 16-bit pixels, and 8-bit ones that came from an array, as 32-bit integers.
+    # Pillow gives 16-bit pixels as 32-bit integers, and also 8-bit pixels that came from an array.
     if array.dtype in (np.int32, np.uint16):
         low, high = int(array.min()), int(array.max())
         if low < 0 or high > 65535:

@@ -21,16 +21,16 @@ View = Literal["source", "fit"]
 Interpolation = Literal["smooth", "nearest"]
 _SIZE = {"least": -np.inf, "form": "(width, height) in whole pixels"}
 
-TOLERANCE_PX = 0.25  # straight mesh edges may stray from the map by this many output pixels
+TOLERANCE_PX = 0.25  # straight mesh edges may deviate from the map by this many output pixels
 _PIXELS_PER_VERTEX = 500  # output pixels per vertex of the mesh before refinement
 _EVEN_VERTICES = 1000, 8000  # least and most of these vertices
 _MOST_PIXELS = 1 << 30
 MARGIN = 0.04  # room around the shape with view="fit", as a share of the output's sides
-_OVERHANG = 2.0  # world units by which a cage may reach beyond its picture, due to its offset
+_OVERHANG = 2.0  # world units by which a cage may reach beyond its picture because of its offset
 
 
 class RenderError(InputError):
-    """A picture cannot be warped as asked; the message says why."""
+    """A picture cannot be warped with these arguments; the message says why."""
 
 
 def render(
@@ -46,25 +46,27 @@ def render(
 ) -> NDArray[Any]:
     """Warp a picture through a map; (h, w, 4) uint8 RGBA with straight alpha.
 
-    The image, (h, w), (h, w, 3), (h, w, 4) or a Texture, is the one that the map's cage was traced
-    from, or one of the same aspect ratio; its longer side is 20 world units. The result has
-    ``size``, (w, h) pixels, by default the image's own, and is transparent beside the shape.
+    The image is (h, w), (h, w, 3), (h, w, 4) or a Texture. It is the picture from which the map's
+    cage was traced, or one of the same aspect ratio; its longer side is 20 world units. The result
+    has ``size``, (w, h) pixels, by default the image's own, and is transparent beside the shape.
 
     With ``interpolation="nearest"`` the image may be (h, w) or (h, w, c) numbers of any type, such
-    as labels, and the result is alike: a pixel takes the value of one pixel of the image, or
-    ``fill`` beside the shape. Where the shape overlaps itself, what is ``fill`` covers nothing.
+    as labels. The result has the same type: each pixel takes the value of one pixel of the image,
+    or ``fill`` beside the shape. Where the shape overlaps itself, pixels of the value ``fill``
+    cover nothing.
 
-    The view is "source", the rectangle of the image, letter-boxed if ``size`` has another aspect
-    ratio; or "fit", all of the deformed shape, with a margin. The depths of a pose say which part
-    is in front where the shape overlaps itself. The mesh gets about ``n_vertices``, evenly spread;
-    by default as many as keep its straight edges within 0.25 output pixels of the map.
+    The view "source" shows the rectangle of the image, letter-boxed if ``size`` has another aspect
+    ratio. The view "fit" shows all of the deformed shape, with a margin. The depths of a pose
+    decide which part is in front where the shape overlaps itself. The mesh has about
+    ``n_vertices``, evenly spread. The default number keeps its straight edges within 0.25 output
+    pixels of the map.
 
     A large picture is drawn in tiles, on all cores. ``progress`` is called with the numbers of
-    finished and of all tiles; where it returns True the drawing ends with
+    finished and of all tiles. If it returns True, the drawing ends with
     `glid_nb.imaging.progress.Stopped`.
 
-    Raises a RenderError that says which argument is out of range, or that the map's cage does not
-    fit the picture or the map collapses the shape.
+    Raises a RenderError when an argument is out of range, the map's cage does not fit the picture,
+    or the map collapses the shape.
     """
     check_type("map", map, HarmonicMap, "such as that of a result")
     check_type("pose", pose, Pose | None, "for its depths")
@@ -91,7 +93,7 @@ def _moved(
     fill: float,
     progress: Progress | None,
 ) -> NDArray[Any]:
-    """The values (h, w) or (h, w, c) of a deformed mesh whose cage was traced from them."""
+    """Move values (h, w) or (h, w, c) with a deformed mesh whose cage was traced from them."""
     height, width = values.shape[:2]
     places = PixelFrame(width, height).to_pixel(mesh.vertices)
     positions, size = frame.to_pixel(mesh.images), (frame.width, frame.height)
@@ -102,7 +104,8 @@ def _moved(
 
 
 def _values(image: ArrayLike | Texture, fill: float) -> NDArray[Any]:
-    """An array for interpolation="nearest"; a RenderError if it is none, or cannot hold `fill`."""
+    """The array for interpolation="nearest". Raises a RenderError if the image is no array of
+    numbers or cannot hold `fill`."""
     if isinstance(image, Texture):
         what = "a Texture has been prepared for interpolation"
         raise RenderError(f'{what}; for interpolation="nearest" give the array itself')
@@ -130,7 +133,7 @@ def _values(image: ArrayLike | Texture, fill: float) -> NDArray[Any]:
 def frame_of(
     source: PixelFrame, map: HarmonicMap, size: tuple[int, int] | None, view: View
 ) -> PixelFrame:
-    """The frame of what `render` draws of a picture with the frame ``source``."""
+    """The frame of the picture that `render` draws from a picture with the frame ``source``."""
     if view not in get_args(View):
         raise RenderError(f"unknown view {view!r}; choose one of {', '.join(get_args(View))}")
     sides = (source.width, source.height) if size is None else plain(size)
@@ -175,7 +178,7 @@ def check_fits(frame: PixelFrame, map: HarmonicMap) -> None:
 def draw_mesh(
     texture: Texture, mesh: DeformedMesh, frame: PixelFrame, progress: Progress | None = None
 ) -> NDArray[np.uint8]:
-    """The RGBA pixels of a deformed mesh whose cage was traced from the texture."""
+    """Draw a deformed mesh whose cage was traced from the texture; RGBA pixels."""
     places = PixelFrame(*texture.size).to_pixel(mesh.vertices)
     positions, size = frame.to_pixel(mesh.images), (frame.width, frame.height)
     return render_mesh(texture, places, positions, mesh.triangles, size, mesh.heights, progress)

@@ -1,7 +1,7 @@
-"""Foreground by a user's scribbles: the random walker of Grady (2006), by scikit-image.
+"""Foreground from a user's scribbles, by the random walker of Grady (2006) in scikit-image.
 
-Its direct solver takes 0.27 s for 40,000 pixels on one core. Its conjugate gradients take 4 to 30 s
-with our contrasts (weights from 1e-10 to 1) and end far from the solution.
+We use its direct solver, which takes 0.27 s for 40,000 pixels on one core. Its conjugate gradients
+take 4 to 30 s with our contrasts (weights from 1e-10 to 1) and end far from the solution.
 """
 
 import numpy as np
@@ -14,13 +14,17 @@ from glid_nb.imaging.read import as_rgba8
 
 _WALKED_PIXELS = 40_000
 _FOREGROUND, _BACKGROUND = 1, 2
-# How much an edge in the picture hinders the walker. With scikit-image's default of 130, meant for
-# noisy pictures, the outline of a photograph runs midway between the strokes, not along edges.
+# How much an edge in the picture hinders the walker. scikit-image's default of 130 is meant for
+# noisy pictures. With it, the outline in a photograph runs midway between the strokes, not along
+# edges.
 _BETA = 1000.0
 
 
 def scaled_picture(image: NDArray[np.unsignedinteger]) -> NDArray[np.float64]:
-    """40,000 pixels (h, w, 3) in [0, 1]; (h, w, 4) with premultiplied colours if alpha varies."""
+    """Scale a picture to at most 40,000 pixels; (h, w, 3) in [0, 1].
+
+    If alpha varies, the result is (h, w, 4) with premultiplied colours.
+    """
     small = Image.fromarray(as_rgba8(image))
     scale = np.sqrt(_WALKED_PIXELS / (small.width * small.height))
     if scale < 1:
@@ -35,8 +39,10 @@ def scaled_picture(image: NDArray[np.unsignedinteger]) -> NDArray[np.float64]:
 def scribble_score(
     scaled: NDArray[np.float64], scribbles: Scribbles, shape: tuple[int, int]
 ) -> tuple[NDArray[np.float32], tuple[str, ...]]:
-    """(h, w) probability that a random walker on a `scaled_picture` meets the foreground strokes
-    first, and notes; ``shape`` is the picture's."""
+    """(h, w) probability that a random walker meets the foreground strokes first, and notes.
+
+    The walk is on a `scaled_picture`. ``shape`` (h, w) is that of the whole picture.
+    """
     from skimage.segmentation import random_walker  # noqa: PLC0415  (slow to import)
 
     labels, notes = _labels(scribbles, shape, (scaled.shape[0], scaled.shape[1]))
@@ -94,7 +100,7 @@ def _drawn(
         return drawn
     picture = Image.new("1", (size[1], size[0]))
     for stroke in strokes:
-        # Clipped, as a stroke that goes far outside would take forever to draw.
+        # Clip the stroke: one that goes far outside would take forever to draw.
         points = np.clip(np.floor(stroke * factor[::-1]), -max(size), 2 * max(size))
         ImageDraw.Draw(picture).point(points[0].tolist(), fill=1)
         ImageDraw.Draw(picture).line(points.ravel().tolist(), fill=1)

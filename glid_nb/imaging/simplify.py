@@ -1,7 +1,7 @@
-"""Simplify the loops of an outline together, so that they stay disjoint: which vertices a cage has.
+"""Choose the vertices of a cage: simplify the loops of an outline together, so they stay disjoint.
 
-They are those that the algorithm of Ramer, Douglas and Peucker keeps. Libraries were tried and
-lost: shapely lets loops come close and cuts off more; scikit-image takes one loop at a time.
+The algorithm is that of Ramer, Douglas and Peucker. We do not use a library: shapely lets loops
+come close and cuts off more, and scikit-image simplifies one loop at a time.
 """
 
 from dataclasses import dataclass
@@ -14,20 +14,22 @@ from glid_nb._arrays import Array, Floats, read_only
 from glid_nb.geometry._loops import Loops, as_points, subdivided
 from glid_nb.imaging.loops import in_conflict, passed_over, repair, significance
 
-# Numbers of vertices for the automatic tolerance: about _VERTICES while it is below the offset, not
-# many more than _MANY while it is below a few times the offset, and never more than _MOST.
+# Numbers of vertices from which the automatic tolerance is computed.
+# _VERTICES: the aim, while the tolerance is below the offset.
+# _MANY: more vertices than this raise the tolerance, up to _FAR offsets.
+# _MOST: more vertices than this raise the tolerance without limit.
 _VERTICES, _MANY, _MOST = 75, 115, 300
-_VERTICES_PER_HOLE = 6
+_VERTICES_PER_HOLE = 6  # added to these numbers for each hole
 _FAR = 3.0  # times the offset
 _LEAST_TOLERANCE = 0.25  # pixels
-_SHARE = 0.01  # replaces a smaller offset, relative to the square root of the area
-_LOOP_SHARE = 0.08  # most tolerance relative to the loop's own area; small holes keep their form
-_GAP, _LEAST_GAP = 0.25, 0.1  # distance of loops, relative to the room and in pixels
-_MARGIN = 0.5  # of the offset may be cut off
+_SHARE = 0.01  # of the square root of the area: replaces the offset if that is smaller
+_LOOP_SHARE = 0.08  # most tolerance, relative to the square root of the loop's own area
+_GAP, _LEAST_GAP = 0.25, 0.1  # least distance of loops, relative to the room and in pixels
+_MARGIN = 0.5  # share of the offset that edges may cut off
 _MIN_EDGE = 0.2  # of the mean edge
 _MAX_EDGE = 0.04  # of the perimeter
-_PER_LOOP = 12  # edges longer than a loop's perimeter over this are never short
-_FEWEST, _LEAST_ANGLE = 4, 0.05  # edges of a loop, and angles in it, that merging leaves
+_PER_LOOP = 12  # an edge is short only if it is below the loop's perimeter over this
+_FEWEST, _LEAST_ANGLE = 4, 0.05  # merging leaves at least this many edges; and larger angles
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,11 +56,11 @@ def simplify(
     offset: float = 0.0,
     room: float = 0.0,
 ) -> Simplified:
-    """Drop vertices of loops, the exterior first, without making them meet themselves or others.
+    """Drop vertices of loops, the exterior first. The loops never meet themselves or each other.
 
-    They were moved by ``offset`` away from the shape: the automatic tolerance stays below it if
-    possible, so that the shape stays inside. They are about ``room`` apart, and keep a part of it.
-    The rest is as in `TraceOptions`.
+    The loops were moved away from the shape by ``offset``. If possible, the automatic tolerance
+    stays below ``offset``, so that the shape stays inside. The loops are about ``room`` apart and
+    keep a part of this distance. For the other arguments see `TraceOptions`.
     """
     whole, by_loop = Loops.of(loops), [significance(loop) for loop in loops]
     importance = np.concatenate(by_loop)
@@ -112,7 +114,8 @@ def _automatic_tolerance(importance: Array, n_holes: int, area: float, offset: f
 
 
 def _merge_short_edges(loops: Loops, kept: Array, min_edge: float | None, gap: float) -> None:
-    """Drop an end of every edge shorter than `min_edge` from `kept` where nothing is in the way."""
+    """For each edge shorter than `min_edge`, drop one end from `kept` unless something is in the
+    way."""
     if min_edge is None:
         min_edge = _MIN_EDGE * float(loops[kept].lengths.mean())
     shortest = np.minimum(min_edge, loops[kept].perimeters / _PER_LOOP)
@@ -129,7 +132,7 @@ def _merge_short_edges(loops: Loops, kept: Array, min_edge: float | None, gap: f
 
 
 def _droppable(loops: Loops, blocked: Array, shortest: Array) -> Array:
-    """Vertices at short edges, one per edge, so far apart that dropping them is independent."""
+    """Vertices at short edges, one per edge, far enough apart to drop them independently."""
     length, around = loops.lengths, _around(loops)
     bases = shapely.linestrings(loops.points[around[:, [1, 3]]])
     height = np.asarray(shapely.distance(shapely.points(loops.points), bases))
@@ -156,8 +159,11 @@ def _around(loops: Loops) -> NDArray[np.intp]:
 
 
 def _clear(loops: Loops, vertices: NDArray[np.intp], gap: float) -> NDArray[np.bool_]:
-    """Whether each vertex can be dropped: its triangle with its neighbours, widened by `gap`, is
-    clear of other edges, and the edge that replaces the two sides folds back onto none."""
+    """Whether each vertex can be dropped.
+
+    Its triangle with its neighbours, widened by `gap`, must not meet other edges. And the edge that
+    replaces the triangle's two sides must not fold back onto its neighbours.
+    """
     around = _around(loops)[vertices]
     corners = loops.points[around]
     triangle, edge = shapely.STRtree(loops.segments).query(
@@ -174,7 +180,7 @@ def _clear(loops: Loops, vertices: NDArray[np.intp], gap: float) -> NDArray[np.b
 
 
 def _divided(loops: Loops, max_edge: float | None, max_vertices: int | None) -> list[Floats]:
-    """The loops, with edges longer than `max_edge` in even parts; fewer for `max_vertices`."""
+    """Divide edges longer than `max_edge` into even parts; into fewer parts for `max_vertices`."""
     length = loops.lengths
     longest = _MAX_EDGE * float(length.sum()) if max_edge is None else max_edge
     most = np.inf if max_vertices is None else max(max_vertices, len(length))
@@ -185,7 +191,8 @@ def _divided(loops: Loops, max_edge: float | None, max_vertices: int | None) -> 
 
 
 def _enclosing(loops: Loops, kept: NDArray[np.bool_], margin: float, gap: float) -> Loops:
-    """The simplified loops; chords that cut off over `margin` move outwards unless loops meet."""
+    """The simplified loops. Edges that cut off more than `margin` move outwards unless loops would
+    meet."""
     simplified = loops[kept]
     areas = simplified.areas
     shifts = _shifts(loops, kept, areas, margin)
@@ -217,7 +224,7 @@ def _shifts(loops: Loops, kept: Array, areas: Array, margin: float) -> Floats:
             beyond = (loops.points[over] - corners.points[k]) @ normal[k]
             cut[k] = max(0.0, float(beyond.max()) - margin)
     before, cut_before = normal[corners.before], cut[corners.before]
-    # A vertex moves to the intersection of its moved edges, but not farther than twice their moves.
+    # A vertex moves to the intersection of its two moved edges, at most twice as far as the edges.
     middle = before + normal
     square = np.maximum(np.sum(middle**2, axis=1), 1e-12)
     (ax, ay), (bx, by) = before.T, normal.T

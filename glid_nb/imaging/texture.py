@@ -11,12 +11,13 @@ from numpy.typing import ArrayLike, NDArray
 from glid_nb._arrays import Array, Floats
 from glid_nb.imaging.read import as_rgba
 
-_CHUNK = 1 << 14  # look-ups at a time, whose arrays stay in the cache
-_MOST_PROBES = 16  # look-ups along an axis of a pixel's footprint
-_MOST_BLUR = 1.5  # by which nearly all of a minified picture may lose resolution
+_CHUNK = 1 << 14  # look-ups at a time; their arrays fit in the processor's cache
+_MOST_PROBES = 16  # most look-ups along an axis of a pixel's footprint
+_MOST_BLUR = 1.5  # factor by which nearly all of a minified picture may lose resolution
 _ROWS = 256  # rows of a picture that are converted at a time, to bound the memory
 
-_SPARSE = 12  # texels per look-up; where there are more, each look-up fetches its own
+# If a patch has more texels per look-up than this, each look-up fetches its own texels.
+_SPARSE = 12
 _AROUND = np.arange(-1, 3, dtype=np.int32)[:, np.newaxis]
 
 
@@ -29,7 +30,7 @@ class Texture:
 
     @classmethod
     def from_image(cls, image: "ArrayLike | Texture") -> "Texture":
-        """Prepare a picture, as `as_rgba` takes it; a texture stays as it is."""
+        """Prepare a picture of any kind that `as_rgba` accepts. A texture is returned as it is."""
         if isinstance(image, Texture):
             return image
         source = as_rgba(image)
@@ -49,19 +50,20 @@ class Texture:
         return self.pixels.shape[1], self.pixels.shape[0]
 
     def reduced(self, n: int) -> NDArray[np.uint16]:
-        """Averages over blocks of n x n pixels; the last row and column are repeated."""
+        """Means over blocks of n x n pixels. The last row and column are repeated as padding."""
         if n == 1 or n in self._reduced:
             return self._reduced.get(n, self.pixels)
         rest = ((0, -self.size[1] % n), (0, -self.size[0] % n), (0, 0))
         pixels = np.pad(self.pixels, rest, mode="edge")
         blocks = pixels.reshape(pixels.shape[0] // n, n, -1, n, 4)
         means = np.rint(blocks.mean(axis=(1, 3), dtype=np.float32))
-        self._reduced[n] = means.astype(np.uint16)  # of an animation, wanted for every frame
+        self._reduced[n] = means.astype(np.uint16)  # kept, because each frame of an animation asks
         return self._reduced[n]
 
 
 def gradients(corners: Floats, values: Floats) -> Floats:
-    """Slopes (t, k, 2) of linear functions with values (t, 3, k) at corners; 0 without an area."""
+    """Slopes (t, k, 2) of linear functions with values (t, 3, k) at corners; 0 if the triangle has
+    no area."""
     e, rise = corners[:, 1:] - corners[:, :1], values[:, 1:] - values[:, :1]
     with np.errstate(over="ignore", invalid="ignore"):
         cofactors = np.stack([e[:, 1, ::-1] * [1, -1], e[:, 0, ::-1] * [-1, 1]], axis=1)
@@ -74,9 +76,9 @@ def gradients(corners: Floats, values: Floats) -> Floats:
 class Sampler:
     """Samples a texture through triangles with corners (t, 3, 2) in the output and in the picture.
 
-    A disc of one output pixel maps to an ellipse in the texture. Up to 16 x 16 look-ups along its
-    axes are averaged, in a picture that is scaled down first if it is minified nearly everywhere. A
-    look-up interpolates by Catmull-Rom cubics, which reproduce an undeformed picture.
+    A disc of one output pixel maps to an ellipse in the texture. Up to 16 x 16 look-ups along the
+    axes of the ellipse are averaged. If the picture is minified nearly everywhere, it is scaled
+    down first. A look-up interpolates by Catmull-Rom cubics, which reproduce an undeformed picture.
     """
 
     def __init__(self, texture: Texture, positions: Floats, places: Floats) -> None:
@@ -95,7 +97,7 @@ class Sampler:
         self._steps = axes * (radii / self._probes)[:, None]
 
     def __call__(self, triangle: NDArray[np.integer], x: Floats, y: Floats) -> NDArray[np.float32]:
-        """(k, 4) premultiplied RGBA in [0, 1] at points of the output, each seen in a triangle."""
+        """(k, 4) premultiplied RGBA in [0, 1] at points of the output, each in a given triangle."""
         result = np.empty((len(triangle), 4), np.float32)
         if not len(triangle):
             return result
@@ -124,7 +126,7 @@ class Sampler:
             total = np.add.reduceat(patch.bicubic(*at), first)
             total /= (65535 * n_lookups[:, None]).astype(np.float32)
         self._fade(total, triangle, places)
-        # Cubics overshoot: restore 0 <= colour <= alpha <= 1, with the hue where alpha exceeds 1.
+        # Cubics overshoot. Restore 0 <= colour <= alpha <= 1; where alpha exceeds 1, keep the hue.
         total /= np.maximum(total[:, 3:], 1)
         alpha = total[:, 3:]
         np.maximum(alpha, 0, out=alpha)
@@ -144,7 +146,8 @@ class _Patch(NamedTuple):
     """The part of a picture that look-ups need."""
 
     texels: NDArray[Any]
-    """(m, 4): float32 of the part alone, or the whole picture where look-ups are few and far."""
+    """(m, 4) texels: the part as float32, or the whole picture if look-ups are few and far apart.
+    """
     size: tuple[int, int]  # (w, h) of the whole picture
     corner: tuple[int, int]  # (x, y) of the first texel
     width: int
@@ -154,7 +157,7 @@ class _Patch(NamedTuple):
         cls, pixels: NDArray[np.uint16], places: Floats, radius: float, n_lookups: int
     ) -> Self:
         height, width, _ = pixels.shape
-        room = radius + 3  # an ellipse, and the neighbours of a place
+        room = radius + 3  # for the ellipse and the neighbours of a place
         low, high = places.min(axis=1) - room, places.max(axis=1) + room
         x0, y0 = (int(v) for v in np.clip(low, 0, (width - 1, height - 1)))
         x1, y1 = (int(v) + 1 for v in np.clip(high, 0, (width - 1, height - 1)))
@@ -164,7 +167,7 @@ class _Patch(NamedTuple):
         return cls(part, (width, height), (x0, y0), x1 - x0)
 
     def bicubic(self, x: Floats, y: Floats) -> NDArray[np.float32]:
-        """(k, 4) Catmull-Rom interpolation at places in pixels from the first one's centre."""
+        """(k, 4) Catmull-Rom interpolation at places, in pixels from the first pixel's centre."""
         (column, across), (row, down) = (
             _neighbours(at, n, first)
             for at, n, first in zip((x, y), self.size, self.corner, strict=True)
@@ -193,7 +196,8 @@ def affine(positions: Floats, places: Floats, jacobian: Floats) -> Floats:
 
 
 def placed(maps: Floats, triangle: NDArray[np.integer], x: Floats, y: Floats) -> Floats:
-    """(2, k) places of points of the output by the `affine` maps of their triangles."""
+    """(2, k) places in the picture of points of the output, by the `affine` maps of their
+    triangles."""
     a = maps.take(triangle, axis=0)
     return np.stack([a[:, 0] * x + a[:, 1] * y + a[:, 2], a[:, 3] * x + a[:, 4] * y + a[:, 5]])
 
@@ -203,13 +207,16 @@ def _times(matrices: Floats, vectors: Floats) -> Floats:
 
 
 def _neighbours(t: Floats, n: int, first: int) -> tuple[NDArray[np.int32], NDArray[np.float32]]:
-    """(4, k) the pixels of n around places t (k,), counted from ``first``, and their weights."""
+    """(4, k) indices of the four pixels around each place t (k,), and their weights.
+
+    There are n pixels. Indices are counted from the pixel ``first``.
+    """
     middle = np.floor(t)
     index = middle.astype(np.int32) + _AROUND
     np.clip(index, 0, n - 1, out=index)
     index -= first
     f = np.subtract(t, middle).astype(np.float32)
-    # Catmull and Rom's cubics of the place between the middle two, by Horner's scheme.
+    # Catmull-Rom cubics of the place between the middle two pixels, by Horner's scheme.
     weights = np.empty((4, len(t)), np.float32)
     weights[0] = ((1 - 0.5 * f) * f - 0.5) * f
     weights[1] = (1.5 * f - 2.5) * f * f + 1

@@ -1,4 +1,4 @@
-"""From a picture to a cage."""
+"""Trace a cage from a picture."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, fields, replace
@@ -19,11 +19,15 @@ from glid_nb.imaging.read import RGBA, ImageSource, read_image
 from glid_nb.imaging.scribbles import scaled_picture
 from glid_nb.imaging.simplify import Simplified, simplify
 
-_CUT_OFF = 0.002  # share of the shape's area outside the cage that is worth a note
-_LEFT_OUT = 0.01  # likewise, share of the foreground in other components
-# A foreground that was found without being told is a guess if more than a share of the picture lies
-# this near the threshold, or if it falls into more components than this. Cut-outs on one colour,
-# noisy or compressed, have a share of at most 0.04 and some 30 components, photographs more.
+_CUT_OFF = 0.002  # a larger share of the shape's area outside the cage is worth a note
+_LEFT_OUT = 0.01  # a larger share of the foreground in other components is worth a note
+# A foreground that was found automatically may be only a guess.
+# _NEAR: pixels are doubtful if their score is this close to the threshold.
+# _UNSURE: it is a guess if the doubtful share of the picture is larger.
+# _UNSURE_BY_BRIGHTNESS: the same limit for the method "threshold".
+# _CLUTTER: it is a guess if it has more components.
+# Cut-outs on one colour, noisy or compressed, have a doubtful share of at most 0.04 and some 30
+# components. Photographs have more.
 _NEAR, _UNSURE, _UNSURE_BY_BRIGHTNESS, _CLUTTER = 0.05, 0.05, 0.01, 50
 
 T = TypeVar("T")
@@ -36,38 +40,38 @@ class Tracing:
     cage: Cage
     """The boundary P, in world coordinates."""
     mask: NDArray[np.bool_]
-    """(h, w) read-only, the pixels of the shape; holes that were dropped are filled."""
+    """(h, w) read-only mask of the shape's pixels; dropped holes are filled."""
     frame: PixelFrame
     """Conversion between pixel and world coordinates."""
     notes: tuple[str, ...]
-    """Sentences about what was chosen, filled, moved or repaired."""
+    """Sentences about automatic choices, filled holes, moved vertices and repairs."""
     doubt: str
-    """Why the foreground is a guess; empty where it is clear or options say how to find it."""
+    """Why the foreground is a guess; empty if it is clear or the options define it."""
     method: str
-    """How the foreground was found, never ``"auto"``."""
+    """How the foreground was found; never ``"auto"``."""
     threshold: float
     offset: float
     simplify: float
-    """The values used, given or automatic, in the terms of `TraceOptions`."""
+    """The values used, given or automatic; threshold, offset and simplify as in `TraceOptions`."""
     component: Component
     """The component that was traced."""
     components: tuple[Component, ...]
     """The largest components of the foreground, at most fifty."""
     n_components: int
-    """Their number without that limit."""
+    """Number of all components of the foreground."""
     outline: NDArray[np.float64]
     """(n, 2) read-only, the shape's exterior outline in pixel coordinates before the offset."""
     holes: tuple[Hole, ...]
-    """The shape's holes, the largest first, then those that the offset made; kept or not."""
+    """The shape's holes, kept or not, the largest first; then the holes that the offset made."""
     n_filled: int
-    """Number of holes that are filled, with the many small ones that `holes` leaves out."""
+    """Number of filled holes, including the many small ones that are not in `holes`."""
 
 
 def trace(image: ImageSource, options: TraceOptions | None = None, **changes: Any) -> Tracing:
-    """Trace a cage around the shape in a picture, which is given as to `read_image`.
+    """Trace a cage around the shape in a picture. `read_image` lists the accepted kinds of image.
 
-    The default options suit most drawings and many photographs; ``changes`` are fields of
-    `TraceOptions` to set. Raises a TraceError for a bad option, or a picture without a shape.
+    The default options suit most drawings and many photographs. ``changes`` sets fields of
+    `TraceOptions` by keyword. Raises a TraceError for a wrong option or a picture without a shape.
 
     >>> import numpy as np
     >>> y, x = np.mgrid[:100, :100] + 0.5
@@ -80,18 +84,19 @@ def trace(image: ImageSource, options: TraceOptions | None = None, **changes: An
 
 
 def with_changes(options: TraceOptions | None, changes: dict[str, Any]) -> TraceOptions:
-    """`options` with fields replaced; a TraceError with a suggestion for an unknown name."""
+    """Replace fields of `options`. Raises a TraceError with a suggestion for an unknown name."""
     known = (field.name for field in fields(TraceOptions))
     check_keywords("trace", changes, known, TraceError)
     return replace(options if options is not None else TraceOptions(), **changes)
 
 
 class Tracer:
-    """Traces one picture repeatedly and reuses what changed options do not affect.
+    """Traces one picture repeatedly and reuses results that changed options do not affect.
 
     The stages are foreground, components, outline, holes, dilation and simplification. A stage runs
-    again if one of its options, or a result that it depends on, has changed. Not thread-safe. The
-    picture is given as to `read_image`; an array is not copied and must not be changed afterwards.
+    again if one of its options, or a result that it depends on, has changed. Not thread-safe.
+    `read_image` lists the accepted kinds of image. An array is not copied and must not be changed
+    afterwards.
     """
 
     def __init__(self, image: ImageSource) -> None:
@@ -167,7 +172,7 @@ def _doubt(foreground: Foreground, n_components: int, options: TraceOptions) -> 
     told = (options.threshold, options.background, options.background_at) != (None, None, None)
     if told or options.method != "auto" or foreground.method not in ("color", "threshold"):
         return ""
-    step = 1 + max(foreground.score.shape) // 1500  # a sample of a large picture suffices
+    step = 1 + max(foreground.score.shape) // 1500  # a sample of a large picture is enough
     near = np.mean(np.abs(foreground.score[::step, ::step] - foreground.level()) < _NEAR)
     if foreground.method == "threshold" and near > _UNSURE_BY_BRIGHTNESS:
         return "the background has no single colour"

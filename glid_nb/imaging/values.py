@@ -1,4 +1,4 @@
-"""Files of numbers that must not be mixed, such as labels: read and written as they are stored."""
+"""Read and write numbers that must not be mixed, such as labels, exactly as they are stored."""
 
 import io
 from pathlib import Path
@@ -16,16 +16,17 @@ SUFFIXES = (".png", ".npy", ".tif", ".tiff")
 
 
 class Values(NamedTuple):
-    """Numbers (h, w) or (h, w, c) of any type, and the colours that a palette gives them."""
+    """Numbers (h, w) or (h, w, c) of any type, and a palette of their colours."""
 
     array: NDArray[Any]
-    palette: list[int] | None = None  # red, green and blue of 0, of 1, and so on
+    palette: list[int] | None = None  # red, green and blue of the number 0, then of 1, and so on
 
 
 def read_values(path: Path) -> Values:
-    """The numbers of a .npy file or a picture: a palette's indices, labels, measured values.
+    """Read the numbers of a .npy file or a picture: palette indices, labels, measured values.
 
-    Colours are not converted. Raises a TraceError for what is damaged or no picture, an OSError.
+    Colours are not converted. Raises a TraceError when the file is damaged or no picture, or an
+    OSError.
     """
     data = read_file(path)
     try:
@@ -48,7 +49,7 @@ def read_values(path: Path) -> Values:
 
 
 def values_file(values: Values, suffix: str) -> bytes:
-    """The content of a file of numbers; a TraceError for what a PNG cannot hold."""
+    """The content of a file of numbers. Raises a TraceError for values that a PNG cannot hold."""
     array, file = values.array, io.BytesIO()
     if suffix == ".npy":
         np.save(file, array, allow_pickle=False)

@@ -1,7 +1,8 @@
-"""Other methods on the same problems, as values for the argument ``method`` of ``solve``.
+"""Other methods for the same problems, as values for the argument ``method`` of ``solve``.
 
-``solve(domain, pose, method=methods.LBFGS(memory=5))``. Those in the harmonic subspace use Newton's
-own line search and certificate; those on a mesh may fold.
+For example ``solve(domain, pose, method=methods.LBFGS(memory=5))``. Methods in the harmonic
+subspace use the line search and the certificate of our Newton method. Maps of methods on a mesh may
+fold.
 """
 
 from collections.abc import Mapping
@@ -40,18 +41,18 @@ METHODS: Mapping[str, type[Method]] = {
         *(MeanValueCoordinates, CauchyCoordinates),
     )
 }
-"""All methods by name, in the order in which a list of them should show them."""
+"""All methods by name, in the order of menus."""
 
 
 def available() -> dict[str, type[Method]]:
-    """The methods by name whose optional package is installed."""
+    """All methods by name, except those whose optional package is not installed."""
     return {name: method for name, method in METHODS.items() if method.available()}
 
 
 def by_name(name: str, /, **settings: Any) -> Method:
-    """The method of a name with some settings, as a file or a menu gives them.
+    """The method with this name and these settings, for example from a file or a menu.
 
-    A MethodError for an unknown method, an unknown setting, or one out of its range.
+    Raises a MethodError for an unknown method, an unknown setting, or a setting out of range.
     """
     if not isinstance(name, str) or name not in METHODS:
         hint = did_you_mean(name, METHODS) if isinstance(name, str) else ""

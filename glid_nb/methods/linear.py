@@ -1,4 +1,4 @@
-"""Linear baselines: one solve, no energy, and nothing that keeps them from folding."""
+"""Linear baselines: one solve, no energy, no protection against folds."""
 
 import functools
 from collections.abc import Callable
@@ -19,15 +19,15 @@ from glid_nb.solvers.loop import Ending, Steps
 
 Kind = Literal["rigid", "similarity"]
 
-# A point this close to an edge, relative to its ends' distances, is on it.
+# A point counts as on an edge if it is this close, relative to its distances from the edge's ends.
 _ON_EDGE = 1e-12
 _TAKEN = "mean value coordinates take the handles as their cage"
-_FLAT = 1e-12  # an area relative to the square of the shape's longer side: none
+_FLAT = 1e-12  # smaller areas, relative to the square of the shape's longer side, count as 0
 
 
 @dataclass(frozen=True)
 class LinearMethod(MeshMethod):
-    """A method that solves once; its images are shown on a mesh."""
+    """A method that solves once. A mesh shows its images."""
 
     family = "linear"
     options = ("align", "max_iterations")
@@ -134,14 +134,17 @@ def _blended(problem: MeshProblem, weights: Callable[..., Array], *settings: int
 
 
 def _around(handles: Array) -> Array:
-    """(h,) indices that order the handles by their angle about their mean: a simple polygon."""
+    """(h,) indices that sort the handles by their angle about their mean, to a simple polygon."""
     return np.argsort(np.angle(handles - handles.mean()), kind="stable")
 
 
 def moving_least_squares(
     z: Array, handles: Array, targets: Array, kind: Kind = "rigid", alpha: float = 1.0
 ) -> Array:
-    """(k,) images, handles at their targets, by motions of the weights ``|p_i - z|^(-2 alpha)``."""
+    """(k,) images by motions that fit the handles with the weights ``|p_i - z|^(-2 alpha)``.
+
+    Handles map exactly to their targets.
+    """
     if not len(handles):
         return z.copy()
     distance = np.abs(z[:, None] - handles)
@@ -169,7 +172,7 @@ def mean_value_coordinates(z: Array, polygon: Array) -> Array:
     total = tangent + np.roll(tangent, 1, axis=1)
     w = total / np.where(r > 0, r, 1)
     w = w / w.sum(axis=1, keepdims=True)
-    # On an edge: linear between its ends. At a vertex the two edges that meet there agree.
+    # On an edge the coordinates are linear. At a vertex its two edges give the same values.
     rows, edges = np.nonzero(flat & (dot <= 0))
     span = r[rows, edges] + r_after[rows, edges]
     w[rows] = 0
@@ -180,8 +183,10 @@ def mean_value_coordinates(z: Array, polygon: Array) -> Array:
 
 @double_precision
 def cauchy_point_to_point(domain: Domain, pose: Pose, p2p_weight: float) -> HarmonicMap:
-    """The map with ``psi = 0`` and no logarithms, of least ``|f''|^2`` along the boundary, for
-    lengths in the cage's ``unit``. The weight is ``lambda`` in the cage's own units."""
+    """The map with ``psi = 0`` and no logarithms that has the least ``|f''|^2`` along the boundary.
+
+    Lengths are in the cage's ``unit``; ``p2p_weight`` is ``lambda`` in the cage's own units.
+    """
     basis = basis_of(domain)
     panels = graded_panels(domain)
     columns = np.flatnonzero(basis.phi_free)[: int(basis.phi_free.sum()) - domain.n_holes]
@@ -196,18 +201,19 @@ def cauchy_point_to_point(domain: Domain, pose: Pose, p2p_weight: float) -> Harm
         right = p2p_weight / 2 * rows.conj().T @ targets
     padded = basis.pad(HarmonicMap.identity(domain).phi)
     base = padded[columns]
-    # Relative to the identity, so that what the handles leave open stays as it is.
+    # Solve for the change from the identity, so that degrees of freedom without data do not change.
     padded[columns] = base + np.linalg.lstsq(normal, right - normal @ base, rcond=1e-14)[0]
     return HarmonicMap(domain, padded[basis.columns], np.zeros(domain.n_coefficients))
 
 
 @functools.lru_cache(maxsize=2)
 def bounded_biharmonic_weights(mesh: Triangulation, handles: bytes, iterations: int = 20) -> Array:
-    """(v, h) weights in [0, 1] that add up to 1 (Jacobson et al. 2011), kept while targets move.
+    """(v, h) weights in [0, 1] that add up to 1 (Jacobson et al. 2011). They are cached.
 
-    Each column has the least ``w K M^-1 K w`` within its bounds (``K`` the cotangent Laplacian,
-    ``M`` the Voronoi areas), then rows are divided by their sums. Bounds hold up to about 1e-4
-    where the ``iterations`` end libigl's active-set method early. ``handles``: bytes of (h,) int64.
+    Each column minimises ``w K M^-1 K w`` within its bounds, where ``K`` is the cotangent Laplacian
+    and ``M`` the Voronoi areas. Then rows are divided by their sums. If ``iterations`` ends
+    libigl's active-set method early, the bounds hold up to about 1e-4. ``handles`` are the bytes of
+    an (h,) int64 array.
     """
     import igl  # noqa: PLC0415
 
@@ -218,7 +224,10 @@ def bounded_biharmonic_weights(mesh: Triangulation, handles: bytes, iterations: 
 
 @functools.lru_cache(maxsize=2)
 def harmonic_weights(mesh: Triangulation, handles: bytes, power: int = 2) -> Array:
-    """(v, h) weights with vanishing Laplacian (``power = 1``) or bi-Laplacian (2), as above."""
+    """(v, h) weights whose Laplacian (``power = 1``) or bi-Laplacian (2) is 0. They are cached.
+
+    ``handles`` are the bytes of an (h,) int64 array.
+    """
     import igl  # noqa: PLC0415
 
     index = np.frombuffer(handles, np.int64)
@@ -226,7 +235,8 @@ def harmonic_weights(mesh: Triangulation, handles: bytes, power: int = 2) -> Arr
 
 
 def _flat(mesh: Triangulation) -> tuple[Array, Array]:
-    """For libigl, whose tolerances are absolute: the longer side is 20 units."""
+    """Vertices and triangles for libigl, scaled to a longer side of 20 units, because libigl's
+    tolerances are absolute."""
     scaled = mesh.vertices / (np.ptp(mesh.vertices, axis=0).max() / 20)
     vertices = np.column_stack([scaled, np.zeros(len(scaled))])
     return np.ascontiguousarray(vertices), np.ascontiguousarray(mesh.triangles, dtype=np.int64)

@@ -1,8 +1,8 @@
-"""Many poses of one shape at once, spread over all local devices.
+"""Solve many poses of one shape at once, spread over all local devices.
 
-Every CPU takes the next pose when it has done one. Other devices run their share of the poses
-vectorised, in lockstep; those that need the host, because a panel must be split, leave the batch
-and are finished one by one.
+A CPU device solves one pose at a time and then takes the next one. Other devices run their share
+of the poses vectorised, in lockstep. A pose whose panels must be split needs the host: it leaves
+the batch and is finished by itself.
 """
 
 from collections.abc import Iterable, Sequence
@@ -33,9 +33,10 @@ from glid_nb.solvers.options import Options
 from glid_nb.solvers.problem import SubspaceProblem
 from glid_nb.solvers.result import Result
 
-# Poses per device and call; few sizes, for each compiles a program of its own.
+# Poses per device and call. The list is short because each size compiles its own program.
 _SIZES = (1, 4, 16, 64)
-# Bytes that the Hessians of one call may take per device, with what is made on the way to them.
+# _MOST_BYTES: memory that the Hessians of one call may take per device.
+# _COPIES: Hessian-sized arrays that one pose needs, intermediate ones included.
 _MOST_BYTES, _COPIES = 1 << 29, 6
 
 
@@ -55,18 +56,19 @@ def solve_batch(
 ) -> tuple[Result, ...]:
     """Deform one shape into many poses.
 
-    The same as calling :func:`glid_nb.solve` for each row of targets, up to rounding, and faster
-    where there are several devices or one wide one. Every result, in order, has its own proof.
+    Equals calling :func:`glid_nb.solve` for each row of targets, up to rounding. It is faster with
+    several devices or with one wide device. The results are in the order of the targets, and each
+    has its own proof.
 
-    ``handles`` are (h, 2) points of the domain, ``targets`` (B, h, 2) where they should go in each
-    of B poses; depths, angles, scales and weights, (h,), and the stiffness are those of every pose,
-    as in :class:`glid_nb.Pose`. Energy and options are as in :func:`glid_nb.solve`. The devices are
-    by default all local ones; on several hosts under ``jax.distributed`` each call uses those of
-    its own host, so give every host its share of the poses.
+    ``handles`` are (h, 2) points of the domain. ``targets`` (B, h, 2) are their desired images in
+    each of B poses. Depths, angles, scales and weights, (h,), and the stiffness hold for every
+    pose, as in :class:`glid_nb.Pose`. Energy and options are as in :func:`glid_nb.solve`. The
+    default devices are all local ones. On several hosts under ``jax.distributed``, each call uses
+    the devices of its own host, so give every host its share of the poses.
 
-    Raises a TypeError when the domain or the options are of the wrong type, or the devices are not
-    one or more different ones of one platform; a PoseError when a handle lies outside the domain,
-    or the targets have another shape.
+    Raises a TypeError when the domain or the options have the wrong type, or when the devices are
+    not one or more different devices of one platform. Raises a PoseError when a handle lies outside
+    the domain, or when the targets have another shape.
     """
     check_type("domain", domain, Domain, "make one with Domain.from_cage(cage)")
     check_type("options", options, Options | None, "write Options(p2p_weight=...)")
@@ -79,9 +81,9 @@ def solve_batch(
     poses[0].check_inside(domain)
     devices = _checked_devices(jax.local_devices() if devices is None else devices)
     given = [Inputs(domain=domain, pose=pose, energy=energy, options=options) for pose in poses]
-    # A CPU gains nothing from lockstep, in which every pose takes every branch; and the thread pool
-    # of XLA 0.10 was seen to lose tasks of such programs and to wait for them for ever.
-    # Where angles or scales are wanted, the poses have no rows in common.
+    # A CPU gains nothing from lockstep, because every pose then executes every branch. Also, the
+    # thread pool of XLA 0.10 sometimes lost tasks of such programs and waited for them forever.
+    # With wanted angles or scales, the poses do not share the rows of the positional energy.
     alone = devices[0].platform == "cpu" or poses[0].turned.any()
     count, free = len(devices), SimpleQueue[Any]()
     groups = [[inputs] for inputs in given] if alone else [given[i::count] for i in range(count)]
@@ -139,10 +141,10 @@ def _poses(handles: ArrayLike, targets: ArrayLike, more: dict[str, Any]) -> list
 
 
 class _Pose(NewtonDescent):
-    """One pose on its way, in the batch at first."""
+    """The descent of one pose, first in the batch, then by itself if need be."""
 
-    seconds = 0.0  # in the batch
-    done: Advance | None = None  # what its last call came to
+    seconds = 0.0  # spent in the batch
+    done: Advance | None = None  # the outcome of its last call
 
     @property
     def goes_on(self) -> bool:
@@ -150,7 +152,7 @@ class _Pose(NewtonDescent):
         return running and self.left > 0 and len(self.history) < SLOW_ITERATIONS
 
     def finished(self, compile_time: float) -> Result:
-        """The result, by a loop of its own where the batch could not end it."""
+        """The result. If the batch could not finish the pose, its own loop does."""
         watch = Stopwatch()
         with single_blas_thread():
             ending = followed(self, self.done)
@@ -159,7 +161,7 @@ class _Pose(NewtonDescent):
 
 
 def _run(poses: list[_Pose]) -> float:
-    """Run every pose until the batch can do no more for it; seconds of compiling."""
+    """Run every pose until it converges or needs the host. Returns the seconds of compiling."""
     running, compile_time = poses, 0.0
     while running:
         unknowns = len(running[0].problem.unknowns.free)
@@ -175,7 +177,7 @@ def _run(poses: list[_Pose]) -> float:
 def _call(chosen: list[_Pose], size: int) -> float:
     first, watch = chosen[0], Stopwatch()
     limits = [int(pose.settings().iterations) for pose in chosen]
-    # What only fills the batch up stays where it is.
+    # Padding rows get the iteration limit 0.
     filled = [*chosen, *[first] * (size - len(chosen))]
     state = _together(
         first.problem,
@@ -203,7 +205,7 @@ def _together(
             jnp.zeros((len(problem.unknowns.free),) * 2),
             settings._replace(iterations=limit),
         )
-        # A factor serves one pose at one time; it need not come back.
+        # No later call reads the factor, so it is not returned.
         return state._replace(factor=jnp.zeros(()))
 
     return jax.vmap(one)(aims, coefficients, limits)

@@ -1,4 +1,4 @@
-"""Solving for a deformation, once or in finer bases until they gain next to nothing."""
+"""Solve for a deformation: once, or in finer bases until they hardly lower the energy."""
 
 from collections.abc import Callable
 from dataclasses import replace
@@ -21,7 +21,7 @@ from glid_nb.solvers.newton import Newton
 from glid_nb.solvers.options import Options
 from glid_nb.solvers.result import Callback, Refinement, Result, Status
 
-# Offset edges shorter than so many times their distance from the cage are not divided.
+# Offset edges shorter than this many times their distance from the cage are not divided.
 _SHORT = 2.0
 
 
@@ -39,28 +39,29 @@ def solve(
     """Deform a domain so that its handles go to their targets with the least distortion.
 
     Minimises (20) by Newton's method from a certified map. Every step is proved locally injective
-    before it is taken, so the result always is: when no certified step lowers the energy, the last
-    map is returned with a status that says so.
+    before it is taken, so the result is always locally injective. If no certified step lowers the
+    energy, the last map is returned with a status that says so.
 
-    The pose's handles must lie in the domain, its targets may be anywhere. The energy is an
+    The pose's handles must lie in the domain; its targets may be anywhere. The energy is an
     isometric one, or the name of one with its default parameter ("iso", "exp", "amips", "mips",
-    "arap"); by default the symmetric Dirichlet energy, or ARAP for the methods that know no other.
-    The method is by default ours, Newton's; others are in :mod:`glid_nb.methods`. What one on a
-    mesh returns may fold and has no certificate.
+    "arap"). The default is the symmetric Dirichlet energy, or ARAP for methods that know no other.
+    The default method is our Newton method; others are in :mod:`glid_nb.methods`. The map of a
+    method on a mesh may fold and has no certificate.
 
-    The start is by default the identity. Unless ``options.align`` is off, it is first moved rigidly
-    towards the targets. The result of an earlier solve on the same domain also passes on its panels
-    or its mesh. Maps of a mesh are for methods on a mesh; linear methods have no start.
+    The default start is the identity. Unless ``options.align`` is off, the start is first moved
+    rigidly towards the targets. A start that is the result of an earlier solve on the same domain
+    also passes on its panels or its mesh. Maps of a mesh can only start methods on a mesh. Linear
+    methods have no start.
 
-    The callback is called with a :class:`Progress` between compiled calls, also after those that
-    took no step because panels must be split first; for other methods than ours at the start and
-    after each iteration. Returning ``True`` stops the solve.
+    The callback is called with a :class:`Progress` between compiled calls, also after calls without
+    a step, when panels must be split first. With other methods it is called at the start and after
+    each iteration. If it returns ``True``, the solve stops.
 
     Raises a TypeError that names an argument of the wrong type; a PoseError when a handle lies
     outside the domain; an EnergyError for an unknown energy; a StartError when the start belongs to
-    another domain, is not conformal though the options ask for it, or is not proved locally
-    injective; a MethodError when the method cannot minimise the energy, hold an angle or take the
-    start, or lacks an optional package (the message says which extra to install).
+    another domain, is not conformal though the options ask for conformal maps, or is not proved
+    locally injective; a MethodError when the method cannot minimise the energy, hold an angle or
+    use the start, or needs an optional package (the message says which extra to install).
 
     >>> from glid_nb import Cage, Domain, Pose, methods
     >>> domain = Domain.from_cage(Cage([[0, 0], [4, 0], [4, 2], [0, 2]]))
@@ -90,16 +91,17 @@ def solve(
 
 
 def refine(result: Result, gain: float = 0.01, callback: Callback | None = None) -> Result:
-    """Solve again with a finer basis, until that lowers the energy by less than ``gain`` of it.
+    """Solve again with finer bases, until one lowers the energy by less than the share ``gain``.
 
-    Each time the edges of the offset cage are cut in half. A map of the coarser basis is one of the
-    finer (hat functions of half the width add up to those of the whole), so every solve goes on
-    from the map of the one before, and no energy is above it. The certified domain stays the same;
-    ``map.domain`` has the new offset cage. An iteration takes about 4 to 8 times as long each time.
+    Each refinement cuts the edges of the offset cage in half. The finer basis contains the maps of
+    the coarser one, because narrow hat functions add up to wide ones. So each solve continues from
+    the map of the one before, and its energy is never higher. The certified domain stays the same;
+    ``map.domain`` has the new offset cage. Each refinement makes an iteration about 4 to 8 times
+    as long.
 
-    Returns the last solve's result, whose ``refinements`` tell the sizes, energies and times of
-    all, that of the given one first. The callback is as in :func:`glid_nb.solve`. Raises a
-    MethodError when the method has no unknowns in the harmonic subspace (a mesh's, or BDHM), a
+    Returns the last solve's result. Its ``refinements`` give the sizes, energies and times of all
+    solves, the given one first. The callback is as in :func:`glid_nb.solve`. Raises a MethodError
+    when the method has no unknowns in the harmonic subspace (a method on a mesh, or BDHM), a
     ValueError when ``gain`` is not between 0 and 1.
     """
     check_type("result", result, Result, "what glid_nb.solve returns")
@@ -125,7 +127,7 @@ def refine(result: Result, gain: float = 0.01, callback: Callback | None = None)
 
 
 def in_finer_basis(map: HarmonicMap) -> HarmonicMap:
-    """The same map, the offset cage's edges cut in half; itself where all are short already."""
+    """The same map with the offset cage's edges cut in half; ``map`` itself if all are short."""
     domain, counts, coefficients = map.domain, [], []
     rings = shapely.MultiLineString([shapely.LinearRing(loop) for loop in domain.cage.loops])
     for loop in domain.offset_cage.loops_complex:
@@ -149,5 +151,5 @@ def in_finer_basis(map: HarmonicMap) -> HarmonicMap:
 
 def _summary(result: Result) -> Refinement:
     unknowns = result.n_unknowns
-    assert unknowns is not None  # refine looked
+    assert unknowns is not None  # refine has checked this
     return Refinement(unknowns, result.status, result.energy, result.iterations, result.solve_time)

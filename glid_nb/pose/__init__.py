@@ -1,4 +1,4 @@
-"""What a map is asked for, and the maps that answer: handles, targets, stiff areas."""
+"""The wanted deformation (handles, targets, stiff areas) and the type of the resulting map."""
 
 from glid_nb.geometry import MeshMap
 from glid_nb.harmonic import HarmonicMap

@@ -1,25 +1,27 @@
-"""Where handles outside a shape may come from: pixels, swapped axes, rows and columns."""
+"""Likely reasons for handles outside a shape: pixels, swapped axes, rows and columns."""
 
 import shapely
 
 from glid_nb._arrays import Array
 from glid_nb.geometry import Cage, places
 
-# Coordinates that many times as large as those of the shape may be pixels; handles this close to
-# it, by its longer side, are in its coordinates.
+# _PIXELS: coordinates more than this many times as large as the shape's may be pixels.
+# _NEAR: handles within this share of the shape's longer side are in its coordinates.
 _PIXELS, _NEAR = 1.5, 0.5
 
 
 def beside(cage: Cage, point: Array) -> tuple[str, float]:
-    """A place outside, with the digits that tell it from the cage, and its distance from that."""
+    """An outside point as text, with enough digits to tell it from the cage, and its distance."""
     way = shapely.shortest_line(cage.polygon, shapely.Point(point))
     nearest = shapely.get_coordinates(way)[0]
     return places([point, nearest]).split(" and ")[0], float(way.length)
 
 
 def misplaced(cage: Cage, points: Array) -> str:
-    """Where handles outside may come from, and what makes world coordinates of them; empty for
-    handles that lie near the cage, unless others of the same kind would lie in it."""
+    """Why handles may lie outside, and how to convert them to world coordinates.
+
+    Empty for handles near the cage, unless a simple conversion would bring all inside.
+    """
     xmin, ymin, xmax, ymax = cage.bounds
     spans = f"the shape spans x from {xmin:.4g} to {xmax:.4g} and y from {ymin:.4g} to {ymax:.4g}"
     world = f"Handles are in world coordinates, x right and y up: {spans}"

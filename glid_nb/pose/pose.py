@@ -17,7 +17,7 @@ from glid_nb.pose.placement import beside, misplaced
 from glid_nb.pose.stiffness import FARTHEST, Stiffness
 
 DEEPEST, SCALES = 100.0, (0.01, 100.0)  # the largest depth of a handle; its least and largest scale
-# What a handle may have beside its target: least, most, and what it has otherwise.
+# Optional numbers of a handle: the least value, the largest value and the default.
 _MORE = {
     "depths": (-DEEPEST, DEEPEST, 0.0),
     "angles": (-1e3, 1e3, np.nan),
@@ -35,8 +35,9 @@ class PoseError(InputError):
 class Pose(Rebuilt):
     """Positional constraints (paper Section 6.1): handle ``i`` should map to target ``i``.
 
-    It is made of lists or arrays. A PoseError where shapes or counts differ, a coordinate is not
-    finite or out of scale, or two handles coincide; a StiffnessError where a stroke is not valid.
+    Lists or arrays are accepted. Raises a PoseError when shapes or counts differ, a coordinate is
+    not finite or out of scale, or two handles coincide. Raises a StiffnessError when a stroke is
+    not valid.
     """
 
     handles: Array
@@ -44,22 +45,23 @@ class Pose(Rebuilt):
     targets: Array
     """(h, 2) desired images ``q_i``; anywhere within 10^10 units."""
     depths: Array
-    """(h,) where parts of the shape overlap, those near handles of greater depth are drawn in
-    front; -100 to 100, by default 0. They change no map."""
+    """(h,) drawing order, -100 to 100, by default 0. Where parts of the shape overlap, the parts
+    near handles of greater depth are drawn in front. Depths do not change the map."""
     angles: Array
-    """(h,) by how much the shape is turned at each handle, radians: ``f_z`` there should be ``scale
-    exp(i angle)``. None or NaN, the default, leaves it free. For methods in the harmonic
-    subspace, as the next two are."""
+    """(h,) rotation of the shape at each handle, in radians: ``f_z`` there should be ``scale
+    exp(i angle)``. None or NaN, the default, leaves the angle free. Angles, scales and weights are
+    for methods in the harmonic subspace."""
     scales: Array
-    """(h,) by how much it is scaled there, likewise."""
+    """(h,) scale of the shape at each handle. None or NaN, the default, leaves it free."""
     weights: Array
     """(h,) how firmly each handle is held, relative to ``Options.p2p_weight``; by default 1."""
     names: Array
     """(h,) texts, by default empty."""
     stiffness: Stiffness
-    """Strokes over what should stay as it is, each a dict of ``points`` (n, 2) of the undeformed
-    shape, the ``radius`` of the brush and the ``strength`` from 0, which erases, to 1; the last one
-    counts. It goes wherever the pose goes. For descents in the harmonic subspace."""
+    """Strokes over areas that should keep their shape. Each is a dict of ``points`` (n, 2) of the
+    undeformed shape, the ``radius`` of the brush and the ``strength`` from 0 (erases) to 1. Where
+    strokes overlap, the last one counts. The stiffness is part of the pose, so it is saved with it.
+    For descents in the harmonic subspace."""
 
     def __init__(
         self,
@@ -108,23 +110,23 @@ class Pose(Rebuilt):
         return replace(self, targets=targets)
 
     def only(self, kept: Any) -> Pose:
-        """Some of the handles, by their indices or a mask."""
+        """The pose with some of the handles only, chosen by indices or by a mask."""
         return replace(self, **{name: getattr(self, name)[kept] for name in PER_HANDLE})
 
     @property
     def turned(self) -> Array:
-        """(h,) bool: handles of which an angle or a scale is wanted."""
+        """(h,) bool: the handles with a wanted angle or scale."""
         return ~(np.isnan(self.angles) & np.isnan(self.scales))
 
     def pins_alike(self, other: Pose) -> bool:
-        """Whether the other pose wants the same but for targets and depths."""
+        """Whether the other pose is the same, except for targets, depths and names."""
         return self.stiffness == other.stiffness and all(
             np.array_equal(getattr(self, name), getattr(other, name), equal_nan=True)
             for name in ("handles", "angles", "scales", "weights")
         )
 
     def to_dict(self) -> dict[str, Any]:
-        """Plain JSON values: ``handles``, ``targets``, and what else is not as by default."""
+        """Plain JSON values: ``handles``, ``targets``, and all values that are not the default."""
         more = {}
         for name, (*_, default) in _MORE.items():
             values = getattr(self, name)

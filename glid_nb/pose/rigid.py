@@ -1,4 +1,4 @@
-"""The rigid motion that brings points closest to others."""
+"""The rigid motion that brings points closest to given targets."""
 
 import numpy as np
 
@@ -6,7 +6,7 @@ from glid_nb._arrays import Array
 
 
 def rigid_motion(z: Array, targets: Array) -> tuple[complex, complex, complex]:
-    """Turn, middle and aim: ``aim + turn (z - middle)`` brings ``z`` closest to its targets."""
+    """Turn, middle and aim. ``aim + turn (z - middle)`` brings ``z`` closest to the targets."""
     middle, aim = z.mean(), targets.mean()
     correlation = np.vdot(z - middle, targets - aim)
     turn = correlation / abs(correlation) if abs(correlation) > 0 else 1.0

@@ -1,4 +1,4 @@
-"""Stiff areas: where a shape should stay as it is."""
+"""Stiff areas: parts of a shape that should keep their form."""
 
 from __future__ import annotations
 
@@ -16,12 +16,12 @@ from glid_nb._arrays import Array, number_pairs
 from glid_nb._errors import InputError, about
 from glid_nb.geometry import Cage
 
-FARTHEST = 1e10  # units from the origin that a point may lie
-FULL_WEIGHT = 1000.0  # of a sample of the energy where the strength is 1
-_MOST_POINTS, _MOST_STROKES = 10_000, 2_000  # in a stroke; in all
-_ROUND = 8  # segments of a quarter of the brush
+FARTHEST = 1e10  # the largest coordinate of a point, in units
+FULL_WEIGHT = 1000.0  # weight of a sample of the energy where the strength is 1
+_MOST_POINTS, _MOST_STROKES = 10_000, 2_000  # points of one stroke; strokes in all
+_ROUND = 8  # segments of a quarter circle of the brush
 
-Areas = dict[float, shapely.Geometry]  # by strengths above 0, without overlap
+Areas = dict[float, shapely.Geometry]  # the area of each strength above 0; they do not overlap
 
 
 class StiffnessError(InputError):
@@ -45,18 +45,21 @@ class Stroke(NamedTuple):
 
 @dataclass(frozen=True)
 class Stiffness:
-    """How stiff a shape is, from 0 to 1 in each place of the undeformed shape.
+    """How stiff a shape is, from 0 to 1 at each point of the undeformed shape.
 
-    Strokes cover each other as paint does: the last one counts. Samples of the isometric energy
-    have the weight ``FULL_WEIGHT**strength``, and stiff areas have samples inside, too. What an
-    isometry has of the energy stays the same, and no proof depends on it.
+    Strokes cover each other like paint: the last one counts. Samples of the isometric energy have
+    the weight ``FULL_WEIGHT**strength``. Stiff areas also have samples inside. The energy of an
+    isometry stays the same, and no proof depends on the stiffness.
     """
 
     strokes: tuple[Stroke, ...] = ()
 
     @classmethod
     def of(cls, strokes: Any) -> Stiffness:
-        """From what `to_list` writes, or None; a StiffnessError names the stroke at fault."""
+        """From the list that `to_list` writes, or from None.
+
+        Raises a StiffnessError that names the invalid stroke.
+        """
         if strokes is None or isinstance(strokes, Stiffness):
             return strokes or cls()
         check_type("stiffness", strokes, list | tuple, "a list of strokes", StiffnessError)
@@ -73,7 +76,7 @@ class Stiffness:
         return [{**s._asdict(), "points": [list(p) for p in s.points]} for s in self.strokes]
 
     def painted(self, points: ArrayLike, radius: float, strength: float = 1.0) -> Stiffness:
-        """With one more stroke, through points (n, 2) of the undeformed shape."""
+        """Add a stroke through points (n, 2) of the undeformed shape."""
         line = number_pairs(points, "points must be a list of [x, y] pairs", StiffnessError)
         if not 0 < len(line) <= _MOST_POINTS or not (np.abs(line) <= FARTHEST).all():
             raise StiffnessError(f"points must be 1 to {_MOST_POINTS:,} within {FARTHEST:g} units")
@@ -90,7 +93,8 @@ class Stiffness:
         return new
 
     def moved(self, place: Callable[[Array], Array], scale: float) -> Stiffness:
-        """With its points (n, 2) in other places, its brushes larger."""
+        """Move all points with ``place``, (n, 2) to (n, 2), and enlarge the brushes by
+        ``scale``."""
         new = Stiffness()
         for points, radius, strength in self.strokes:
             new = new.painted(place(np.array(points)), scale * radius, strength)

@@ -1,6 +1,6 @@
 """The actions of the deformation editor: functions from one state to the next.
 
-An action keeps the certified map or goes back to the identity; moving it is the solver's part.
+An action keeps the certified map or resets it to the identity. Only the solver moves the map.
 """
 
 import bisect
@@ -33,7 +33,7 @@ _ROUNDING = 1e-13
 
 
 def add_handles(state: EditState, points: ArrayLike, targets: ArrayLike | None = None) -> EditState:
-    """Add handles at points (h, 2) of the domain; by default they and the shape stay in place."""
+    """Add handles at points (h, 2) of the domain. Without targets, the shape stays as it is."""
     points = _points(points, "point")
     if not len(points):
         return state
@@ -55,7 +55,7 @@ def add_handles(state: EditState, points: ArrayLike, targets: ArrayLike | None =
 
 
 def remove_handles(state: EditState, indices: Iterable[int], keep_shape: bool = False) -> EditState:
-    """Remove some handles; with ``keep_shape`` the pose counts as solved by the map that it has."""
+    """Remove some handles. With ``keep_shape`` the map stays, and the pose counts as solved."""
     kept = np.setdiff1d(np.arange(len(state.pose)), _checked_indices(state, indices))
     pose = state.pose.only(kept)
     if not keep_shape:
@@ -71,7 +71,7 @@ def clear_handles(state: EditState) -> EditState:
 
 
 def move_targets(state: EditState, indices: Iterable[int], targets: ArrayLike) -> EditState:
-    """Move the targets of some handles to (h, 2), inside the shape or not."""
+    """Move the targets of some handles to (h, 2), inside or outside the shape."""
     chosen = _checked_indices(state, indices)
     moved, wanted = np.array(state.pose.targets), _points(targets, "to")
     if len(wanted) not in (1, len(chosen)):
@@ -92,7 +92,7 @@ def nudge(state: EditState, indices: Iterable[int], delta: ArrayLike) -> EditSta
 
 
 def set_depths(state: EditState, indices: Iterable[int], depths: ArrayLike) -> EditState:
-    """Give some handles other depths, one number or one each; the map stays as it is."""
+    """Set the depths of some handles: one number, or one per handle. The map does not change."""
     pose = _with_numbers(state, indices, depths=depths)
     if np.array_equal(pose.depths, state.pose.depths):
         return state
@@ -107,12 +107,12 @@ def name_pin(state: EditState, index: int, name: str) -> EditState:
 
 
 def set_pins(state: EditState, indices: Iterable[int], **numbers: ArrayLike | None) -> EditState:
-    """Give some handles other ``angles`` (radians), ``scales`` or ``weights``; None sets free."""
+    """Set ``angles`` (radians), ``scales`` or ``weights`` of some handles; None sets them free."""
     return _pinned(state, _with_numbers(state, indices, **numbers))
 
 
 def turned_now(state: EditState, indices: Iterable[int]) -> tuple[Array, Array]:
-    """Angles and scales (h,) of handles: those that are wanted, else those of the shape there."""
+    """Angles and scales (h,) of handles: the wanted ones, or those of the shape if free."""
     pose = state.pose.only(_checked_indices(state, indices))
     fz, wanted = state.map.wirtinger(pose.handles)[0], (pose.angles, pose.scales)
     free = np.angle(fz), np.abs(fz)
@@ -123,7 +123,7 @@ def turned_now(state: EditState, indices: Iterable[int]) -> tuple[Array, Array]:
 def turn(
     state: EditState, indices: Iterable[int], by: float = 0.0, scale: float = 1.0
 ) -> EditState:
-    """Turn (radians) and scale the shape at some handles, from what it is there."""
+    """Turn the shape at some handles by ``by`` radians and multiply its scale by ``scale``."""
     chosen = _checked_indices(state, indices)
     if not len(chosen):
         return state
@@ -139,26 +139,26 @@ def wrapped(angles: Array) -> Array:
 
 
 def bring_forward(state: EditState, indices: Iterable[int], steps: float = 1) -> EditState:
-    """Raise the depths of some handles by a number of steps, up to 100; lower them by negative."""
+    """Raise the depths of some handles by ``steps``, at most to 100. Negative steps lower them."""
     chosen = _checked_indices(state, indices)
     depths = (state.pose.depths[chosen] + steps).clip(-DEEPEST, DEEPEST)
     return set_depths(state, chosen, depths)
 
 
 def set_stiffness(state: EditState, stiffness: Stiffness) -> EditState:
-    """Make other areas stiff, as by ``state.pose.stiffness.painted(points, radius)``."""
+    """Set the stiff areas, for example to ``state.pose.stiffness.painted(points, radius)``."""
     return _pinned(state, replace(state.pose, stiffness=stiffness))
 
 
 def reset(state: EditState) -> EditState:
-    """The undeformed shape: the identity map, and all pins at rest; what is free stays free."""
+    """Reset the map to the identity and all pins to rest. Free angles and scales stay free."""
     old = state.pose
     pose = replace(old, targets=old.handles, angles=abs(0 * old.angles), scales=0 * old.scales + 1)
     return state.changed(pose=pose, map=state.identity)
 
 
 def set_energy(state: EditState, energy: Energy) -> EditState:
-    """Minimise another energy; refused when the method cannot minimise it."""
+    """Minimise another energy. Refused if the method cannot minimise it."""
     state.current.method.check(energy, state.pose)
     return state.changed(energy=energy)
 
@@ -169,20 +169,20 @@ def set_options(state: EditState, **changes: Any) -> EditState:
 
 
 def set_method(state: EditState, method: Method | str, **settings: Any) -> EditState:
-    """Solve by another of :mod:`glid_nb.methods`, or its name; refused when it cannot run."""
+    """Solve with another of :mod:`glid_nb.methods`, or its name. Refused if it cannot run."""
     method = methods.by_name(method, **settings) if isinstance(method, str) else method
     method.check(state.current.energy, state.pose)
     return state.changed(method=method)
 
 
 def set_pose(state: EditState, pose: Pose) -> EditState:
-    """Replace all handles and targets; the shape stays until the solver moves it."""
+    """Replace all handles and targets. The shape stays until the solver moves it."""
     pose.check_inside(state.domain)
     return state.changed(pose=pose)
 
 
 def set_domain(state: EditState, domain: Domain) -> EditState:
-    """Replace the domain: all poses keep the handles inside it and restart at the identity."""
+    """Replace the domain. All poses keep the handles inside it and restart at the identity."""
     identity = HarmonicMap.identity(domain)
 
     def moved(pose: NamedPose) -> NamedPose:
@@ -207,13 +207,13 @@ def drop_hole(state: EditState, index: int) -> EditState:
 
 
 def save_pose(state: EditState, name: str | None = None) -> EditState:
-    """Keep the pose under a name, and edit a copy that follows it in the list."""
+    """Save the pose under a name, and edit a copy behind it in the list."""
     kept = state.current if name is None else replace(state.current, name=_checked_name(name))
     return _with_inserted(state.with_current(kept), state.active + 1, kept)
 
 
 def duplicate_pose(state: EditState, index: int) -> EditState:
-    """Insert a copy after a pose, and edit the copy."""
+    """Insert a copy behind a pose, and edit the copy."""
     pose = state.poses[_checked_pose(state, index)]
     return _with_inserted(state, index + 1, pose)
 
@@ -226,7 +226,7 @@ def rename_pose(state: EditState, index: int, name: str) -> EditState:
 
 
 def delete_pose(state: EditState, index: int) -> EditState:
-    """Delete a pose; the only one is refused."""
+    """Delete a pose. Refused for the only pose."""
     _checked_pose(state, index)
     if len(state.poses) == 1:
         raise EditError("the only pose cannot be deleted; reset it instead")
@@ -236,7 +236,7 @@ def delete_pose(state: EditState, index: int) -> EditState:
 
 
 def move_pose(state: EditState, index: int, time: float) -> EditState:
-    """Show a pose at another time, seconds; the index behind the last is a loop's return."""
+    """Show a pose at another time, in seconds. The index after the last one is a loop's return."""
     if not (index == len(state.poses) and state.timeline.repeat == "loop"):
         _checked_pose(state, index)
     timeline, order = state.timeline.moved(index, time)
@@ -247,17 +247,17 @@ def move_pose(state: EditState, index: int, time: float) -> EditState:
 
 
 def set_easing(state: EditState, index: int, easing: Easing) -> EditState:
-    """Ease the motion from a pose to the next in another way."""
+    """Set the easing of the motion from a pose to the next one."""
     return replace(state, timeline=state.timeline.eased(_checked_pose(state, index), easing))
 
 
 def set_repeat(state: EditState, repeat: Repeat) -> EditState:
-    """Play once, in a loop, or there and back."""
+    """Set whether the motion plays once, in a loop, or there and back."""
     return replace(state, timeline=replace(state.timeline, repeat=repeat))
 
 
 def keep_between(state: EditState, time: float, map: HarmonicMap) -> EditState:
-    """Keep a map between two poses as a pose at its time, with the handles of the one before."""
+    """Save a map between two poses as a pose at its time, with the handles of the pose before."""
     index = bisect.bisect_right(state.timeline.times, time)
     if not index or np.abs(np.subtract(state.timeline.times, time)).min() < LEAST_GAP:
         raise EditError(f"there is a pose at {time:g} s already, or none before")
@@ -272,9 +272,10 @@ def keep_between(state: EditState, time: float, map: HarmonicMap) -> EditState:
 def record(
     state: EditState, first: NamedPose, poses: Sequence[NamedPose], offsets: Sequence[float]
 ) -> EditState:
-    """Put a recorded drag into the timeline: ``first`` in place of the edited pose, then ``poses``.
+    """Insert a recorded drag into the timeline.
 
-    The edited one is the last; ``offsets`` are the seconds of these since the first.
+    ``first`` replaces the edited pose, then ``poses`` follow, and the edited pose is the last.
+    ``offsets`` are the times of all but the first, in seconds since the first.
     """
     check_room((*state.poses, *poses, first))
     names = itertools.islice(_free_names(state, first.name), len(offsets))
@@ -329,7 +330,7 @@ def _pinned(state: EditState, pose: Pose) -> EditState:
 
 
 def _places_now(state: EditState, points: Array) -> Array:
-    """The images of the points, exactly the points where the map leaves them in place."""
+    """The images of the points. Points that the map does not move are returned exactly."""
     images = state.map(points)
     moved = np.linalg.norm(images - points, axis=1, keepdims=True)
     return np.where(moved < _ROUNDING * state.domain.cage.longer_side, points, images)

@@ -1,4 +1,4 @@
-"""What lies between the poses of a deformation: proved in the background, interval by interval."""
+"""The motion between the poses of a deformation, proved in the background, interval by interval."""
 
 import bisect
 import itertools
@@ -21,39 +21,39 @@ from glid_nb.session.model import Observed
 from glid_nb.session.timeline import on_grid, thinned
 from glid_nb.session.worker import LatestWins, weakly
 
-_THINNED = 0.02  # how far a recorded target may be off, as a share of the cage's longer side
-_INTERVAL = 0.25  # least seconds between two reports of a proof under way
+_THINNED = 0.02  # largest error of a recorded target, as a share of the cage's longer side
+_INTERVAL = 0.25  # least seconds between two reports of a running proof
 _ALMOST = 1 - 1e-9
 
 
 class Span(NamedTuple):
-    """What is known of the motion from a keyframe to the next."""
+    """The motion from a keyframe to the next, as far as it is known."""
 
     start: float
     end: float
     map: HarmonicMap  # of its first keyframe
     status: Literal["computing", "proved", "fails", "refused"] = "computing"
-    reason: str = ""  # why it fails, and until when it is proved, or why it is refused
+    reason: str = ""  # why it fails and how far it is proved, or why it is refused
     pieces: tuple[Piece, ...] = ()
-    """What is proved, from the start on; all of it where it is proved."""
+    """The proved part, from the start on; the whole motion if the status is "proved"."""
     sigma2: tuple[float, ...] = ()  # the certified bound on each piece
 
 
 class Animation(Observed):
     """The motion through the poses of a deformation, and the recording of a drag.
 
-    ``observe`` reports "motion" and "recording". While a hand drags or solves nothing is computed.
+    ``observe`` reports "motion" and "recording". During a drag or a solve nothing is computed.
     """
 
     def __init__(self, deformation: Deformation) -> None:
         super().__init__()
         self.deformation = deformation
         self._spans: tuple[Span, ...] = ()
-        self.recording = False  # whether the next drag, or the present one, is kept as keyframes
+        self.recording = False  # whether the current or next drag becomes keyframes
         self._task: EditState | None = None
         self._asked = False
         self._began: tuple[float, EditState] | None = None
-        self._samples: list[tuple[float, NamedPose]] = []  # of the drag that is recorded
+        self._samples: list[tuple[float, NamedPose]] = []  # of the recorded drag
         prove = weakly(self._prove)
         self._worker: LatestWins[EditState] = LatestWins(prove, self, "motion", waits=False)
         self._stop = deformation.observe(weakly(self._on_model))
@@ -61,9 +61,9 @@ class Animation(Observed):
 
     @property
     def spans(self) -> tuple[Span, ...]:
-        """From each keyframe to the next, and from the last to the first of a loop.
+        """The spans from each keyframe to the next; in a loop also from the last to the first.
 
-        They are always those of the present poses.
+        They always belong to the present poses.
         """
         with self.deformation.locked(), self.locked():
             state = self.deformation.state
@@ -71,14 +71,14 @@ class Animation(Observed):
 
     @property
     def motion(self) -> Motion:
-        """The motion as a value, proved or not, once all poses are solved.
+        """The motion as a value, proved or not. Waits until all poses are solved.
 
-        MotionError where it cannot be made, EditError where a pose cannot be solved.
+        Raises a MotionError if the motion cannot be made, an EditError if a pose cannot be solved.
         """
         return motion_of(self.deformation.solved_state())
 
     def at(self, time: float) -> HarmonicMap | None:
-        """The proved map at a time, or the last proved one before it; None outside the motion."""
+        """The proved map at a time, or the last proved map before it; None outside the motion."""
         span = next((s for s in self.spans if s.start <= time <= s.end), None)
         if span is None:
             return None
@@ -88,7 +88,7 @@ class Animation(Observed):
         return piece.at(min(time, piece.end))
 
     def order(self, time: float) -> Order:
-        """Which part is in front at a time: on the way between two keyframes."""
+        """The order of the shape's parts at a time, interpolated between two keyframes."""
         state = self.deformation.state
         orders, times = state.orders, state.timeline.closed_times
         i = max(min(bisect.bisect_right(times, time), len(times) - 1) - 1, 0)
@@ -96,7 +96,7 @@ class Animation(Observed):
         return first.towards(last, (time - times[i]) / (times[i + 1] - times[i]))
 
     def keep(self, time: float) -> None:
-        """Keep the map at a time as a pose; between poses, where that is proved."""
+        """Save the map at a time as a pose. Between poses, the map must be proved."""
         times = self.deformation.state.timeline.times
         time = time if time in times else round(time, 2)
         if time in times or not self.spans:
@@ -108,13 +108,13 @@ class Animation(Observed):
         return self.deformation.keep_between(time, piece.at(time))
 
     def record(self, on: bool) -> None:
-        """Keep the next drag as keyframes, or do not."""
+        """Set whether the next drag becomes keyframes."""
         with self.locked():
             self.recording, self._began, self._samples = on, None, []
             self.tell("recording")
 
     def wait(self, timeout: float | None = None) -> bool:
-        """Wait until all is proved or refused; whether that is within ``timeout`` seconds."""
+        """Wait until all is proved or refused. Returns False after ``timeout`` seconds."""
         return self.deformation.solve(timeout) and self._worker.wait(timeout)
 
     def close(self) -> None:
@@ -125,7 +125,7 @@ class Animation(Observed):
         if what in ("selection", "hand"):
             return
         model, finished = self.deformation, None
-        with model.locked():  # always before this one's lock
+        with model.locked():  # the model's lock always comes first
             moment = model.moment
             with self.locked():
                 if self.recording:
@@ -135,7 +135,7 @@ class Animation(Observed):
                 model.record(*finished)
 
     def _follow(self, moment: Moment) -> None:
-        """Ask for what is to be proved, once the pose that is edited has come to rest."""
+        """Start the proof once the edited pose is solved."""
         task = moment.state
         if not _same_motion(task, self._task):
             self._worker.cancel()
@@ -154,7 +154,7 @@ class Animation(Observed):
     def _sample(
         self, moment: Moment, moved: bool
     ) -> tuple[NamedPose, list[NamedPose], list[float]] | None:
-        """Note where a drag is; at its end what of it is kept."""
+        """Record the state of a drag. At its end, return the poses and times to keep."""
         now, past, state = time.monotonic(), self.deformation.history.past, moment.state
         if moment.dragged:
             if self._began is None and past:
@@ -199,7 +199,7 @@ class Animation(Observed):
 
 
 def _same_motion(task: EditState, other: EditState | None) -> bool:
-    """Whether motions are the same, and what of them is solved, whatever the poses are called."""
+    """Whether two states have the same motion and the same solved poses. Names do not matter."""
     if other is None or task.timeline != other.timeline:
         return False
     pairs = zip(task.poses, other.poses, strict=True)
@@ -213,7 +213,8 @@ def _spans(task: EditState) -> tuple[Span, ...]:
 
 
 def motion_of(task: EditState, first: int = 0, last: int | None = None) -> Motion:
-    """The motion through the poses from the first to the last, or through all and back."""
+    """The motion through the poses from ``first`` to ``last``; without ``last``, the whole
+    timeline."""
     timeline, maps = task.timeline, [pose.map for pose in task.poses]
     if last is None:
         return timeline.motion(maps)
@@ -225,9 +226,10 @@ def motion_of(task: EditState, first: int = 0, last: int | None = None) -> Motio
 def _proved(
     task: EditState, reasons: list[str | None], worker: LatestWins[EditState]
 ) -> Iterator[tuple[int, Span]]:
-    """Interval after interval; where poses turn otherwise around holes, motions end and begin.
+    """Prove interval after interval.
 
-    So they do where a pose is not solved, for one of the ``reasons``.
+    Motions end and begin at intervals whose poses turn differently around holes. They also end and
+    begin at intervals with a pose that is not solved; ``reasons`` says why for each pose.
     """
     spans = _spans(task)
     poses = [*task.poses, task.poses[0]][: len(spans) + 1]

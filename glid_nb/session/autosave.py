@@ -1,4 +1,4 @@
-"""Saving in the background, and which files an editor may replace unasked."""
+"""Save in the background, and track which files an editor may overwrite without asking."""
 
 import contextlib
 import hashlib
@@ -18,14 +18,15 @@ from glid_nb.session.document_file import save_document
 from glid_nb.session.worker import LatestWins
 
 INTERVAL = 3.0  # least number of seconds between two saves, by default
-MOST_KEPT = 5  # most files of kept work
+MOST_KEPT = 5  # most files of work that is in no session file
 
 
 class OwnFiles:
-    """The files that an editor wrote or opened, so that it replaces no others unasked.
+    """The files that an editor wrote or opened. It overwrites other files only after asking.
 
-    Each has an owner, the file that was named when it was written: a texture its mesh, a session
-    file itself. A file that another program has changed since is no longer the editor's.
+    Each file has an owner: the file that the user named. The owner of a texture is its mesh; a
+    session file owns itself. A file that another program has changed no longer belongs to the
+    editor.
     """
 
     def __init__(self) -> None:
@@ -33,7 +34,7 @@ class OwnFiles:
         self.session: Path | None = None  # the session file that was saved or opened last
 
     def note(self, paths: Iterable[Path], owner: Path) -> None:
-        """Remember files that were written for ``owner``, or opened."""
+        """Remember files that were opened, or written for ``owner``."""
         owner = owner.resolve()
         self._owners.update((path.resolve(), (owner, _version_of(path))) for path in paths)
 
@@ -43,21 +44,21 @@ class OwnFiles:
         self.note([self.session], self.session)
 
     def strangers(self, paths: Iterable[Path], owner: Path) -> tuple[Path, ...]:
-        """Those of the files that exist and do not belong to ``owner``."""
+        """The files that exist but do not belong to ``owner``."""
         owner, there = owner.resolve(), [path for path in paths if path.exists()]
         return tuple(p for p in there if self._owners.get(p.resolve()) != (owner, _version_of(p)))
 
 
 class Autosave:
-    """Saves the document that was submitted last, the first at once, then once per ``interval``.
+    """Saves the last submitted document: the first at once, then at most once per ``interval``.
 
-    What is pending is written when this is closed, when its ``owner`` goes and when the process
-    ends. A file that another program has changed is left: later saves go to a new one beside it.
+    A pending document is written when this object is closed, when its ``owner`` is deleted and when
+    the process ends. If another program has changed the file, later saves go to a new file beside
+    it. If a save fails and ``elsewhere`` is given, saves go to the path ``elsewhere()`` from then
+    on.
 
-    Where a save fails it goes to ``elsewhere()``, if that is given, from then on.
-
-    After each save ``on_done`` is called, in the thread, with the exception if it failed, else with
-    None. The file as it is now becomes one of the ``own`` files.
+    After each save, ``on_done`` is called in the thread with the exception, or with None if the
+    save succeeded. The saved file becomes one of the ``own`` files.
     """
 
     def __init__(
@@ -72,9 +73,9 @@ class Autosave:
         self.path, self.own, self._on_done = Path(path), own or OwnFiles(), on_done
         self._elsewhere = elsewhere
         self.left: Path | None = None
-        """The file that was given up because another program changed it."""
+        """The file that is no longer written because another program changed it."""
         self.error: Exception | None = None
-        """What went wrong with the last save; None when it went well."""
+        """The exception of the last save; None if it succeeded."""
         self._writing = threading.RLock()
         self.own.note_session(self.path)
         name = f"autosave {self.path.name}"
@@ -89,7 +90,7 @@ class Autosave:
 
     def write(self, document: Document) -> None:
         """Save this document now, in this thread, even if another program has changed the file."""
-        self._worker.cancel()  # what is pending is older
+        self._worker.cancel()  # the pending document is older
         try:
             self._write(document)
         except Exception:
@@ -97,11 +98,11 @@ class Autosave:
             raise
 
     def flush(self, timeout: float | None = None) -> bool:
-        """Save what is pending now; whether that ended, well or not, within ``timeout`` seconds."""
+        """Save the pending document now. Returns False if that takes over ``timeout`` seconds."""
         return self._worker.hurry(timeout)
 
     def close(self) -> None:
-        """Save what is pending and end the thread; submitting is an error from then on."""
+        """Save the pending document and end the thread. Submitting is an error afterwards."""
         self._worker.close()
 
     def _save(self, document: Document, _: object) -> None:
@@ -137,7 +138,7 @@ _all: weakref.WeakSet[Autosave] = weakref.WeakSet()
 
 
 def flush(path: str | Path) -> None:
-    """Save what any editor of this process has pending for a file, before the file is read."""
+    """Save the pending changes of all editors of this process to a file, before it is read."""
     wanted = Path(path).resolve()
     for autosave in tuple(_all):
         if autosave.path.resolve() == wanted:
@@ -151,13 +152,14 @@ def free_sibling(path: Path) -> Path:
 
 
 def kept_files(image: NDArray[np.uint8] | None = None) -> list[Path]:
-    """Files of kept work that is in no other file, of one picture or of any; the newest first.
+    """The kept files with work that is in no session file, the newest first.
 
-    There are none where the data folder, or a file in it, cannot be read.
+    With ``image``, only the files for that picture. Empty if the data folder, or a file in it,
+    cannot be read.
     """
     try:
         found = [path for path in _kept().glob("*.glid") if os.access(path, os.R_OK)]
-    except OSError:  # said when something is to be kept there
+    except OSError:  # reported when something is saved there
         return []
     versions = {path: _version_of(path) for path in found}
     paths = sorted(versions, key=lambda path: versions[path] or (), reverse=True)
@@ -166,14 +168,14 @@ def kept_files(image: NDArray[np.uint8] | None = None) -> list[Path]:
 
 
 def new_kept_file(image: NDArray[np.uint8]) -> Path:
-    """Where to keep work on a picture from now on; its folder is made, the oldest files go.
+    """A new path for keeping work on a picture. Makes its folder and deletes the oldest files.
 
-    Raises an OSError where there can be no such folder.
+    Raises an OSError if the folder cannot be made.
     """
     path = _kept() / f"{_name_of(image)}.glid"
     path.parent.mkdir(parents=True, exist_ok=True)
     for old in kept_files()[MOST_KEPT - 1 :]:
-        with contextlib.suppress(OSError):  # another user's, say; one file more is no harm
+        with contextlib.suppress(OSError):  # for example another user's file; it may stay
             old.unlink(missing_ok=True)
     return free_sibling(path) if path.exists() else path
 
@@ -190,6 +192,6 @@ def _name_of(image: NDArray[np.uint8]) -> str:
 def _version_of(path: Path) -> tuple[int, ...] | None:
     try:
         status = path.stat()
-    except OSError:  # a file that cannot be reached is reported when it is written
+    except OSError:  # reported when the file is written
         return None
     return status.st_mtime_ns, status.st_ino, status.st_size

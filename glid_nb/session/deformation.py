@@ -47,9 +47,9 @@ class Deformation(Undoable[EditState], AbstractContextManager["Deformation"]):
 
     Every method may be called from any thread. ``observe`` reports changes by name: ``"state"``
     (handles, targets, poses, options, undo), ``"frame"`` (a new map), ``"selection"``, ``"status"``
-    and ``"hand"`` (a canvas' gesture ended). It begins without handles unless a pose is given, with
-    :data:`~glid_nb.session.edit_state.LIVE_OPTIONS` unless others are. With ``begin`` it solves
-    from the start; else from :meth:`begin` or the first change on.
+    and ``"hand"`` (a gesture on a canvas ended). The default pose has no handles. The default
+    options are :data:`~glid_nb.session.edit_state.LIVE_OPTIONS`. With ``begin`` it solves from the
+    start. Otherwise it solves after :meth:`begin` or the first change.
 
     >>> from glid_nb.geometry import Cage, Domain
     >>> square = Domain.from_cage(Cage([[-1, -1], [1, -1], [1, 1], [-1, 1]]))
@@ -75,8 +75,8 @@ class Deformation(Undoable[EditState], AbstractContextManager["Deformation"]):
         super().__init__(EditState.initial(domain, pose, energy, options))
         self.selection: tuple[int, ...] = ()  # indices of the selected handles
         self.dragged: tuple[int, ...] = ()
-        """Indices of the handles that are being dragged, a gesture of the history."""
-        self.begun = False  # whether the solver was ever asked for something
+        """Indices of the dragged handles. They are the gesture of the history."""
+        self.begun = False  # whether the solver was ever given a task
         self._chain = 0
         self._frame: Frame | None = None
         self._error: Exception | None = None
@@ -85,7 +85,7 @@ class Deformation(Undoable[EditState], AbstractContextManager["Deformation"]):
         self._worker = LatestWins(solver.solve, self, "live solver", waits=False)
         others = weakly(self._solve_others)
         self._others: LatestWins[None] = LatestWins(others, self, "other poses", waits=False)
-        # Why solves of poses that are not edited failed.
+        # The exceptions of failed solves, for poses that are not edited.
         self._failures = weakref.WeakKeyDictionary[NamedPose, Exception]()
         self._closed = self._paused = False
         if begin:
@@ -93,7 +93,7 @@ class Deformation(Undoable[EditState], AbstractContextManager["Deformation"]):
 
     @classmethod
     def from_history(cls, history: History[EditState]) -> Self:
-        """A deformation at a state, with its undo history; the solver waits for :meth:`begin`."""
+        """A deformation with a given state and undo history. The solver waits for :meth:`begin`."""
         new = cls(history.present.domain, begin=False)
         new.history = history.ended()
         return new
@@ -112,7 +112,7 @@ class Deformation(Undoable[EditState], AbstractContextManager["Deformation"]):
 
     @property
     def moment(self) -> Moment:
-        """The state and what the solver has made of it, at one moment."""
+        """The state and the solver's progress, both at the same moment."""
         with self._lock:
             return Moment(
                 state=self.state,
@@ -132,7 +132,7 @@ class Deformation(Undoable[EditState], AbstractContextManager["Deformation"]):
 
     @property
     def status(self) -> StatusLine:
-        """What the editor is doing, in words; at rest with the bounds of :attr:`certificate`."""
+        """The status of the editor in words; at rest with the bounds of :attr:`certificate`."""
         return describe(self.moment)
 
     @property
@@ -142,7 +142,7 @@ class Deformation(Undoable[EditState], AbstractContextManager["Deformation"]):
 
     @property
     def can_undo(self) -> bool:
-        """Whether there is something to undo, such as a drag under way."""
+        """Whether there is something to undo, for example the current drag."""
         return bool(self.history.past or self.dragged)
 
     @property
@@ -151,7 +151,7 @@ class Deformation(Undoable[EditState], AbstractContextManager["Deformation"]):
         return bool(self.history.future) and not self.dragged
 
     def sheets(self, image: Array | None = None) -> Sheets:
-        """What is drawn at a place, and what lies hidden below; by the picture's opaque parts."""
+        """The sheets of the drawn shape. With a picture, its transparent parts hide nothing."""
         moment = self.moment
         return Sheets(moment.shown, moment.state.order, image)
 
@@ -189,24 +189,25 @@ class Deformation(Undoable[EditState], AbstractContextManager["Deformation"]):
     keep_between = _step(actions.keep_between)
 
     def add_handle(self, point: ArrayLike, to: ArrayLike | None = None) -> int:
-        """Add a handle at a point of the undeformed shape; returns its index."""
+        """Add a handle at a point of the undeformed shape. Returns its index."""
         return self.add_handles(point, to)[0]
 
     def add_handles(self, points: ArrayLike, to: ArrayLike | None = None) -> tuple[int, ...]:
-        """Add handles at points (h, 2) in one step; returns their indices."""
+        """Add handles at points (h, 2) in one step. Returns their indices."""
         with self.locked():
             before = len(self.pose)
             self.apply(actions.add_handles, points, to)
             return tuple(range(before, len(self.pose)))
 
     def remove_handles(self, *indices: int, keep_shape: bool = False) -> None:
-        """Remove handles; the shape relaxes, or with ``keep_shape`` stays until the next change."""
+        """Remove handles. Then the shape relaxes; with ``keep_shape`` it stays until a change."""
         self.apply(actions.remove_handles, indices, keep_shape)
 
     def set_domain(self, domain: Domain) -> None:
-        """Replace the domain; handles inside the new one are kept.
+        """Replace the domain. Handles inside the new one are kept.
 
-        The present cage changes nothing; that of the step before brings its handles back, by undo.
+        A domain with the present cage changes nothing. A domain with the cage of the previous step
+        undoes that step, which brings its handles back.
         """
         with self.locked():
             past = self.history.past
@@ -225,9 +226,9 @@ class Deformation(Undoable[EditState], AbstractContextManager["Deformation"]):
     ) -> None:
         """Make ``action(state, ...)`` the present state, as one step for undo.
 
-        A drag under way ends before it and begins again after it, with the handles that are left.
+        A current drag ends before the action. It begins again after it, with the remaining handles.
         Raises EditError, PoseError, OptionError, EnergyError, MethodError or GeometryError when the
-        action is refused, or this is closed; nothing has changed then.
+        action is refused or this object is closed. Then nothing has changed.
         """
         with self.locked():
             self._check_open()
@@ -240,7 +241,7 @@ class Deformation(Undoable[EditState], AbstractContextManager["Deformation"]):
             self._go_to(self.history.step(new))
             self.dragged = _still_there(held, before.pose, new.pose)
 
-    # Dragging: many small moves, one step for undo
+    # Dragging: many small moves are one step for undo
 
     def drag(self, handle: int, to: ArrayLike) -> None:
         """Drag one handle's target to a place, in one move."""
@@ -256,16 +257,16 @@ class Deformation(Undoable[EditState], AbstractContextManager["Deformation"]):
         with self.locked():
             self._check_open()
             self.end_drag()
-            actions.nudge(self.state, indices, (0, 0))  # refuses what does not exist
+            actions.nudge(self.state, indices, (0, 0))  # raises for missing handles
             self.dragged = tuple(int(i) for i in indices)
-            self._others.cancel()  # the hand has the processor to itself
+            self._others.cancel()  # the drag needs the processor
 
     def drag_to(self, targets: ArrayLike) -> None:
         """Move the targets of the dragged handles to (h, 2)."""
         self._drag(actions.move_targets, targets)
 
     def drag_pins(self, **numbers: ArrayLike) -> None:
-        """`actions.set_pins` of the dragged handles."""
+        """Apply `actions.set_pins` to the dragged handles."""
         self._drag(actions.set_pins, **numbers)
 
     def _drag(self, action: Callable[..., EditState], *arguments: Any, **named: Any) -> None:
@@ -281,7 +282,7 @@ class Deformation(Undoable[EditState], AbstractContextManager["Deformation"]):
             self.tell("state", "status")
 
     def end_drag(self) -> None:
-        """End the drag, if any; the whole drag is one step for undo."""
+        """End the drag, if there is one. The whole drag is one step for undo."""
         with self.locked():
             if not self.dragged:
                 return
@@ -294,7 +295,7 @@ class Deformation(Undoable[EditState], AbstractContextManager["Deformation"]):
             self.tell("state")
 
     def cancel_drag(self) -> bool:
-        """End the drag and go back to exactly the state before it; whether there was one."""
+        """End the drag and restore exactly the state before it. Returns whether there was one."""
         with self.locked():
             if not self.dragged:
                 return False
@@ -306,7 +307,7 @@ class Deformation(Undoable[EditState], AbstractContextManager["Deformation"]):
     def record(
         self, first: NamedPose, poses: Sequence[NamedPose], offsets: Sequence[float]
     ) -> None:
-        """`actions.record`, as a part of the last step, which was the drag."""
+        """Apply `actions.record` as a part of the last step, which was the drag."""
         with self.locked():
             self._check_open()
             self._go_to(self.history.refined(actions.record(self.state, first, poses, offsets)))
@@ -314,13 +315,13 @@ class Deformation(Undoable[EditState], AbstractContextManager["Deformation"]):
     # Undo
 
     def undo(self) -> bool:
-        """Go one step back, during a drag to where that began; whether there was one."""
+        """Go one step back; during a drag, to its start. Returns whether there was a step."""
         with self.locked():
             self._check_open()
             return self.cancel_drag() if self.dragged else super().undo()
 
     def redo(self) -> bool:
-        """Go one step forward again; whether there was one."""
+        """Go one step forward again. Returns whether there was one."""
         with self.locked():
             self._check_open()
             return not self.dragged and super().redo()
@@ -339,18 +340,21 @@ class Deformation(Undoable[EditState], AbstractContextManager["Deformation"]):
     # Solving
 
     def begin(self) -> None:
-        """Start the solver, which compiles before the first drag, unless it was; do not wait."""
+        """Start the solver if it has not started, so that it compiles before the first drag.
+
+        Returns at once.
+        """
         with self.locked():
             if not self.begun:
                 self._submit()
                 self.tell("status")
 
     def solve(self, timeout: float | None = None) -> bool:
-        """Wait until the present pose is solved, and then the others that are not.
+        """Wait until the present pose is solved, and then all other poses.
 
-        Others are left unsolved by a new cage, or by going to another pose too early. Returns
-        whether it took no more than ``timeout`` seconds. An interrupt stops the solve and keeps the
-        map that it has reached.
+        Other poses can be unsolved after a change of the cage, or after switching to another pose
+        too early. Returns False if it takes longer than ``timeout`` seconds. An interrupt stops the
+        solve and keeps the map reached so far.
         """
         check_type("timeout", timeout, Real | None, "give seconds, or None to wait to the end")
         with self.locked():
@@ -360,7 +364,7 @@ class Deformation(Undoable[EditState], AbstractContextManager["Deformation"]):
         return self._wait(timeout)
 
     def finish(self, timeout: float | None = None) -> bool:
-        """As `solve`, but what was stopped, recorded or opened stays as it is."""
+        """Like `solve`, but stopped, recorded and opened poses stay as they are."""
         with self.locked():
             current = self.state.current
             if current.unsolved and current.method.certified and not self.busy and not self._closed:
@@ -368,10 +372,10 @@ class Deformation(Undoable[EditState], AbstractContextManager["Deformation"]):
         return self._wait(timeout)
 
     def solved_state(self, *, only_current: bool = False) -> EditState:
-        """The state once its poses, or the one that is edited, are solved.
+        """Wait until all poses, or only the edited one, are solved. Returns the state.
 
-        EditError names those that are not, and says why: the solver is paused, or has failed, or
-        the pose's method gives no certified map.
+        Raises an EditError that names the unsolved poses and says why: the solver is paused or has
+        failed, or the pose's method gives no certified map.
         """
         self.finish()
         with self.locked():
@@ -383,7 +387,7 @@ class Deformation(Undoable[EditState], AbstractContextManager["Deformation"]):
         return state
 
     def why_unsolved(self, pose: NamedPose) -> str | None:
-        """Why a pose is not solved, in words; None when it is."""
+        """Why a pose is not solved, in words; None if it is solved."""
         with self.locked():
             name, error = f"the pose {pose.name!r}", self._failures.get(pose)
             if not pose.unsolved:
@@ -402,12 +406,12 @@ class Deformation(Undoable[EditState], AbstractContextManager["Deformation"]):
             return f"{name} is not solved yet; solve it first"
 
     def settled(self) -> bool:
-        """Whether no pose is going to be solved without another change."""
+        """Whether no solve is running or waiting."""
         with self.locked():
             return self._at_rest() and self._next_other() is None
 
     def stop(self) -> None:
-        """Stop solving; the maps stay as they are."""
+        """Stop solving. The maps stay as they are."""
         self._worker.cancel()
         self._others.cancel()
 
@@ -433,7 +437,7 @@ class Deformation(Undoable[EditState], AbstractContextManager["Deformation"]):
             self._submit(single=True)
 
     def close(self) -> None:
-        """End the solver, at once. The state can still be read, and no longer be changed."""
+        """End the solver at once. The state can still be read, but no longer be changed."""
         with self.locked():
             self._closed = True
             self._observers.clear()
@@ -470,7 +474,7 @@ class Deformation(Undoable[EditState], AbstractContextManager["Deformation"]):
         if single or not (solved or self._paused):
             self._worker.submit(Task(self.state.current, self._chain, single))
         elif self._paused and self._worker.busy and not solved:
-            self._worker.submit(None)  # what is solved now ends after its present call
+            self._worker.submit(None)  # the running solve ends after its present call
         else:
             self._worker.cancel()
 
@@ -496,14 +500,14 @@ class Deformation(Undoable[EditState], AbstractContextManager["Deformation"]):
         with self.locked():
             self._error = error
             if self.moment.comparison is not None:
-                self._frame = None  # of an earlier problem
+                self._frame = None  # it belongs to an earlier problem
             self._go_on(at_rest=True)
             self.tell("frame", "status")
 
     # The poses that are not edited
 
     def _wait(self, timeout: float | None) -> bool:
-        """Wait until the edited pose, then the others are solved or cannot be."""
+        """Wait until the edited pose and then the others are solved or cannot be solved."""
         until = None if timeout is None else time.monotonic() + timeout
 
         def rest() -> float | None:
@@ -525,7 +529,7 @@ class Deformation(Undoable[EditState], AbstractContextManager["Deformation"]):
         return not self.dragged and (solved or (self.begun and not self._worker.busy))
 
     def _next_other(self) -> NamedPose | None:
-        """The next pose to solve of those that are not edited."""
+        """The next pose to solve among those that are not edited."""
         if self._paused or self._closed or self.dragged:
             return None
         state = self.state
@@ -534,7 +538,10 @@ class Deformation(Undoable[EditState], AbstractContextManager["Deformation"]):
         return next((pose for pose in left if pose not in self._failures), None)
 
     def _go_on(self, at_rest: bool = False) -> bool:
-        """Solve other poses if this one is at rest, or stop that; whether any is left to solve."""
+        """Solve other poses if the edited one is at rest, else stop solving them.
+
+        Returns whether another pose is left to solve.
+        """
         with self.locked():
             left = (at_rest or self._at_rest()) and self._next_other() is not None
             if not left:
@@ -556,7 +563,7 @@ class Deformation(Undoable[EditState], AbstractContextManager["Deformation"]):
                 self._refine(pose, replace(pose, map=result.map, solution=solution))
 
     def _refine(self, pose: NamedPose, solved: NamedPose) -> None:
-        """Put its solved self in place of a pose that is not edited; no step for undo."""
+        """Replace a pose that is not edited by its solved version. This is no step for undo."""
         with self.locked():
             state = self.state
             if pose is not state.current and not self._closed:

@@ -20,7 +20,7 @@ from glid_nb.session.timeline import Timeline
 from glid_nb.solvers import Iteration, Method, Newton, Options, Status
 
 _MOST_POSES, _LONGEST_NAME = 1000, 200
-_ASKED = ("pose", "energy", "options", "method")  # what a solve of a pose depends on
+_ASKED = ("pose", "energy", "options", "method")  # the fields that a solve depends on
 
 
 class DocumentError(InputFileError):
@@ -29,7 +29,7 @@ class DocumentError(InputFileError):
 
 @dataclass(frozen=True, eq=False)
 class Solution:
-    """How a solve ended; small, since an undo history holds many."""
+    """How a solve ended. It is small, because an undo history holds many."""
 
     status: Status
     message: str
@@ -38,35 +38,35 @@ class Solution:
 
     @property
     def ended(self) -> bool:
-        """Whether the solver came to its end, rather than being stopped."""
+        """Whether the solver ended by itself, not by a stop."""
         return self.status is not Status.STOPPED
 
 
 AS_SEEN = Solution(Status.STOPPED, "The map is as it was recorded or saved.", (), ())
-"""Of poses that stay as they are until they are edited."""
+"""The solution of poses that stay as they are until they are edited."""
 
 
 @dataclass(frozen=True, eq=False)
 class NamedPose:
     """A pose with a name and the certified map that was found for it.
 
-    Raises DocumentError for a bad name, or a handle outside the domain.
+    Raises a DocumentError for a wrong name or a handle outside the domain.
     """
 
     name: str
-    """What the list of poses shows, 1 to 200 characters."""
+    """The name in the list of poses, 1 to 200 characters."""
     pose: Pose
     """Handles inside the map's domain, and targets."""
     energy: Energy
-    """What was minimised."""
+    """The minimised energy."""
     options: Options
-    """How."""
+    """The options of the solve."""
     map: HarmonicMap
-    """The result; certified."""
+    """The resulting map; certified."""
     method: Method = field(default_factory=Newton)
-    """What solves it. The result of a method on a mesh is not kept."""
+    """The method of the solve. The map of a method on a mesh is not kept."""
     solution: Solution | None = AS_SEEN
-    """How the solve of all that ended with ``map``; None if the pose has changed since."""
+    """How the solve that gave ``map`` ended; None if the pose has changed since."""
 
     def __post_init__(self) -> None:
         check_fields(self, DocumentError, lambda field: f"{field} of the pose {self.name!r:.60}")
@@ -83,41 +83,41 @@ class NamedPose:
 
     @functools.cached_property
     def unsolved(self) -> bool:
-        """Whether ``map`` is not yet what the pose asks for, since that or the cage has changed."""
+        """Whether the pose or the cage has changed since ``map`` was computed."""
         return self.solution is None and not (is_identity(self.map) and at_rest(self.pose))
 
     def changed(self, **changes: Any) -> Self:
-        """A copy with another pose, energy, options, map or method; it is no longer solved."""
+        """A copy with another pose, energy, options, map or method. It is not solved."""
         return replace(self, solution=None, **changes)
 
     def asks_the_same(self, other: Self) -> bool:
-        """Whether pose, energy, options and method are the very same objects."""
+        """Whether pose, energy, options and method are the same objects."""
         return all(getattr(self, key) is getattr(other, key) for key in _ASKED)
 
 
 @dataclass(frozen=True, eq=False)
 class Document:
-    """A picture, its cage, and the poses that it was given.
+    """A picture, its cage and its poses.
 
-    Raises DocumentError when the parts do not fit together; the message names the culprit.
+    Raises a DocumentError that names the wrong part if the parts do not fit together.
     """
 
     image: NDArray[np.uint8]
     """(h, w, 4) RGBA, straight alpha. Kept read-only; copied if it was writeable."""
     cage: Cage
-    """As traced, with the edits by hand."""
+    """The cage as traced and edited by hand."""
     domain: Domain
-    """The domain that all the maps share; ``domain.cage`` is ``cage``."""
+    """The domain of all maps; ``domain.cage`` is ``cage``."""
     trace_options: TraceOptions
     """How the cage was traced. Its ``scribbles`` are None or this document's."""
     scribbles: Scribbles | None
-    """What was painted, whether the tracing uses it or not."""
+    """The painted strokes, also if the tracing does not use them."""
     poses: tuple[NamedPose, ...]
-    """At most a thousand."""
+    """The poses, at most a thousand."""
     active: int
-    """Which pose is shown; 0 when there are none."""
+    """Index of the shown pose; 0 if there are no poses."""
     timeline: Timeline | None = None
-    """When the poses are shown in an animation; by default a second apart."""
+    """The times of the poses in an animation; by default one second apart."""
 
     def __post_init__(self) -> None:
         image = np.asarray(self.image)
@@ -147,30 +147,30 @@ class Document:
 
     @property
     def unsolved(self) -> tuple[NamedPose, ...]:
-        """The poses that are not solved on this cage yet (`NamedPose.unsolved`)."""
+        """The poses that are not yet solved on this cage (`NamedPose.unsolved`)."""
         return tuple(pose for pose in self.poses if pose.unsolved)
 
     @property
     def active_pose(self) -> NamedPose | None:
-        """The pose that is shown; None when there are none."""
+        """The shown pose; None if there are no poses."""
         return self.poses[self.active] if self.poses else None
 
 
 def check_room(poses: Sized) -> None:
-    """Raise DocumentError for more poses than a document may hold."""
+    """Raise a DocumentError for more poses than a document may hold."""
     if len(poses) > _MOST_POSES:
         raise DocumentError(f"poses: there are {len(poses)}; {_MOST_POSES} are allowed")
 
 
 def at_rest(pose: Pose) -> bool:
-    """Whether the identity meets all pins; no energy is lower anywhere."""
+    """Whether the identity meets all pins. Then the identity is a minimum."""
     in_place = np.array_equal(pose.targets, pose.handles)
     unturned = not (np.nan_to_num(pose.angles, nan=0.0)).any()
     return in_place and unturned and bool((np.nan_to_num(pose.scales, nan=1.0) == 1).all())
 
 
 def is_identity(map: HarmonicMap) -> bool:
-    """Whether the map has the very coefficients of ``HarmonicMap.identity``."""
+    """Whether the map has exactly the coefficients of ``HarmonicMap.identity``."""
     return not map.psi.any() and np.array_equal(map.phi, HarmonicMap.identity(map.domain).phi)
 
 

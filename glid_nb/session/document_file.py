@@ -1,4 +1,4 @@
-"""Documents as files: a zip of JSON and PNG that reads back bit for bit."""
+"""Save and load documents: a zip of JSON and PNG that is read back bit for bit."""
 
 import dataclasses
 import io
@@ -44,7 +44,8 @@ FORMAT_VERSION = 5
 
 _JSON, _IMAGE = "document.json", "image.png"
 _MASKS = {key: f"scribbles-{key}.png" for key in ("foreground", "background")}
-# Unpacked. A picture of MAX_SIDE squared has 256 MB of pixels; PNG adds a little to noise.
+# Most bytes of each member, unpacked. A picture of MAX_SIDE squared has 256 MB of pixels. As a PNG,
+# noise is a little larger.
 _MOST_BYTES = {_JSON: 64 << 20, _IMAGE: 5 * MAX_SIDE**2}
 _MOST_BYTES |= dict.fromkeys(_MASKS.values(), MAX_SIDE**2)
 _DIRECTORY_BYTES = 64 * 1024  # room for the zip directory of a few members
@@ -58,30 +59,32 @@ _POSE_KEYS = {
     "handles": _json.check_points,
     "targets": _json.check_points,
 }
-# To poses, by versions.
+# The keys of a pose that each version added.
 _ADDED = {
     3: ("depths",),
     4: ("angles", "scales", "weights", "names", "stiffness"),
     5: ("unsolved",),
 }
-_MOST_ITERATIONS = 200  # was written where max_iterations is None, the method's own limit
-_RELATIVE_WEIGHT = 5  # since that version p2p_weight is in units of the cage, before of the world
-_MASK = "mask"  # written instead of strokes; the pixels are in another member
-_NEVER = "never"  # TraceOptions.max_edge == inf, which JSON cannot say
+_MOST_ITERATIONS = 200  # older files have this for max_iterations=None, the method's own limit
+_RELATIVE_WEIGHT = (
+    5  # since this version p2p_weight is relative to the cage's unit, not the world's
+)
+_MASK = "mask"  # written instead of strokes; another member holds the pixels
+_NEVER = "never"  # stands for TraceOptions.max_edge == inf, which JSON cannot express
 
-# The PNG of the picture encoded last: an editor saves the same one again and again.
+# The PNG of the last encoded picture, because an editor saves the same picture again and again.
 _last: tuple[weakref.ref[NDArray[np.uint8]], bytes] | None = None
 
 
 def save_document(document: Document, path: str | Path) -> None:
-    """Write `document_bytes` to a file, atomically: if that fails, what was there before stays."""
+    """Write `document_bytes` to a file, atomically. If that fails, the old file stays."""
     write_atomically(path, document_bytes(document))
 
 
 def document_bytes(document: Document) -> bytes:
-    """A document as one file, a zip of JSON and PNG, that reads back bit for bit.
+    """A document as one file: a zip of JSON and PNG that is read back bit for bit.
 
-    A DocumentError if a map is not certified, or an energy is a Python function.
+    Raises a DocumentError if a map is not certified or an energy is a Python function.
     """
     timeline = {} if document.timeline is None else {"timeline": vars(document.timeline)}
     scribbles, masks = _scribbles_to_members(document.scribbles)
@@ -107,9 +110,9 @@ def document_bytes(document: Document) -> bytes:
 
 
 def load_document(path: str | Path) -> Document:
-    """Read a document that :func:`save_document` wrote; every map in it is certified anew.
+    """Read a document that :func:`save_document` wrote. Every map in it is certified again.
 
-    A DocumentError names the file and the culprit if it is no valid document.
+    Raises a DocumentError that names the file and the wrong part if it is no valid document.
     """
     with about(path, DocumentError):
         members = _read_archive(path)
@@ -149,7 +152,7 @@ def _read_archive(path: str | Path) -> dict[str, bytes]:
                 members[info.filename] = archive.read(info)
     except InputFileError:
         raise
-    except Exception as error:  # zipfile raises nearly anything for headers that make no sense
+    except Exception as error:  # zipfile raises many kinds of errors for damaged headers
         if (kind := picture_format(data)) is not None:
             what = f"it is a {kind} picture; open it as the picture instead of as a session"
         elif zipfile.is_zipfile(io.BytesIO(data)):
@@ -167,13 +170,13 @@ def _check_member(info: zipfile.ZipInfo) -> None:
         raise InputFileError(f"it holds {name!r:.80}, which does not belong there; {wanted}")
     if info.compress_type not in (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED):
         raise InputFileError(f"{name} is compressed by a method that sessions do not use")
-    # zipfile stops at this size whatever the compressed data hold.
+    # zipfile stops at this size, whatever the compressed data contain.
     if size > _MOST_BYTES[name]:
         raise InputFileError(f"{name} unpacks to {size:,} bytes; {_MOST_BYTES[name]:,} are allowed")
 
 
 def _image_png(image: NDArray[np.uint8]) -> bytes:
-    """A read-only (h, w, 4) uint8 picture as PNG, pixel for pixel, hidden colours included."""
+    """A read-only (h, w, 4) uint8 picture as PNG, exactly, including hidden colours."""
     global _last
     if _last is None or _last[0]() is not image:
         _last = weakref.ref(image), png(image, compress_level=1)
@@ -181,7 +184,9 @@ def _image_png(image: NDArray[np.uint8]) -> bytes:
 
 
 def _read_png(data: bytes, size: tuple[int, int], mode: str, name: str) -> NDArray[Any]:
-    """The pixels of a PNG; InputFileError, before decoding, for another (width, height) or mode."""
+    """The pixels of a PNG. Another (width, height) or mode raises an InputFileError before
+    decoding.
+    """
     if not data.startswith(b"\x89PNG\r\n\x1a\n"):
         raise InputFileError(f"{name} is no PNG picture")
     try:
@@ -189,11 +194,11 @@ def _read_png(data: bytes, size: tuple[int, int], mode: str, name: str) -> NDArr
             if picture.size != size or picture.mode != mode:
                 has = f"{name} has {picture.width} x {picture.height} pixels, mode {picture.mode}"
                 raise InputFileError(f"{has}; announced were {size[0]} x {size[1]}, mode {mode}")
-            # Pillow's own arrays of mode "1" hold the byte 255 for true.
+            # Pillow's arrays of mode "1" hold the byte 255 for true.
             pixels = np.array(picture.convert("L")) > 0 if mode == "1" else np.array(picture)
     except InputFileError:
         raise
-    except Exception as error:  # Pillow's decoder raises nearly anything for a damaged file
+    except Exception as error:  # Pillow raises many kinds of errors for damaged files
         raise InputFileError(f"{name} is damaged: {error}") from None
     pixels.setflags(write=False)
     return pixels
@@ -214,7 +219,7 @@ def _pose_to_dict(index: int, pose: NamedPose) -> dict[str, Any]:
         "method": {"name": pose.method.name, "settings": pose.method.settings},
         "phi": as_points(pose.map.phi).tolist(),
         "psi": as_points(pose.map.psi).tolist(),
-        # Of the identity a reader sees it.
+        # If the map is the identity, the loader recognises an unsolved pose itself.
         **({"unsolved": True} if pose.unsolved and not is_identity(pose.map) else {}),
     }
 
@@ -250,8 +255,8 @@ def _pose_from_dict(index: int, data: Any, domain: Domain, version: int) -> Name
 def _unsolved(data: Any, pose: Pose, map: HarmonicMap) -> bool:
     """Whether a pose was saved before it was solved.
 
-    So was one that is still the identity although its pins ask for another map: versions before 5
-    wrote such after a change of the cage, and said nothing.
+    This is also true if the map is the identity although the pins ask for another map. Versions
+    before 5 wrote such poses, unmarked, after a change of the cage.
     """
     if not isinstance(said := data.get("unsolved") or False, bool):
         raise InputFileError("unsolved must be true or false")
@@ -259,7 +264,7 @@ def _unsolved(data: Any, pose: Pose, map: HarmonicMap) -> bool:
 
 
 def _check_certified(map: HarmonicMap) -> None:
-    certificate = certificate_of(map, alone=True)  # the solver's panels are in no file
+    certificate = certificate_of(map, alone=True)  # files do not contain the solver's panels
     if not certificate.certified:
         raise DocumentError(f"its map is not certified. {certificate.reason}")
 
@@ -269,7 +274,7 @@ def _domain_from_dict(data: Any) -> Domain:
         _json.check_fields(data, "domain", _json.keys(*DOMAIN_KEYS, "notes"))
         domain = Domain.from_dict(data)
     if domain.to_dict() != data:
-        # The maps' coefficients follow the order of the loops' vertices.
+        # The coefficients of maps are in the order of the loops' vertices.
         raise InputFileError("domain: its loops must run as saved")
     return domain
 

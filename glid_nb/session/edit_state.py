@@ -1,4 +1,4 @@
-"""The values of the deformation editor: its state, the solver's tasks and frames, a moment."""
+"""The values of the deformation editor: its state, the solver's tasks and frames, moments."""
 
 import functools
 from dataclasses import dataclass, field, replace
@@ -16,23 +16,23 @@ from glid_nb.session.timeline import Timeline
 from glid_nb.solvers import Iteration, Options
 
 LIVE_OPTIONS = Options(restarts=0, iterations_per_call=1)
-"""Options for solving during a drag: a frame per iteration, and no restarts."""
+"""Options for solving during a drag: one frame per iteration, no restarts."""
 
 
 class EditError(InputError):
-    """An action that the editor refuses; the message says why and what to do."""
+    """The editor refuses an action; the message says why and what to do."""
 
 
 @dataclass(frozen=True, eq=False)
 class EditState:
-    """Everything that undo restores: the domain and all poses, one of them being edited."""
+    """Everything that undo restores: the domain and all poses, one of which is edited."""
 
     domain: Domain
     poses: tuple[NamedPose, ...]
-    """At least one. Their maps are the best ones so far, and always certified."""
-    active: int = 0  # index of the pose that is edited
+    """At least one. Their maps are the best ones so far and always certified."""
+    active: int = 0  # index of the edited pose
     timeline: Timeline = field(default_factory=Timeline)
-    """When the poses are shown: each is a keyframe, and they are in the order of time."""
+    """The times of the poses. Each pose is a keyframe, and they are sorted by time."""
 
     def __post_init__(self) -> None:
         assert len(self.timeline) == len(self.poses)
@@ -46,7 +46,7 @@ class EditState:
         energy: Energy | None = None,
         options: Options | None = None,
     ) -> Self:
-        """One pose on a domain, at the identity map."""
+        """A state with one pose, at the identity map."""
         pose = Pose([], []) if pose is None else pose
         pose.check_inside(domain)
         how = energy or SymmetricDirichlet(), options or LIVE_OPTIONS
@@ -55,27 +55,27 @@ class EditState:
 
     @property
     def current(self) -> NamedPose:
-        """The pose that is edited."""
+        """The edited pose."""
         return self.poses[self.active]
 
     @property
     def map(self) -> HarmonicMap:
-        """The certified map that is shown."""
+        """The certified map of the edited pose."""
         return self.current.map
 
     @property
     def pose(self) -> Pose:
-        """Handles and targets of the pose that is edited."""
+        """Handles and targets of the edited pose."""
         return self.current.pose
 
     @property
     def order(self) -> Order:
-        """Which part of the shape covers which, by the depths of the handles."""
+        """The order in which parts of the shape cover each other, by the handles' depths."""
         return order_of(self.domain.cage, self.pose)
 
     @functools.cached_property
     def orders(self) -> tuple[Order, ...]:
-        """The same for each pose."""
+        """The order of each pose."""
         return tuple(order_of(self.domain.cage, pose.pose) for pose in self.poses)
 
     @functools.cached_property
@@ -83,49 +83,49 @@ class EditState:
         return HarmonicMap.identity(self.domain)
 
     def changed(self, **changes: Any) -> Self:
-        """A copy with another pose, energy, options, map or method of the pose that is edited."""
+        """A copy where the edited pose has another pose, energy, options, map or method."""
         return self.with_current(self.current.changed(**changes))
 
     def with_current(self, current: NamedPose) -> Self:
-        """A copy with another value of the pose that is edited."""
+        """A copy where ``current`` replaces the edited pose."""
         before, after = self.poses[: self.active], self.poses[self.active + 1 :]
         return replace(self, poses=(*before, current, *after))
 
 
 @dataclass(frozen=True, eq=False)
 class Task:
-    """What to solve, and the map to start from."""
+    """A pose to solve, with the map to start from."""
 
     pose: NamedPose
-    chain: int  # a task continues from the map of the task before it only if both are of one chain
+    chain: int  # a task continues from the previous task's map only if both have the same chain
     single: bool = False  # stop after one compiled call, or one iteration of another method
 
 
 @dataclass(frozen=True, eq=False)
 class Frame:
-    """A map during a solve, or its final one."""
+    """A map during a solve, or the final map."""
 
     task: Task
-    map: HarmonicMap  # certified; for a method on a mesh the task's own
+    map: HarmonicMap  # certified; for a method on a mesh, the map of the task
     history: tuple[Iteration, ...]  # the latest iterations of this gesture
     starts: tuple[int, ...]  # numbers of the iterations at which the targets had moved
-    solution: Solution | None = None  # None while the solve goes on
-    proof: Certificate | None = None  # the solver's, of ``map``; None for a method on a mesh
+    solution: Solution | None = None  # None during the solve
+    proof: Certificate | None = None  # the solver's proof for ``map``; None for a mesh
     mesh: MeshMap | None = None  # the map of a method on a mesh, which may fold
 
 
 @dataclass(frozen=True, eq=False)
 class Moment:
-    """Everything that a view of a deformation draws, read at one moment and so consistent."""
+    """Everything that a view of a deformation draws, read at one moment, so consistent."""
 
     state: EditState
     frame: Frame | None  # the solver's last frame, if it belongs to the state; else None
     busy: bool
     paused: bool
-    error: Exception | None = None  # the exception that ended the last solve, if one did
+    error: Exception | None = None  # the exception that ended the last solve, if any
     selection: tuple[int, ...] = ()
-    dragged: tuple[int, ...] = ()  # indices of handles, as the selection
-    prepared: float = 1.0  # how much is done, from 0 to 1, of what the first solve of a shape needs
+    dragged: tuple[int, ...] = ()  # indices of the dragged handles
+    prepared: float = 1.0  # the finished share, 0 to 1, of the preparation for the first solve
 
     @property
     def map(self) -> HarmonicMap:
@@ -134,7 +134,7 @@ class Moment:
 
     @property
     def comparison(self) -> MeshMap | None:
-        """The uncertified map of a method on a mesh, which lags behind the state; else None."""
+        """The uncertified map of a method on a mesh; else None. It may be older than the state."""
         return None if self.frame is None else self.frame.mesh
 
     @property
@@ -144,16 +144,16 @@ class Moment:
 
     @property
     def solution(self) -> Solution | None:
-        """How the solve of the pose ended; None before."""
+        """How the solve of the pose ended; None before its end."""
         current, frame = self.state.current, self.frame
         if current.method.certified:
             return current.solution
-        # The result of a method on a mesh is only in the frame.
+        # Only the frame has the result of a method on a mesh.
         if frame is None or not frame.task.pose.asks_the_same(current):
             return None
         return frame.solution
 
     @property
     def solved(self) -> bool:
-        """Whether the solve of the pose has come to its end."""
+        """Whether the solve of the pose has ended."""
         return self.solution is not None and self.solution.ended

@@ -36,7 +36,7 @@ _NOT_VALID = "The outline in the Trace tab is not valid yet: this is the last on
 
 
 class KeptWorkError(OSError):
-    """Something cannot be kept in the user's data folder; the editor goes on without."""
+    """Something cannot be saved in the user's data folder. The editor continues without it."""
 
     def __init__(self, error: Exception) -> None:
         super().__init__(_NOT_KEPT.format(str(error).removesuffix(".")))
@@ -49,7 +49,7 @@ class _Session:
     tracing: TracingState
     domain: Domain | None
     deformation: Deformation
-    path: Path | None = None  # its file, while undo or redo of the tracing may bring it back
+    path: Path | None = None  # its file, if undo or redo of the tracing may bring the session back
 
     @property
     def image(self) -> Array:
@@ -58,27 +58,31 @@ class _Session:
 
 
 def open_document(path: str | Path) -> Document:
-    """`load_document`, after saving what any editor of this process has pending for the file."""
+    """Like `load_document`, but first saves the pending changes of all editors to the file."""
     autosave.flush(path)
     return load_document(path)
 
 
 def find_document(path: str | Path) -> Document | None:
-    """`open_document`, or None if there is no file; DocumentError where there cannot be one."""
+    """Like `open_document`, but None if the file does not exist.
+
+    Raises a DocumentError if the path is a folder or its folder does not exist.
+    """
     _check_place(Path(path))
     autosave.flush(path)
     return load_document(path) if Path(path).exists() else None
 
 
 class EditorModel(Observed):
-    """A tracing and the deformation of what was traced.
+    """A tracing and the deformation of the traced shape.
 
     ``observe`` reports ``"replaced"`` when ``deformation`` or ``tracing`` is another object, and
-    ``"saved"`` after each save in the background; ``save_error`` says whether that failed.
+    ``"saved"`` after each save in the background. ``save_error`` is the exception of a failed save.
 
-    It begins with a picture, with a document, or without either. Changes are saved to the file
-    ``path``, or one beside it once another program has changed that; without a file work is kept
-    in the user's data folder (`session.autosave.kept_files`), for the next model of the picture.
+    The model begins with a picture, with a document, or without either. Changes are saved to the
+    file ``path``. If another program has changed this file, they go to a new file beside it.
+    Without a path, work is saved in the user's data folder (`session.autosave.kept_files`), and the
+    next model of the same picture offers it.
     """
 
     def __init__(
@@ -93,25 +97,25 @@ class EditorModel(Observed):
         super().__init__()
         self._autosave: autosave.Autosave | None = None
         self.save_error: Exception | None = None
-        """Why the last save in the background failed; None when it did not.
+        """Why the last save in the background failed; None if it succeeded.
 
-        A `KeptWorkError` where that was to the user's data folder.
+        It is a `KeptWorkError` for a save to the user's data folder.
         """
         self.own_files = OwnFiles()  # the files that were saved, opened and exported
         self._session: _Session | None = None
-        # Sessions of other pictures, which undo of the tracing may bring back.
+        # Sessions of other pictures. Undo of the tracing may bring them back.
         self._shelf: list[_Session] = []
-        # The tracing that made each domain; undo of the deformation restores it.
+        # The tracing that made each domain. Undo of the deformation restores it.
         self._sources = weakref.WeakKeyDictionary[Domain, TracingState]()
-        # The autosave's file as the user named it; files for other pictures are named after it.
+        # The autosave's file as the user named it. Files for other pictures get similar names.
         self._named_path: Path | None = None
         self.kept: Path | None = None
-        """What an earlier editor of this picture, which had no file, has kept; to be recovered."""
+        """The file with the work of an earlier editor of this picture without a session file."""
         self._saved_work: tuple[Any, ...] = ()
         with self.locked():
             if document is None:
                 self.tracing = TracingModel(image)
-                """The picture that is open and its cage."""
+                """The open picture and its cage."""
                 if not self.tracing.doubt:
                     self.apply_tracing()
             else:
@@ -123,7 +127,7 @@ class EditorModel(Observed):
 
     @property
     def autosave_path(self) -> Path | None:
-        """The session file that is saved to, if any."""
+        """The session file of the autosave, if any."""
         saving = self._autosave if self._named_path is not None else None
         return None if saving is None else saving.path
 
@@ -133,15 +137,16 @@ class EditorModel(Observed):
         return None if self._autosave is None else self._autosave.left
 
     def take_over_file(self) -> None:
-        """Go on saving to the session file although another editor, now closed, wrote it last."""
+        """Continue saving to the session file, although a closed editor wrote it last."""
         if self.autosave_path is not None:
             self.own_files.note_session(self.autosave_path)
 
     @property
     def deformation(self) -> Deformation:
-        """The shape being deformed, an outline that is a guess too; EditError without any.
+        """The deformation of the traced shape, also if its outline is only a guess.
 
-        Its solver begins with the first change, or when a view that was drawn calls `begin`.
+        Raises an EditError if there is no cage. The solver begins with the first change, or when a
+        drawn view calls `begin`.
         """
         if self._session is None:
             self.apply_tracing()
@@ -155,7 +160,7 @@ class EditorModel(Observed):
 
     @property
     def unsaved(self) -> bool:
-        """Whether poses with handles, of any picture, are in no file."""
+        """Whether poses with handles, of any picture, are not saved in a session file."""
         if self._session is None or self._named_path is not None:
             return False
         states = (one.deformation.state for one in (self._session, *self._shelf))
@@ -164,19 +169,20 @@ class EditorModel(Observed):
 
     @property
     def image(self) -> Array | None:
-        """The picture that is deformed; the tracing may have another one, not yet applied."""
+        """The deformed picture. The tracing may have another one that is not applied yet."""
         return None if self._session is None else self._session.image
 
     @property
     def name(self) -> str:
-        """What files are named after: the picture's file, or "session" where there is none."""
+        """The stem for names of files: that of the picture's file, or "session" without one."""
         return portable_name(self._session.tracing.name if self._session else "") or "session"
 
     def apply_tracing(self) -> str:
-        """Deform what is traced now: a step for undo, or another session for another picture.
+        """Deform the present tracing. This is a step for undo; another picture starts a new
+        session.
 
-        A new session is saved to a new file; a picture that undo brings back returns with its own.
-        Returns what the user may not expect of this, in words; empty where there is nothing.
+        A new session is saved to a new file. A picture that undo brings back also gets its file
+        back. Returns a text about effects that the user may not expect; empty if there are none.
         """
         with self.locked():
             domain, session, words = self.tracing.domain, self._session, ""
@@ -216,10 +222,10 @@ class EditorModel(Observed):
         )
 
     def save(self, path: str | Path) -> None:
-        """Write the document to a file; if that fails, what was there before stays.
+        """Write the document to a file. If that fails, the old file stays.
 
-        Poses that are not solved yet are solved first. Where that is not possible, as while the
-        solver is paused, the file says so, and they are solved once it is opened.
+        Unsolved poses are solved first. If that is not possible, for example because the solver is
+        paused, the file marks them, and they are solved after it is opened.
         """
         if self.has_shape:
             self.deformation.finish()
@@ -233,10 +239,10 @@ class EditorModel(Observed):
         self.own_files.note_session(path)
         with self.locked():
             if (kept := self._end_keeping()) is not None:
-                self._remove_kept(kept)  # it is in a file now
+                self._remove_kept(kept)  # the work is in a session file now
 
     def load(self, path: str | Path) -> None:
-        """Go on with the document in a file, which an autosave, if there is one, then saves to."""
+        """Continue with the document in a file. An autosave then saves to this file."""
         document = open_document(path)
         with self.locked():
             if self._named_path is not None:
@@ -247,7 +253,8 @@ class EditorModel(Observed):
             self._saved_work = _work_of(self.deformation.state)
 
     def autosave(self) -> None:
-        """Save soon, if there is something to save; without a file, work on handles is kept."""
+        """Save soon, if there is something to save. Without a session file, work on handles is
+        saved in the user's data folder."""
         with self.locked():
             if self._autosave is None and self.unsaved:
                 try:
@@ -266,13 +273,13 @@ class EditorModel(Observed):
                 self.kept = None
 
     def discard_kept(self) -> None:
-        """Delete what is kept, and offer it no more."""
+        """Delete the kept work, and no longer offer it."""
         kept, self.kept = self.kept, None
         if kept is not None:
             self._remove_kept(kept)
 
     def close(self) -> None:
-        """Save what is pending, with a warning if that fails, and end all threads."""
+        """Save pending changes, with a warning if that fails, and end all threads."""
         with self.locked():
             self._observers.clear()
             saving, self._autosave = self._autosave, None
@@ -280,13 +287,14 @@ class EditorModel(Observed):
             saving.close()
         if self._session is not None:
             self._session.deformation.close()
-        if saving is not None and self.save_error is not None:  # at the end, for it may be raised
+        # Warn at the end, because a warning may be raised as an exception.
+        if saving is not None and self.save_error is not None:
             kept = isinstance(self.save_error, KeptWorkError)
             text = f"{'' if kept else 'the session was not saved: '}{self.save_error}"
             warnings.warn(text, RuntimeWarning, stacklevel=2)
 
     def not_kept(self, error: OSError) -> None:
-        """Tell, by ``save_error``, that the user's data folder failed, and go on without it."""
+        """Report by ``save_error`` that the user's data folder failed, and continue without it."""
         self._saved(KeptWorkError(error))
 
     def _remove_kept(self, path: Path) -> None:
@@ -296,7 +304,7 @@ class EditorModel(Observed):
             self.not_kept(error)
 
     def _keep_in(self, path: Path, own: OwnFiles | None = None) -> None:
-        """Save to a file from now on; where that is not the user's own, to another if it fails."""
+        """Save to a file from now on. A kept file is replaced by another one if saving fails."""
         image, done = self.document.image if own is None else None, weakly(self._saved)
         elsewhere = None if image is None else functools.partial(autosave.new_kept_file, image)
         known: Any = {"on_done": done, "own": own, "owner": self, "elsewhere": elsewhere}
@@ -320,7 +328,7 @@ class EditorModel(Observed):
         if session is None:
             if self._named_path is not None and self._session is not None:
                 if self._autosave is not None:
-                    self._autosave.flush()  # so that the next file gets another name
+                    self._autosave.flush()  # then this file exists and the next gets another name
                 self._save_to(autosave.free_sibling(self._named_path))
             self._replace(Deformation(domain, begin=False))
             return
@@ -333,7 +341,7 @@ class EditorModel(Observed):
             _apply(deformation, domain)
 
     def _save_to(self, path: Path) -> None:
-        """Autosave to this file, after what is pending for another one is saved there."""
+        """Autosave to this file from now on. Pending changes are first saved to the old file."""
         old = self._autosave
         if old is not None:
             if old.path.resolve() == path.resolve():
@@ -357,7 +365,7 @@ class EditorModel(Observed):
         self._end_keeping()
         old, self._session = self._session, self._session_of(deformation)
         if old is not None:
-            old.deformation.close()  # without waiting for its thread, which may want this lock
+            old.deformation.close()  # does not wait for its thread, which may want this lock
         self.tell("replaced")
         deformation.observe(functools.partial(self._on_change, deformation))
 
@@ -385,13 +393,13 @@ class EditorModel(Observed):
         self._session = self._session_of(session.deformation)
 
     def _saved(self, error: Exception | None) -> None:
-        keeps = self._named_path is None  # what no file can hold is said when it is saved
+        keeps = self._named_path is None  # then documents that no file can hold are no error
         if keeps and isinstance(error, DocumentError):
             error = None
         elif keeps and isinstance(error, OSError) and not isinstance(error, KeptWorkError):
             error = KeptWorkError(error)
         self.save_error = error
-        self._announce("saved")  # not by tell: a thread that waits for the save may hold the lock
+        self._announce("saved")  # not tell(): a thread that waits for the save may hold the lock
 
 
 def _apply(deformation: Deformation, domain: Domain) -> str:

@@ -1,4 +1,4 @@
-"""Solving during a drag: each solve continues the one before, and the latest target wins."""
+"""Solve during a drag: each solve continues the previous one, and the latest target wins."""
 
 import functools
 import time
@@ -21,10 +21,11 @@ from glid_nb.solvers.problem import moved
 
 FRAME_INTERVAL = 1 / 40
 """Least number of seconds between two frames of one solve; the last frame is always sent."""
-MOST_ITERATIONS = 200  # most iterations of a gesture that are kept, the latest ones
-# Panels are only ever split; with more than this multiple of the initial number, start afresh.
+MOST_ITERATIONS = 200  # most iterations of a gesture that are kept; older ones are dropped
+# Panels are split but never merged. With more than this multiple of their initial number, a solve
+# starts with the initial panels again.
 _MOST_REFINED = 3.0
-# How far the preparation for a shape is when a stage of it begins.
+# The finished share of the preparation for a shape at the beginning of each stage.
 _PREPARED = {"start": 0.0, "basis": 0.2, "load": 0.6, "trace": 0.3, "lower": 0.4, "compile": 0.5}
 
 
@@ -33,10 +34,11 @@ class _Cancelled(Exception):  # noqa: N818 - it is no error
 
 
 class LiveSolver:
-    """Solves one task after the other, each from the map that the one before has reached.
+    """Solves one task after the other. Each starts from the map that the previous one reached.
 
-    It calls ``publish`` with every frame, ``failed`` with what a solve raised, ``prepared`` with
-    the share of the preparation that is done; the objects of these methods are not kept alive.
+    It calls ``publish`` with every frame, ``failed`` with the exception of a solve, and
+    ``prepared`` with the finished share of the preparation. It does not keep the objects of these
+    methods alive.
     """
 
     def __init__(
@@ -49,13 +51,13 @@ class LiveSolver:
         self._share: float | None = None  # of the preparation; None before the first task
         self._last: Result | None = None
         self._chain: int | None = None
-        # Of the gesture: the iterations before this task, and the first ones of all its tasks.
+        # The gesture's iterations before this task, and the numbers of its tasks' first iterations.
         self._before: tuple[Iteration, ...] = ()
         self._starts: tuple[int, ...] = ()
         self._published = -np.inf
 
     def solve(self, task: Task | None, worker: LatestWins[Task | None]) -> None:
-        """Run the task's method and publish its frames; a newer task ends it between two calls."""
+        """Run the task's method and publish its frames. A newer task ends it between two calls."""
         if task is None:
             return
         if self._chain != task.chain or self._last is None:
@@ -67,7 +69,7 @@ class LiveSolver:
         try:
             with watched(functools.partial(self._watch, worker)):
                 if self._share is None:
-                    stage("start")  # JAX is imported first
+                    stage("start")  # the first task imports JAX
                 result = self._result(task, worker)
         except _Cancelled:
             return
@@ -83,7 +85,7 @@ class LiveSolver:
         self._publish(replace(frame, solution=solution))
 
     def _watch(self, worker: LatestWins[Task | None], name: str) -> None:
-        """Tell how far the preparation is when a stage begins; end a task that was cancelled."""
+        """Report the preparation's progress at the beginning of a stage. End a cancelled task."""
         if worker.cancelled:
             raise _Cancelled
         if (share := _PREPARED.get(name)) is not None:
@@ -101,11 +103,11 @@ class LiveSolver:
             nonlocal calls, iterations
             self._tell_prepared(1.0)
             if progress.sigma2_lower is None and not progress.history:
-                # The report before the first iteration: every task takes at least a step.
+                # The report before the first iteration. Every task makes at least one step.
                 return worker.cancelled
             calls += 1
             moved, iterations = len(progress.history) > iterations, len(progress.history)
-            # A first call may only split panels; those are kept for the next task.
+            # A first call may only split panels. The next task keeps them.
             if worker.overtaken or (task.single and (moved or calls > 1)):
                 return True  # the frame comes with the result
             now = time.monotonic()
@@ -129,8 +131,8 @@ class LiveSolver:
 def solve_edited(
     edited: NamedPose, callback: Callable[[Progress], bool], last: Result | None = None
 ) -> Result:
-    """Solve a pose of the editor, from what the solve before has reached or from its own map."""
-    # During a drag the shape must not turn as a whole; a single handle takes it along.
+    """Solve a pose of the editor, starting from the previous solve's map or from its own map."""
+    # During a drag the shape must not turn as a whole. A single handle moves the whole shape.
     align = isinstance(edited.method, Newton) and len(edited.pose) == 1
     options = replace(edited.options, align=align, restarts=0)
     how = edited.energy, options, _starting_point(edited, last), callback
@@ -138,8 +140,8 @@ def solve_edited(
 
 
 def _carried(last: Result, pose: Pose) -> Result:
-    """Moved along where all targets have moved alike since a solve that was blocked, or stopped
-    before it was: a step to there that also lowers the energy may not be possible."""
+    """The last result as a start. If all targets shifted equally after a solve that was blocked or
+    stopped, the start is shifted too. Otherwise no step may lower the energy."""
     start, before = last.map, last.pose
     if last.status.ok or isinstance(start, MeshMap) or not pose.pins_alike(before):
         return last
@@ -156,7 +158,7 @@ def _starting_point(edited: NamedPose, last: Result | None) -> DeformationMap | 
         return start
     conformal = edited.options.conformal and "conformal" in edited.method.options
     if conformal and np.abs(start.psi - start.psi[0]).max() > 0:
-        # The solver needs a conformal start; the identity is one.
+        # The solver needs a conformal start, such as the identity.
         return HarmonicMap.identity(start.domain)
     if last is None or last.n_panels is None:
         return start

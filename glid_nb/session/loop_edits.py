@@ -1,4 +1,4 @@
-"""Edits of a cage's vertices, as functions of loops that need not be a valid cage."""
+"""Edits of a cage's vertices, as functions of loops. The loops need not form a valid cage."""
 
 from collections.abc import Iterable
 from typing import TypeAlias
@@ -11,11 +11,11 @@ from glid_nb._arrays import Floats, number_pairs, read_only
 from glid_nb.geometry import GeometryError, loop_name
 from glid_nb.geometry._loops import Loops
 
-_DRAWN = 0.002  # of a picture's longer side; drawn lines keep no finer detail
-_LONGEST = 0.04  # of a drawn outline's length; longer edges are divided
+_DRAWN = 0.002  # of a picture's longer side: the tolerance that simplifies drawn lines
+_LONGEST = 0.04  # of a drawn outline's length: longer edges are divided
 
 AnyLoops: TypeAlias = tuple[Floats, ...]
-"""The exterior, then the holes: read-only (n, 2) arrays, valid as a cage or not."""
+"""The exterior, then the holes, as read-only (n, 2) arrays. They may be invalid as a cage."""
 
 
 def move_vertex(loops: AnyLoops, loop: int, index: int, to: ArrayLike) -> AnyLoops:
@@ -25,15 +25,15 @@ def move_vertex(loops: AnyLoops, loop: int, index: int, to: ArrayLike) -> AnyLoo
 
 
 def insert_vertex(loops: AnyLoops, loop: int, edge: int, at: ArrayLike) -> AnyLoops:
-    """The loops with a vertex between vertex ``edge`` and the next one."""
+    """Insert a vertex between vertex ``edge`` and the next one."""
     vertices = _loop(loops, loop, edge)
     return _with(loops, loop, np.insert(vertices, edge + 1, checked_point(at), axis=0))
 
 
 def delete_vertices(loops: AnyLoops, vertices: Iterable[tuple[int, int]]) -> AnyLoops:
-    """The loops without some vertices (loop, index); holes with fewer than three left are removed.
+    """Delete some vertices (loop, index). Holes with fewer than three vertices left are removed.
 
-    A GeometryError when the exterior would have fewer than three left.
+    Raises a GeometryError if the exterior would have fewer than three vertices left.
     """
     gone: dict[int, set[int]] = {}
     for loop, index in vertices:
@@ -46,17 +46,18 @@ def delete_vertices(loops: AnyLoops, vertices: Iterable[tuple[int, int]]) -> Any
 
 
 def drawn(points: ArrayLike, size: tuple[int, int]) -> Floats:
-    """An outline drawn by hand over a picture of ``size``, as (n, 2) vertices of a cage in pixels.
+    """The (n, 2) vertices, in pixels, of a cage from an outline drawn over a picture of ``size``.
 
-    What crosses itself keeps its largest part; what lies beside the picture is cut off. Long edges
-    are divided, so that all of it can bend. A GeometryError when it encloses nothing.
+    Of an outline that crosses itself, the largest part is kept. Parts outside the picture are cut
+    off. Long edges are divided, so that the whole shape can bend. Raises a GeometryError if the
+    outline encloses nothing.
     """
     line = number_pairs(points, "an outline must be a list of pixels (x, y)", GeometryError)
     region = shapely.make_valid(shapely.Polygon(line if len(line) > 2 else None))
     region = shapely.intersection(region, shapely.box(0, 0, *size))
     tolerance = _DRAWN * max(size)
     parts = shapely.get_parts(shapely.get_parts(region))  # a collection may hold several polygons
-    parts = [part for part in parts if part.area > tolerance**2]  # lines have none
+    parts = [part for part in parts if part.area > tolerance**2]  # lines have no area
     if not parts:
         raise GeometryError("the outline encloses nothing of the picture; draw around the shape")
     ring = max(parts, key=lambda part: part.area).exterior.simplify(tolerance)
@@ -64,7 +65,7 @@ def drawn(points: ArrayLike, size: tuple[int, int]) -> Floats:
 
 
 def nearest_edge(loops: AnyLoops, point: ArrayLike) -> tuple[int, int, Floats]:
-    """The edge (loop, index) nearest to a point, and its nearest point to that."""
+    """The edge (loop, index) nearest to a point, and the nearest point on this edge."""
     p, whole = shapely.Point(checked_point(point)), Loops.of(loops)
     nearest = int(np.argmin(shapely.distance(whole.segments, p)))
     loop = int(whole.number[nearest])
@@ -73,7 +74,7 @@ def nearest_edge(loops: AnyLoops, point: ArrayLike) -> tuple[int, int, Floats]:
 
 
 def around(loops: AnyLoops, point: ArrayLike) -> int | None:
-    """Index of the loop of the hole around a point, or None."""
+    """Index of the loop of the hole that contains a point, or None."""
     holes = enumerate(loops[1:], start=1)
     return next((i for i, loop in holes if contains(loop, point)), None)
 
@@ -83,7 +84,7 @@ def contains(loop: Floats, point: ArrayLike) -> bool:
 
 
 def checked_point(point: ArrayLike) -> Floats:
-    """The point as a (2,) array; GeometryError unless it is a pair of finite numbers."""
+    """The point as a (2,) array. Raises a GeometryError if it is no pair of finite numbers."""
     wanted = f"a point must be a pair of finite numbers, not {point!r:.60}"
     p = number_pairs([point], wanted, GeometryError)[0]
     if not np.isfinite(p).all():

@@ -1,4 +1,4 @@
-"""What the editor's models have in common: undo, a lock, and observers of changes."""
+"""Base classes of the editor's models: undo, a lock, and observers of changes."""
 
 import threading
 from collections.abc import Callable, Iterator
@@ -14,7 +14,7 @@ MOST_STEPS = 500  # most steps that undo goes back
 
 @dataclass(frozen=True, eq=False)
 class History(Generic[S]):
-    """The past, present and undone states; immutable like them.
+    """The past, present and undone states. A history is immutable, as the states are.
 
     Consecutive steps of the same gesture, such as the moves of one drag, are one step for undo.
     """
@@ -22,11 +22,11 @@ class History(Generic[S]):
     present: S
     past: tuple[S, ...] = ()
     future: tuple[S, ...] = ()  # the states that redo restores, the next one first
-    gesture: Any = None  # the gesture that made the present and may go on; None for a complete step
+    gesture: Any = None  # the unfinished gesture that made the present; None for a complete step
     origin: Self | None = None  # the history before the gesture
 
     def step(self, state: S, gesture: Any = None) -> Self:
-        """Add ``state``, or replace the present within the same gesture; redo is cleared."""
+        """Add ``state``; within the same gesture, replace the present. Clears redo."""
         if gesture is not None and gesture == self.gesture:
             return self.refined(state)
         origin = None if gesture is None else self.ended()
@@ -38,11 +38,11 @@ class History(Generic[S]):
         return replace(self, present=state)
 
     def ended(self) -> Self:
-        """End the gesture: the next state is another step."""
+        """End the gesture, so that the next state is another step."""
         return self if self.gesture is None else replace(self, gesture=None, origin=None)
 
     def cancelled(self) -> Self:
-        """The history before the gesture; itself without one."""
+        """The history before the gesture; itself without a gesture."""
         return self if self.origin is None else self.origin
 
     def undone(self) -> Self:
@@ -61,20 +61,21 @@ class History(Generic[S]):
 
 
 class Observed:
-    """A model with one lock for several threads, and observers of its changes, told by name.
+    """A model with one lock for several threads, and observers that get the names of changes.
 
-    Who made the changes calls them after releasing the lock, so they may take other locks.
+    The thread that makes a change calls the observers after it has released the lock. So observers
+    may take other locks.
     """
 
     def __init__(self) -> None:
         self._lock = threading.RLock()
         self._depth = 0
         self._observers: list[Observer] = []
-        self._changes: dict[str, None] = {}  # in order, each once
+        self._changes: dict[str, None] = {}  # an ordered set
 
     @contextmanager
     def locked(self) -> Iterator[None]:
-        """Hold the lock, so that what is read belongs to one moment."""
+        """Hold the lock, so that all values read belong to the same moment."""
         self._lock.acquire()
         self._depth += 1
         changes: tuple[str, ...] = ()
@@ -88,7 +89,7 @@ class Observed:
             self._announce(*changes)
 
     def observe(self, observer: Observer) -> Callable[[], None]:
-        """Call ``observer`` with the name of every change; returns a function that ends this."""
+        """Call ``observer`` with the name of every change. Returns a function that ends this."""
         with self.locked():
             self._observers.append(observer)
 
@@ -133,17 +134,17 @@ class Undoable(Observed, Generic[S]):
         return bool(self.history.future)
 
     def undo(self) -> bool:
-        """Go one step back; whether there was one."""
+        """Go one step back. Returns whether there was one."""
         with self.locked():
             return self._go_to(self.history.undone())
 
     def redo(self) -> bool:
-        """Go one step forward again; whether there was one."""
+        """Go one step forward again. Returns whether there was one."""
         with self.locked():
             return self._go_to(self.history.redone())
 
     def _go_to(self, history: History[S]) -> bool:
-        """Make a history the present one; whether that is a change."""
+        """Replace the history. Returns whether it is another one."""
         changes = history is not self.history
         if changes:
             self.history = history

@@ -1,4 +1,4 @@
-"""Poses on the way to another shape: as text, mirrored, moved inside."""
+"""Move poses to other shapes: as text, mirrored, moved inside."""
 
 import json
 from collections.abc import Callable
@@ -15,16 +15,16 @@ from glid_nb.session.edit_state import EditError, EditState
 
 _BOX = "cage_box"
 _NO_POSE = "this text holds no pose; copy one in an editor first (Ctrl+C on its canvas)"
-_MARGIN = 0.01  # of the shape's size, from its boundary to a handle that is moved inside
+_MARGIN = 0.01  # distance from the boundary of handles moved inside, relative to the shape's size
 
 
 def pose_text(state: EditState) -> str:
-    """The pose that is edited as JSON, with the corners of the box around its shape."""
+    """The edited pose as JSON, with the corners of its shape's bounding box."""
     return json.dumps({_BOX: _box(state.domain.cage).tolist(), **state.pose.to_dict()})
 
 
 def paste_pose(state: EditState, text: str) -> EditState:
-    """Take over a pose from its text, stretched from the box of its shape to that of this one."""
+    """Apply a pose from its text, stretched from its shape's bounding box to this shape's."""
     try:
         data: Any = json.loads(text)
         pose = Pose.from_dict(data)
@@ -42,7 +42,7 @@ def paste_pose(state: EditState, text: str) -> EditState:
 
 
 def mirror_pose(state: EditState) -> EditState:
-    """Swap left and right, about the middle of the shape."""
+    """Mirror the pose left to right, about the middle of the shape."""
     pose, across = state.pose, _box(state.domain.cage).sum(axis=0) * [1, 0]
     pose = replace(pose, angles=-pose.angles)
     return _posed(state, pose, lambda points: across + points * [-1, 1])
@@ -51,7 +51,8 @@ def mirror_pose(state: EditState) -> EditState:
 def _posed(
     state: EditState, pose: Pose, place: Callable[[Array], Array] = np.array, scale: float = 1.0
 ) -> EditState:
-    """The pose in other places; handles beside the shape move inside, of several one stays."""
+    """Apply a pose at other places. Handles outside the shape move inside. Of several handles in
+    one place, one is kept."""
     handles, targets = place(pose.handles), place(pose.targets)
     pose = replace(pose, stiffness=pose.stiffness.moved(place, scale))
     moved = _inside(state.domain.cage, handles)

@@ -24,7 +24,7 @@ _CHOSEN_WHEN_MISSING = {
 
 @dataclass(frozen=True)
 class Problem:
-    """What a solver is given; a PoseError when a handle lies outside the domain."""
+    """A domain and a pose. Raises a PoseError if a handle lies outside the domain."""
 
     domain: Domain
     pose: Pose
@@ -37,13 +37,13 @@ class Problem:
     def from_dict(cls, data: Mapping[str, Any]) -> Self:
         """The problem in a JSON object.
 
-        Its keys ``cage``, ``handles`` and ``targets`` are required, ``holes`` is optional, all in
-        world coordinates. ``offset`` (a distance), ``offset_cage``, ``offset_holes`` and
-        ``hole_points`` are chosen when missing; ``depths``, ``angles``, ``scales`` and ``weights``
-        are as in :class:`~glid_nb.Pose`. Other keys are ignored.
+        The keys ``cage``, ``handles`` and ``targets`` are required, ``holes`` is optional. All are
+        in world coordinates. If ``offset`` (a distance), ``offset_cage``, ``offset_holes`` and
+        ``hole_points`` are missing, they are chosen automatically. ``depths``, ``angles``,
+        ``scales`` and ``weights`` are as in :class:`~glid_nb.Pose`. Other keys are ignored.
 
-        Raises InputFileError, GeometryError or PoseError when something is missing or not valid;
-        the message names the key or the place.
+        Raises an InputFileError, GeometryError or PoseError if something is missing or not valid.
+        The message names the key or the place.
         """
         required = {"cage": _json.check_points, **_POSE}
         _json.check_fields(data, "a problem", required, _CHOSEN_WHEN_MISSING, others=True)
@@ -67,14 +67,14 @@ class Problem:
     def load(cls, path: str | Path) -> Self:
         """Read a problem from a JSON file.
 
-        An InputFileError names the file and the culprit if it does not hold a valid problem.
+        Raises an InputFileError that names the file and the wrong part if the problem is not valid.
         """
         with about(path):
             return cls.from_dict(_json.read_object(path))
 
 
 def _refuse_pixels(domain: Domain, handles: Array, frame: PixelFrame) -> None:
-    """Raise PoseError for handles that are inside the domain as pixels of the picture."""
+    """Raise a PoseError if the handles lie inside the domain when read as pixels of the picture."""
     for order, name in ((slice(None), "(x, y)"), (slice(None, None, -1), "(row, column)")):
         if domain.cage.contains(frame.to_world(handles[:, order])).all():
             xmin, ymin, xmax, ymax = frame.bounds
@@ -89,9 +89,9 @@ def _refuse_pixels(domain: Domain, handles: Array, frame: PixelFrame) -> None:
 
 
 def load_pose(path: str | Path) -> Pose:
-    """Read what `Pose.to_dict` writes from a JSON file; ignore other keys.
+    """Read a pose, as `Pose.to_dict` writes it, from a JSON file. Other keys are ignored.
 
-    An InputFileError names the file and the culprit if it does not hold a valid pose.
+    Raises an InputFileError that names the file and the wrong part if the pose is not valid.
     """
     with about(path):
         data = _json.read_object(path)

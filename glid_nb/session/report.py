@@ -21,15 +21,21 @@ _LIBRARIES = ("jax", "jaxlib", "numpy", "scipy")
 def build_report(result: Result) -> dict[str, Any]:
     """The report of a solve, with its certificate and global injectivity, both timed.
 
-    ``status`` and ``message``; ``certified`` and the ``proof`` in words; the energies ``E``,
-    ``E_iso`` and ``E_p2p``, which is ``lambda / 2`` times the sum of squared ``misses`` (h,), world
-    units; ``E_start`` before the first iteration; the certified bounds ``sigma2_lower``,
-    ``sigma1_upper`` and ``k_upper``; ``windings`` of f_z per loop (exterior
-    first) and their sum ``winding``; ``globally_injective`` ("yes", "no" or "undecided") and a
-    ``crossing`` if not; counts (``panels`` and ``panels_split`` are the solver's, ``proof_panels``
-    those on which the final proof ended); times in seconds; ``attempts``, what each way to a
-    minimum reached, the first too, where that was not the only one; ``refinements``, the same for
-    bases (:func:`glid_nb.refine`); ``history``, an object an iteration. What is not finite is null.
+    Its keys:
+
+    - ``status`` and ``message``; ``certified`` and the ``proof`` in words.
+    - The energies ``E``, ``E_iso`` and ``E_p2p``; ``E_start`` is that before the first iteration.
+      ``E_p2p`` is ``lambda / 2`` times the sum of squared ``misses`` (h,), in world units.
+    - The certified bounds ``sigma2_lower``, ``sigma1_upper`` and ``k_upper``.
+    - ``windings`` of f_z per loop (exterior first) and their sum ``winding``.
+    - ``globally_injective`` ("yes", "no" or "undecided"), and a ``crossing`` if not.
+    - Counts: ``panels`` and ``panels_split`` of the solver, ``proof_panels`` of the final proof.
+    - Times in seconds.
+    - ``attempts``: what each attempt reached, the first included, if there were several.
+    - ``refinements``: the same for bases (:func:`glid_nb.refine`).
+    - ``history``: one object per iteration.
+
+    Values that are not finite are null.
     """
     check_type("result", result, Result, "what glid_nb.solve returns")
     began = time.perf_counter()

@@ -1,4 +1,4 @@
-"""A document as Python code that makes the same map."""
+"""Write Python code that makes the same map as a document."""
 
 import dataclasses
 import math
@@ -20,16 +20,16 @@ from glid_nb.solvers import Newton
 def python_code(document: Document, picture: str = "picture.png", *, exact: bool = False) -> str:
     """Python code that makes the map of the document's active pose, as ``map``.
 
-    Of several poses it makes all maps, as the list ``maps``, and the ``motion`` of the document's
+    For several poses it makes all maps, as the list ``maps``, and the ``motion`` of the document's
     timeline through them. If a pose's method works on a mesh, its map is a
-    :class:`~glid_nb.MeshMap`, although the document holds a harmonic map. The cage is traced from
-    the picture, a file's path, if the document's options give it; a cage that was edited by hand,
-    or came from scribbles, is written out.
+    :class:`~glid_nb.MeshMap`, although the document holds a harmonic map. The code traces the cage
+    from ``picture``, a file's path, if the document's options reproduce the cage. A cage that was
+    edited by hand or came from scribbles is written out.
 
-    ``exact`` writes the coefficients of the document's map, some kilobytes, instead of a solve,
-    where the pose is solved. A solve ends at the same energy to ten digits, unless a hard pose has
-    several minima and the editor reached another one than a solve from the identity does. Raises a
-    DocumentError when there is no pose, or the energy of one is a Python function.
+    For solved poses, ``exact`` writes the coefficients of the document's map, some kilobytes,
+    instead of a solve. A solve ends at the same energy to ten digits, unless a hard pose has
+    several minima and the editor reached another one than a solve from the identity. Raises a
+    DocumentError if there is no pose, or if the energy of a pose is a Python function.
     """
     check_type("document", document, Document, "such as that of an editor")
     if not document.poses:
@@ -103,7 +103,7 @@ def _is_traced(document: Document) -> bool:
     try:
         cage = trace(document.image, document.trace_options).cage
     except TraceError:
-        return False  # the options that were tried last give no cage
+        return False  # the last options give no cage
     return cage.equals(document.cage)
 
 

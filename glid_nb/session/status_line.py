@@ -23,7 +23,8 @@ class StatusLine:
 
 
 def describe(moment: Moment) -> StatusLine:
-    """The status of an editor: at work the solver's bound on sigma_2, at rest the certificate's."""
+    """The status of an editor, with the solver's bound on sigma_2 during a solve, and with the
+    certificate's bounds at rest."""
     state, frame = moment.state, moment.frame
     if (error := moment.error) is not None:
         if isinstance(error, MethodError):

@@ -1,4 +1,4 @@
-"""A first pose for a shape: handles at its ends, one or two of them moved."""
+"""Suggest a first pose for a shape: handles at its ends, one or two of them moved."""
 
 import numpy as np
 import scipy
@@ -10,11 +10,14 @@ from glid_nb.geometry import Domain, as_points, triangulate
 from glid_nb.pose import Pose
 
 _MESH_VERTICES = 3000
-# As shares of the distance, inside the shape, from its middle to its farthest point.
+# Shares of the geodesic distance from the shape's middle to its farthest point.
+# _LEAST_SPACING: the least distance between handles.
+# _PULL_IN: how far a handle may move from a limb's end to where the limb is widest.
 _LEAST_SPACING = 0.45
 _PULL_IN = 0.15
 _TURN = np.radians(24)
-# Points farther from a handle, inside the shape, than this times its move are on another limb.
+# A point is on another limb if its geodesic distance from a handle exceeds this times the handle's
+# move.
 _APART = 2.0
 
 
@@ -22,9 +25,9 @@ def suggest_pose(domain: Domain, max_handles: int = 7) -> Pose:
     """Handles at the middle and at the far ends of a shape, with one or two ends swung aside.
 
     The first handle is the point deepest inside the domain. The others are found by farthest-point
-    sampling with distances measured inside the domain, then pulled in to where the limb is widest.
-    The end farthest from the middle, and the end farthest from that one, turn about the middle by
-    24 degrees, away from the rest; other handles stay. ``max_handles`` is at least 2.
+    sampling with distances measured inside the domain. Then each moves to where its limb is widest.
+    Two ends turn about the middle by 24 degrees, away from the rest: the end farthest from the
+    middle, and the end farthest from that one. Other handles stay. ``max_handles`` is at least 2.
     """
     check_type("domain", domain, Domain, "make one with Domain.from_cage(cage)")
     if max_handles < 2:

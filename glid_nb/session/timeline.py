@@ -1,4 +1,4 @@
-"""When kept poses are shown: times, easing and repetition, as plain values."""
+"""The times of poses in an animation, with easing and repetition, as plain values."""
 
 import bisect
 import itertools
@@ -14,26 +14,26 @@ from glid_nb.harmonic import HarmonicMap
 from glid_nb.motion import Motion, MotionError, settings
 from glid_nb.motion.settings import Easing, Repeat, checked
 
-LATEST = 3600.0  # seconds; no keyframe is moved beyond it
+LATEST = 3600.0  # seconds; no keyframe is moved later than this
 
 LEAST_GAP = 1e-3
-"""Seconds to a new keyframe from the others, which make room where there is none between."""
+"""Least seconds between a new keyframe and the others. Later keyframes move if there is no room."""
 
-_USUAL = 1.0  # seconds between keyframes
-_GRID = 0.01  # seconds, where keyframes are put by hand
-_JITTER = 0.1  # seconds by which a drag's places are noted too early or too late
+_USUAL = 1.0  # default seconds between keyframes
+_GRID = 0.01  # seconds; keyframes moved by hand are at multiples of this
+_JITTER = 0.1  # seconds; error of the recorded times of a drag
 
 
 @dataclass(frozen=True)
 class Timeline:
-    """The keyframes of as many poses: each has a time, and an easing towards the next one.
+    """The keyframes of poses, one for each. A keyframe has a time and an easing to the next one.
 
-    Raises MotionError for times that do not increase, and other settings that are not valid.
+    Raises a MotionError for times that do not increase, and for other settings that are not valid.
     """
 
     times: tuple[float, ...] = (0.0,)  # seconds, at least 0, increasing
     easing: tuple[Easing, ...] = ("linear",)
-    """From each keyframe to the next; the last one's is that of a loop's way back."""
+    """The easing from each keyframe to the next. The last one is for a loop's way back."""
     repeat: Repeat = "once"
     back: float = _USUAL  # seconds that a loop takes from the last keyframe to the first
 
@@ -51,7 +51,7 @@ class Timeline:
 
     @classmethod
     def even(cls, count: int) -> Self:
-        """Keyframes a second apart."""
+        """``count`` keyframes, one second apart."""
         return cls(tuple(_USUAL * i for i in range(count)), ("linear",) * count)
 
     def __len__(self) -> int:
@@ -64,22 +64,22 @@ class Timeline:
 
     @property
     def end(self) -> float:
-        """When the last keyframe, or the first one again, is reached."""
+        """The time of the last keyframe; in a loop, the time of the return to the first."""
         return self.times[-1] + (self.back if self.repeat == "loop" else 0.0)
 
     def motion(self, maps: Sequence[HarmonicMap]) -> Motion:
-        """The motion through as many maps."""
+        """The motion through maps, one for each keyframe."""
         times = self.closed_times
         return Motion(maps, times, easing=self.easing[: len(times) - 1], repeat=self.repeat)
 
     def lasting(self, seconds: float) -> Self:
-        """From 0 to an end after so many seconds; a ping-pong's way back is as long."""
+        """Rescale the times to run from 0 to ``seconds``. A ping-pong's way back takes as long."""
         share = seconds / (self.end - self.times[0])
         times = tuple(share * (time - self.times[0]) for time in self.times)
         return replace(self, times=times, back=share * self.back)
 
     def inserted(self, index: int, time: float | None = None) -> Self:
-        """With a keyframe more at an index, not the first; by default midway to the next one."""
+        """Insert a keyframe at an index above 0, by default midway between its neighbours."""
         before, after = self.times[:index], self.times[index:]
         if time is None:
             mean = max((before[-1] - before[0]) / (index - 1), LEAST_GAP) if index > 1 else _USUAL
@@ -93,7 +93,8 @@ class Timeline:
         return replace(self, times=(*before, time, *after), easing=easing)
 
     def recorded(self, index: int, offsets: Sequence[float]) -> Self:
-        """With keyframes after one, so many seconds later each; those behind move by the last."""
+        """Insert keyframes behind ``index``, ``offsets`` seconds after it. The keyframes behind
+        them move by the last offset."""
         times = (*self.times[: index + 1], *(t + offsets[-1] for t in self.times[index + 1 :]))
         new = replace(self.eased(index, "linear"), times=times)
         for i, offset in enumerate(offsets, index + 1):
@@ -101,12 +102,13 @@ class Timeline:
         return new.eased(index + len(offsets), self.easing[index])
 
     def without(self, index: int) -> Self:
-        """With a keyframe less."""
+        """Remove a keyframe."""
         times, easing = ((*each[:index], *each[index + 1 :]) for each in (self.times, self.easing))
         return replace(self, times=times, easing=easing)
 
     def moved(self, index: int, time: float) -> tuple[Self, list[int]]:
-        """With a keyframe, or a loop's return, at the nearest free time; and the new order."""
+        """Move a keyframe, or a loop's return, to the nearest free time. Returns the new order
+        too."""
         time = checked("time", float, time, least=-LATEST, most=2 * LATEST)
         if index == len(self):
             back = round(max(time - self.times[-1], _GRID), 2)
@@ -121,18 +123,19 @@ class Timeline:
         return replace(self, times=times, easing=easing), order
 
     def eased(self, index: int, easing: Easing) -> Self:
-        """With another easing from a keyframe to the next."""
+        """Set the easing from a keyframe to the next."""
         return replace(self, easing=(*self.easing[:index], easing, *self.easing[index + 1 :]))
 
 
 def on_grid(times: Array) -> Array:
-    """Seconds since the first, which keyframes are put at; increasing."""
+    """Increasing times on the grid of keyframes, in seconds since the first."""
     steps = np.arange(len(times))
     return _GRID * (np.maximum.accumulate(np.rint((times - times[0]) / _GRID) - steps) + steps)
 
 
 def thinned(times: Array, points: Array, tolerance: float) -> list[int]:
-    """Which places (n, h, 2) to keep so that a smooth motion through them meets the rest."""
+    """Indices of the places (n, h, 2) to keep. A smooth motion through them meets the others
+    within ``tolerance``."""
     kept, around = sorted({0, len(times) - 1}), np.linspace(-_JITTER, _JITTER, 5)[:, None]
     while len(kept) < len(times):
         smooth = CubicSpline(times[kept], points[kept], bc_type="natural")

@@ -1,4 +1,4 @@
-"""The model of the cage tracer: the user's choices, the cage they give, and undo."""
+"""The model of the cage tracer: the user's choices, the resulting cage, and undo."""
 
 import functools
 import os
@@ -31,27 +31,27 @@ _KEPT_OUTCOMES = 12  # each holds a mask of the picture's size
 
 @dataclass(frozen=True)
 class TracingFault:
-    """Why the loops that are shown are not a valid cage."""
+    """Why the shown loops are not a valid cage."""
 
     message: str  # what is wrong and what to do
-    plain: str  # the same beside the picture: without code words and coordinates
-    point: Point | None = None  # where, (x, y) in pixels; None if at no particular place
+    plain: str  # the same for display beside the picture, without code words and coordinates
+    point: Point | None = None  # the place, (x, y) in pixels; None if there is no particular place
 
 
 @dataclass(frozen=True, eq=False)
 class TracingState:
-    """The user's choices, from which everything else follows; undo restores them."""
+    """The user's choices. Everything else follows from them, and undo restores them."""
 
     image: NDArray[np.uint8] | None = None
     """(h, w, 4) read-only uint8, or None before there is a picture."""
     options: TraceOptions = field(default_factory=TraceOptions)
-    """How to trace; with scribbles only if the method uses them."""
+    """How to trace. They contain scribbles only if the method uses them."""
     scribbles: Scribbles | None = None  # the painted strokes, used or not
     loops: AnyLoops | None = None
-    """The loops as edited by hand, world coordinates; None when they are as traced."""
+    """The loops as edited by hand, in world coordinates; None if they are as traced."""
     fallback: Domain | None = None
-    """The last valid domain before this state, used while this state's own is not valid."""
-    name: str = ""  # the name of the picture's file, without its suffix; empty if it came from none
+    """The last valid domain before this state. It is used if this state's loops are not valid."""
+    name: str = ""  # the stem of the picture's file name; empty if the picture came from no file
 
     def __post_init__(self) -> None:
         used = self.options.method == "scribbles"
@@ -62,13 +62,13 @@ class TracingState:
 
 @dataclass(frozen=True, eq=False)
 class TracingOutcome:
-    """What follows from a state."""
+    """The loops and the domain that result from a state."""
 
     tracing: Tracing | None
-    """The result of automatic tracing; None if it failed, or the loops were drawn without it."""
-    loops: AnyLoops  # the loops to show, world coordinates, valid or not
+    """The result of automatic tracing; None if it failed, or the loops were drawn by hand."""
+    loops: AnyLoops  # the loops to show, in world coordinates, valid or not
     domain: Domain | None  # from the loops if they are valid, else the state's fallback
-    problems: tuple[TracingFault, ...]  # why the loops are not valid; empty when they are
+    problems: tuple[TracingFault, ...]  # why the loops are not valid; empty if they are
 
 
 _NO_SCRIBBLES = Scribbles([], [])
@@ -77,16 +77,17 @@ _NO_SCRIBBLES = Scribbles([], [])
 class TracingModel(Undoable[TracingState]):
     """Traces a cage from a picture, interactively, with undo; the model behind `CageTracer`.
 
-    Every action makes a new immutable state; what is refused, by a TraceError or GeometryError,
-    changes nothing. While the loops are not a valid cage (a vertex was dragged across an edge, a
-    threshold leaves nothing), `problems` says where and why, and `cage` is the last valid one. Any
-    thread may call the methods.
+    Every action makes a new immutable state. An action that is refused, by a TraceError or
+    GeometryError, changes nothing. If the loops are not a valid cage (for example after a vertex
+    was dragged across an edge, or with a threshold that leaves nothing), `problems` says where and
+    why, and `cage` is the last valid one. Any thread may call the methods.
 
     Points are in pixels, x right and y down from the picture's top left corner. Consecutive actions
-    with the same `gesture`, any value, such as the moves of one drag, are one step for undo.
+    with the same `gesture` (any value), such as the moves of one drag, are one step for undo.
 
-    The image is as in `read_image`, None to begin without one; the options are the first ones.
-    A TraceError for a picture that cannot be read; one without a shape is one of the `problems`.
+    The image is as in `read_image`, or None to begin without one. The options are the initial ones.
+    Raises a TraceError for a picture that cannot be read. A picture without a shape is no error but
+    one of the `problems`.
     """
 
     def __init__(
@@ -105,7 +106,7 @@ class TracingModel(Undoable[TracingState]):
         strokes = document.scribbles or options.scribbles
         state = TracingState(document.image, options, strokes, loops, document.domain, name)
         model.history = History(state)
-        # A cage that tracing gives again was not edited by hand.
+        # If tracing reproduces the cage, it was not edited by hand.
         tracing = model.outcome.tracing
         if tracing is not None and tracing.cage.equals(document.cage):
             model.history = History(replace(state, loops=None))
@@ -125,18 +126,18 @@ class TracingModel(Undoable[TracingState]):
 
     @property
     def options(self) -> TraceOptions:
-        """How to trace; with scribbles only if the method uses them."""
+        """How to trace. They contain scribbles only if the method uses them."""
         return self.state.options
 
     @property
     def outcome(self) -> TracingOutcome:
-        """What follows from the state; computed on first use."""
+        """The outcome of the state; computed on first use."""
         with self._lock:
             return self._outcome_of(self.state)
 
     @property
     def loops(self) -> tuple[NDArray[np.float64], ...]:
-        """The loops that are shown, (n, 2) in pixels, valid or not; the exterior first."""
+        """The shown loops, (n, 2) in pixels, valid or not; the exterior first."""
         frame = self.frame
         return () if frame is None else tuple(frame.to_pixel(p) for p in self.outcome.loops)
 
@@ -158,12 +159,12 @@ class TracingModel(Undoable[TracingState]):
 
     @property
     def problems(self) -> tuple[TracingFault, ...]:
-        """Why the loops that are shown are not a valid cage; empty when they are."""
+        """Why the shown loops are not a valid cage; empty if they are."""
         return self.outcome.problems
 
     @property
     def doubt(self) -> str:
-        """Why the outline is only a guess, as in `Tracing`; empty if it is not."""
+        """Why the outline is only a guess, as in `Tracing`; empty if it is clear."""
         tracing = self.outcome.tracing
         return "" if tracing is None or self.edited else tracing.doubt
 
@@ -181,11 +182,11 @@ class TracingModel(Undoable[TracingState]):
     # Actions
 
     def open(self, image: ImageSource, name: str | None = None) -> None:
-        """Open another picture, with the default options; ``name`` is of its file if not given."""
+        """Open another picture, with the default options. ``name`` defaults to its file's name."""
         self._step(TracingState(image=_pixels(image), name=_name_of(name or image)))
 
     def set_options(self, gesture: Any = None, **changes: Any) -> None:
-        """Trace with other options, fields of `TraceOptions`; discards edits by hand."""
+        """Trace with other options (fields of `TraceOptions`). This discards edits by hand."""
         with self.locked():
             before = self.state
             if "scribbles" in changes:
@@ -198,7 +199,7 @@ class TracingModel(Undoable[TracingState]):
             self._step(replace(before, options=options, loops=None), gesture)
 
     def pick_background(self, point: Point) -> None:
-        """Trace the foreground by its distance from the colour of a pixel."""
+        """Use the colour of a pixel as background colour, and trace by colour distance."""
         self._check_inside(point)
         self.set_options(method="color", background=None, background_at=point, invert=None)
 
@@ -208,7 +209,7 @@ class TracingModel(Undoable[TracingState]):
         self.set_options(component=0, component_at=point)
 
     def paint(self, brush: Brush, stroke: ArrayLike) -> None:
-        """Add a stroke on the shape or on the background, (k, 2) pixels, and trace by scribbles."""
+        """Add a stroke, (k, 2) pixels, on the shape or on the background. Trace by scribbles."""
         with self.locked():
             old = self.state.scribbles or _NO_SCRIBBLES
             strokes = {"foreground": old.foreground, "background": old.background}
@@ -230,7 +231,7 @@ class TracingModel(Undoable[TracingState]):
                 self._step(replace(state, scribbles=None, loops=loops))
 
     def toggle_hole(self, number: int) -> None:
-        """Drop a hole, or keep it if it was dropped; other loops keep their edits."""
+        """Drop a kept hole, or keep a dropped one. Other loops keep their edits."""
         with self.locked():
             state, holes = self.state, self.holes
             if not 0 <= number < len(holes):
@@ -248,12 +249,12 @@ class TracingModel(Undoable[TracingState]):
             self._step(new)
 
     def move_vertex(self, loop: int, index: int, to: Point, gesture: Any = None) -> None:
-        """Move a vertex of a loop that is shown."""
+        """Move a vertex of a shown loop."""
         at = self._world(to)
         self._edit(lambda loops: loop_edits.move_vertex(loops, loop, index, at), gesture)
 
     def insert_vertex(self, at: Point) -> tuple[int, int]:
-        """Add a vertex on the edge nearest to a point; returns its (loop, index)."""
+        """Add a vertex on the edge nearest to a point. Returns its (loop, index)."""
         with self.locked():
             loops = self.outcome.loops
             if not loops:
@@ -263,7 +264,7 @@ class TracingModel(Undoable[TracingState]):
         return loop, edge + 1
 
     def delete_vertices(self, vertices: Iterable[tuple[int, int]]) -> None:
-        """Delete vertices (loop, index); holes with fewer than three left are removed."""
+        """Delete vertices (loop, index). Holes with fewer than three left are removed."""
         chosen = list(vertices)
         if chosen:
             self._edit(lambda loops: loop_edits.delete_vertices(loops, chosen))
@@ -275,11 +276,11 @@ class TracingModel(Undoable[TracingState]):
                 self._step(replace(self.state, loops=None))
 
     def set_loops(self, loops: AnyLoops) -> None:
-        """Replace the loops, world coordinates, exterior first, as an edit by hand."""
+        """Replace the loops (world coordinates, exterior first) as an edit by hand."""
         self._edit(lambda _: loops)
 
     def draw(self, outline: ArrayLike | None = None) -> None:
-        """Take an outline drawn by hand, (k, 2) pixels, as the cage; None: the whole picture."""
+        """Use an outline drawn by hand, (k, 2) pixels, as the cage; None: the whole picture."""
         frame = self._frame_of_picture()
         size = frame.width, frame.height
         if outline is None:
@@ -294,7 +295,8 @@ class TracingModel(Undoable[TracingState]):
                 self._go_to(self.history.step(state))
 
     def cancel(self, gesture: Any) -> bool:
-        """Go back to before a gesture, without redo; whether it was the last thing done."""
+        """Go back to the state before a gesture, without redo. Returns False if the gesture was
+        not the last action."""
         with self.locked():
             under_way = gesture is not None and self.history.gesture == gesture
             return under_way and self._go_to(self.history.cancelled())
@@ -327,11 +329,11 @@ class TracingModel(Undoable[TracingState]):
             if loops is None:
                 shown = () if domain is None else domain.cage.loops
                 return TracingOutcome(None, shown, domain, (_problem(error, frame),))
-            tracing = None  # what was drawn by hand needs none
+            tracing = None  # loops drawn by hand need no tracing
         else:
             if loops is None:
                 loops, cage = tracing.cage.loops, tracing.cage
-            # Loops that were drawn anew have no vertex of the traced ones.
+            # Loops that were drawn by hand share no vertex with the traced ones.
             elif _vertices(loops).isdisjoint(_vertices(tracing.cage.loops)):
                 tracing = None
         try:
@@ -366,7 +368,8 @@ class TracingModel(Undoable[TracingState]):
 
 
 def _cage_of(loops: AnyLoops) -> Cage:
-    """The cage of drawn loops; a last vertex on the first one is a mistake, as any other pair."""
+    """The cage of drawn loops. Here a last vertex equal to the first one is an error, like any
+    other pair of equal vertices."""
     for number, loop in enumerate(loops):
         check_distinct(np.asarray(loop), number, 0.0)
     return Cage(loops[0], loops[1:])

@@ -1,4 +1,4 @@
-"""Poses of a document whose maps are not yet what they ask for."""
+"""Solve the unsolved poses of a document."""
 
 from collections.abc import Callable
 from dataclasses import replace
@@ -10,10 +10,10 @@ from glid_nb.session.live_solver import solve_edited
 def solved_document(
     document: Document, progress: Callable[[str], None] = lambda _: None
 ) -> Document:
-    """The document with every pose solved on its cage; itself where that is so already.
+    """The document with every pose solved on its cage; itself if all poses are solved already.
 
-    ``progress`` is called with the name of each pose before it is solved. Raises a DocumentError,
-    which names the poses, if the method of some gives no certified map.
+    ``progress`` is called with the name of each pose before it is solved. Raises a DocumentError
+    that names all unsolved poses whose methods give no certified map.
     """
     mesh = [repr(p.name) for p in document.unsolved if not p.method.certified]
     if mesh:

@@ -1,4 +1,4 @@
-"""A thread that does the latest task and drops those that were replaced before they began."""
+"""A thread that runs the latest task and drops tasks that were replaced before they began."""
 
 import atexit
 import functools
@@ -13,16 +13,17 @@ T = TypeVar("T")
 
 
 class LatestWins(Generic[T]):
-    """Calls a function in a thread with the task that was submitted last.
+    """Calls a function in a thread with the last submitted task.
 
-    The thread starts with the first task, and ends when this is closed, when its owner is gone, or
-    with the process. Exceptions go to :func:`threading.excepthook`; the thread goes on.
+    The thread starts with the first task. It ends when the worker is closed, when its owner is
+    deleted, or with the process. Exceptions go to :func:`threading.excepthook`, and the thread
+    continues.
 
-    ``work`` is called with a task and this worker; a long task ends early when ``overtaken`` or
-    ``cancelled`` say so. If it keeps the ``owner`` alive (else see :func:`weakly`) this must be
-    closed. ``interval`` seconds pass between two tasks. Closing drops the pending task, or does it
-    first with ``finish``; it waits for the running one if it ``waits``, the end of the process
-    always, the end of the owner never.
+    ``work`` is called with a task and this worker. A long task must check ``overtaken`` or
+    ``cancelled`` and end early. If ``work`` keeps the ``owner`` alive, the worker must be closed;
+    :func:`weakly` avoids this. ``interval`` seconds pass between two tasks. Closing drops the
+    pending task, or runs it first with ``finish``. With ``waits``, closing waits for the running
+    task. The end of the process always waits for it, the end of the owner never.
     """
 
     def __init__(
@@ -46,7 +47,7 @@ class LatestWins(Generic[T]):
         self._finalizer = weakref.finalize(owner, self._close, False)
 
     def submit(self, task: T) -> None:
-        """Do this instead of the pending task; returns at once. A closed worker ignores it."""
+        """Replace the pending task; returns at once. A closed worker ignores the task."""
         with self._changed:
             if self.closed:
                 return
@@ -63,14 +64,14 @@ class LatestWins(Generic[T]):
             self._changed.notify_all()
 
     def wait(self, timeout: float | None = None) -> bool:
-        """Wait until there is nothing to do; whether that is within ``timeout`` seconds."""
+        """Wait until there is nothing to do. Returns False after ``timeout`` seconds."""
         with self._changed:
             return self._changed.wait_for(
                 lambda: self.closed or not (self._busy or self._pending), timeout
             )
 
     def hurry(self, timeout: float | None = None) -> bool:
-        """As :meth:`wait`, but the pending task does not wait for the interval."""
+        """Like :meth:`wait`, but the pending task does not wait for the interval."""
         with self._changed:
             self._hurried = True
             self._changed.notify_all()
@@ -81,23 +82,23 @@ class LatestWins(Generic[T]):
 
     @property
     def busy(self) -> bool:
-        """Whether a task runs that was not cancelled, or one is pending."""
+        """Whether a task is pending, or runs and was not cancelled."""
         with self._changed:
             return (self._busy and not self._cancelled) or self._pending is not None
 
     @property
     def cancelled(self) -> bool:
-        """Whether the running task was cancelled, or this is closed."""
+        """Whether the running task was cancelled, or the worker is closed."""
         return self.closed or self._cancelled
 
     @property
     def overtaken(self) -> bool:
-        """Whether the running task should end: cancelled, or a newer one waits."""
+        """Whether the running task should end: it was cancelled, or a newer one waits."""
         with self._changed:
             return self.cancelled or self._pending is not None
 
     def close(self) -> None:
-        """End the thread; later tasks are ignored."""
+        """End the thread. Later tasks are ignored."""
         if self._finalizer.detach():
             self._close(self._waits)
 
@@ -122,13 +123,13 @@ class LatestWins(Generic[T]):
                     return taken
 
     def _run(self) -> None:
-        # A compiler that is still at work must not outlive the interpreter.
+        # A running compiler must not outlive the interpreter.
         end = functools.partial(self._close, True)
         atexit.register(end)
         while (taken := self._next()) is not None:
             try:
                 self._work(*taken, self)
-            except Exception:  # reported like that of any thread, but this thread goes on
+            except Exception:  # reported as for any thread, but this thread continues
                 arguments = (*sys.exc_info(), threading.current_thread())
                 threading.excepthook(threading.ExceptHookArgs(arguments))
             finally:
@@ -141,7 +142,8 @@ class LatestWins(Generic[T]):
 
 
 def weakly(method: Callable[..., Any]) -> Callable[..., Any]:
-    """A bound method that does not keep its object alive, and does nothing once that is gone."""
+    """Wrap a bound method so that it does not keep its object alive. Without the object it does
+    nothing."""
     reference = weakref.WeakMethod(method)
 
     def call(*arguments: Any) -> Any:

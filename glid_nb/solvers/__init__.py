@@ -1,4 +1,4 @@
-"""Minimising a deformation energy from one certified map (paper Sections 7 and 9)."""
+"""Minimise a deformation energy from one certified map (paper Sections 7 and 9)."""
 
 from glid_nb.pose import DeformationMap, Pose, PoseError
 from glid_nb.solvers.method import Inputs, Method, MethodError, StartError

@@ -1,9 +1,9 @@
-"""Cholesky's factorisation of the Hessian, and the solves with it.
+"""The Cholesky factorisation of the Hessian, and the solves with it.
 
-XLA stores matrices by rows and LAPACK by columns, so ``jax.lax.linalg`` copies every matrix twice,
-which takes longer than the factorisation. The upper half by rows is the lower half by columns:
-LAPACK gets the same memory. On other platforms, or should a later JAX call LAPACK otherwise,
-``jax.lax.linalg`` does the work.
+XLA stores matrices by rows and LAPACK by columns, so ``jax.lax.linalg`` copies every matrix twice.
+The copies take longer than the factorisation. Here LAPACK gets the memory as it is, because the
+upper half by rows is the lower half by columns. ``jax.lax.linalg`` does the work on other
+platforms, and with a JAX version that calls LAPACK differently.
 """
 
 from collections.abc import Callable
@@ -18,14 +18,17 @@ _L, _N, _T = np.frombuffer(b"LNT", np.uint8)  # LAPACK's letters
 
 
 def factorise(h: Float[Array, "n n"]) -> Float[Array, "n n"]:
-    """The factor of a matrix's upper half, to solve (1) with; NaN last where it is indefinite."""
+    """The Cholesky factor of a symmetric matrix, to solve (1) with. Reads the upper half only.
+
+    If the matrix is not positive definite, the last element is NaN.
+    """
     return _by_platform(
         _lapack_factor, lambda h: lax.linalg.cholesky(h.T, symmetrize_input=False), h
     )
 
 
 def solve(factor: Float[Array, "n n"], b: Float[Array, " n"]) -> Float[Array, " n"]:
-    """The solution of a linear system such as (1) by the factor of its matrix."""
+    """Solve a linear system such as (1) with the factor of its matrix."""
     return _by_platform(
         _lapack_solve, lambda factor, b: jax.scipy.linalg.cho_solve((factor, True), b), factor, b
     )

@@ -1,7 +1,7 @@
-"""The matrices on which a solve runs: the basis at the panels' ends, midpoints and Hessian nodes.
+"""The matrices of a solve: the basis at the panels' ends, midpoints and Hessian nodes.
 
-A complex matrix ``D`` is stored as ``[Re D, -Im D]`` (the first row pair of Equation (15)), so that
-``Re(D phi)`` is one real product and ``Im(D phi) = Re(D (-i phi))``.
+A complex matrix ``D`` is stored as ``[Re D, -Im D]`` (the first row pair of Equation (15)). Then
+``Re(D phi)`` is one real product, and so is ``Im(D phi) = Re(D (-i phi))``.
 """
 
 from __future__ import annotations
@@ -26,44 +26,47 @@ Sampling = Literal["graded", "uniform"]
 UNIFORM_SAMPLES = 10_000  # |G| of the paper (Section 10)
 HESSIAN_STRIDE = 10  # |H| = |G| / 10 (Section 9.1)
 
-# The Hessian's quadrature may be coarser than the energy's: two panels share a node where together
+# The Hessian's quadrature may be coarser than the energy's. Two panels share a node if together
 # they are no longer than this many times their distance to the nearest singularity.
 _PAIR_RATIO = 1.4
-# Of a rotation no energy knows, so a node tells one real number of the two of f_z. With hardly more
-# nodes than that for each coordinate, what oscillates between the nodes has no curvature.
+# Energies ignore rotation, so each node constrains one real component of f_z, not two. With few
+# nodes per coordinate, functions that oscillate between the nodes would have no curvature.
 _NODES_PER_COORDINATE = 2.25
 
-_LARGE = 256  # columns; an iteration with more takes as long as a tenth of compiling it
+# With more columns than this, one iteration takes as long as a tenth of its compilation.
+_LARGE = 256
+# Room for later splits: the factor by which the padded size exceeds the number of panels.
 _GROWTH, _GROWTH_OF_LARGE = 1.25, 1.125
 _MOST_PANELS = 20_000
 
 
 class Matrices(NamedTuple):
-    """What one Newton iteration reads (G.4); a JAX pytree, padded to buckets.
+    """The data that one Newton iteration reads (G.4): a JAX pytree, padded to buckets.
 
-    ``c`` padded columns, ``u`` padded coordinates, ``p`` padded panels, ``q`` midpoints (``p``, or
-    0 for the uniform sampling), ``h`` Hessian nodes. Padding panels have zero weight and are never
-    refused. Basis matrices are stored transposed, for the products' speed.
+    Sizes: ``c`` padded columns, ``u`` padded coordinates, ``p`` padded panels, ``q`` midpoints
+    (``p``, or 0 for the uniform sampling), ``h`` Hessian nodes. Padding panels have zero weight and
+    never refuse a step. Basis matrices are stored transposed, because the products are then faster.
     """
 
     nodes: Float[Array, "2c p+q"]  # D at the panels' starts, then at their midpoints
     slopes: Float[Array, "2c p"]  # D' at the panels' starts
-    hessian_index: Int[Array, " h"]  # which nodes are those of the Hessian's quadrature
-    whitened: Float[Array, "2u h"]  # D T there; single precision serves
+    hessian_index: Int[Array, " h"]  # the nodes of the Hessian's quadrature
+    whitened: Float[Array, "2u h"]  # D T at these nodes; single precision is enough
     whitening: Float[Array, "2 c u"]  # T as (Re, Im)
-    weights: Float[Array, " p+q"]  # quadrature at the nodes; their sum is 1, and stiff
+    weights: Float[Array, " p+q"]  # quadrature at the nodes; they sum to 1 + `stiff`
     hessian_weights: Float[Array, " h"]
     proof: PanelProof  # the constants of the certificate on the panels
-    rounding: Float[Array, " p"]  # slack of carried values, per largest coefficient
+    rounding: Float[Array, " p"]  # error of carried values, divided by the largest coefficient
     chord: Float[Array, "2 p"]  # end - start as (Re, Im)
     next: Int[Array, " p"]
     real: Bool[Array, " p"]  # False for padding
     stiff: Float[Array, ""] | None = None
-    """What stiff areas add to the weights; None without any. Their nodes follow the panels'."""
+    """The sum that stiff areas add to the weights; None without stiff areas. Nodes inside stiff
+    areas follow the panels' nodes."""
 
 
 class _Rows(NamedTuple):
-    """What is computed for each panel, one row a panel, without padding."""
+    """The values computed for each panel: one row per panel, no padding."""
 
     ends: np.ndarray
     slopes: np.ndarray
@@ -81,7 +84,7 @@ class Discretisation:
     certificate: CertificateKind
     panels: Panels
     given: Matrices
-    """The matrices, by JAX; by NumPy where they come from a pickle."""
+    """The matrices as JAX arrays, or as NumPy arrays if they come from a pickle."""
     whitening: Whitening
 
     @functools.cached_property
@@ -91,7 +94,7 @@ class Discretisation:
         return jax.device_put(self.given)
 
     def __getstate__(self) -> dict[str, Any]:
-        """For pickles: JAX's arrays would be read in single precision outside the package."""
+        """Pickle NumPy arrays: outside the package, JAX arrays would load in single precision."""
         known = {one.name: getattr(self, one.name) for one in fields(self)}
         return {**known, "given": jax.tree.map(np.asarray, self.given)}
 
@@ -101,7 +104,7 @@ class Discretisation:
 
     @double_precision
     def full(self, m: Matrices) -> Matrices:
-        """With the Hessian in double precision, on graded panels on all nodes of the energy."""
+        """Use double precision for the Hessian; on graded panels, also all nodes of the energy."""
         if self.sampling == "graded":
             index = jax.device_put(np.arange(len(m.weights)))
             m = m._replace(hessian_index=index, hessian_weights=m.weights)
@@ -125,8 +128,9 @@ class Discretisation:
         panels, rows = split(self.panels, self._rows(), chosen, evaluated)
         size = len(self.matrices.real)
         if len(panels) > size:
-            # A solve that splits panels goes on splitting: room for more now saves compiling for
-            # every size, unless the padding costs more. Few sizes serve all ways to a minimum.
+            # A solve that splits panels usually splits more later. Room for them now saves one
+            # compilation per size. On large problems the padding would cost more than compiling.
+            # With few sizes, the restarts of a solve can share the compiled programs.
             small = basis.n_columns <= _LARGE
             size = _rung(len(panels)) if small else bucket(int(_GROWTH_OF_LARGE * len(panels)))
         kinds = self.sampling, self.certificate
@@ -134,7 +138,7 @@ class Discretisation:
 
     @double_precision
     def with_steep(self, chosen: np.ndarray) -> Discretisation:
-        """With coordinates for some of the steep columns that it left out, on the same panels."""
+        """Add coordinates for some of the steep columns left out so far, on the same panels."""
         m, w = self.matrices, self.whitening.with_steep(chosen, self.basis.n_hole_columns)
         weights, length = np.asarray(m.weights), self.panels.length / self.panels.length.sum()
         index, share = _hessian_nodes(self.panels, self.domain, length, weights, w.t)
@@ -149,7 +153,7 @@ class Discretisation:
         return replace(self, given=m._replace(**jax.device_put(on_host)), whitening=w)
 
     def _rows(self) -> _Rows:
-        """The rows that the matrices of a graded sampling were made of."""
+        """The rows from which the matrices were assembled; for the graded sampling only."""
         m, p, count = self.matrices, len(self.matrices.real), len(self.panels)
 
         def complex_rows(matrix: Any, first: int = 0) -> np.ndarray:
@@ -171,11 +175,11 @@ class Discretisation:
 def discretise(
     domain: Domain, sampling: Sampling = "graded", certificate: CertificateKind = "hermite"
 ) -> Discretisation:
-    """The discretisation that a solve on ``domain`` starts from (Algorithm 1, line 1).
+    """The discretisation with which a solve on ``domain`` starts (Algorithm 1, line 1).
 
-    ``graded``: Simpson's rule on graded panels, for the Hessian the midpoint rule on pairs of them.
-    ``uniform``: the paper's samples with the plain mean (31), the Hessian on every tenth (33). The
-    last few are kept."""
+    ``graded``: Simpson's rule on graded panels; the Hessian uses the midpoint rule on pairs of
+    panels. ``uniform``: the plain mean over the paper's samples (31); the Hessian uses every tenth
+    sample (33). The last few discretisations are cached."""
     stage("basis")
     basis, graded = basis_of(domain), sampling == "graded"
     panels = graded_panels(domain) if graded else uniform_panels(domain.cage, UNIFORM_SAMPLES)
@@ -186,7 +190,7 @@ def discretise(
 def _evaluated(
     basis: Basis, certificate: CertificateKind, start: Any, end: Any, graded: bool = True
 ) -> _Rows:
-    """The rows of some panels; the uniform sampling has no midpoints."""
+    """Compute the rows of some panels. The uniform sampling has no midpoints."""
 
     def rows(start: Any, end: Any, singularities: Singularities) -> _Rows:
         middle = (start + end) / 2 if graded else start[:0]
@@ -211,10 +215,13 @@ def _assembled(
     p: int,
     known: Whitening | None = None,
 ) -> Discretisation:
-    """On ``p`` padded panels; ``known`` is the whitening of the panels that a solve began with."""
+    """Assemble a discretisation with ``p`` padded panels.
+
+    ``known`` is the whitening of the panels with which the solve began; None computes it.
+    """
     count, length = len(panels), panels.length / panels.length.sum()
     if sampling == "graded":
-        # Simpson's rule shares the ends, which the certificate needs anyway, between neighbours.
+        # In Simpson's rule, neighbours share their ends, which the certificate needs anyway.
         ends = length / 6
         np.add.at(ends, panels.next, length / 6)
         weights = np.concatenate([padded(ends, p, 0.0), padded(length * (4 / 6), p, 0.0)])
@@ -226,12 +233,13 @@ def _assembled(
         index = np.arange(0, count, HESSIAN_STRIDE)
         share = np.full(len(index), 1 / len(index))
         along = rows.ends[index], share
-    few_sizes = known is not None and basis_of(domain).n_columns <= _LARGE  # each is compiled for
+    # Each size is compiled separately.
+    few_sizes = known is not None and basis_of(domain).n_columns <= _LARGE
     if known is None:
         stage("whitening")
         basis = basis_of(domain)
         (anchor,) = complex_basis(cauchy.cauchy_coordinates, panels.start[:1], basis)
-        # The paper's settings have the paper's subspace, whole.
+        # The paper's settings use the whole subspace, as the paper does.
         known = whitening(*along, anchor, basis, whole=sampling == "uniform")
     t = known.t
     if sampling == "graded":
@@ -262,13 +270,13 @@ def _assembled(
 def _hessian_nodes(
     panels: Panels, domain: Domain, length: np.ndarray, weights: np.ndarray, t: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Which nodes the Hessian's quadrature takes, the fewest that will do, and their weights."""
+    """The nodes of the Hessian's quadrature, as few as are enough, and their weights."""
     n_coordinates, n_unknown = np.count_nonzero(t.any(axis=(0, 1))), basis_of(domain).phi_free.sum()
     wanted = _NODES_PER_COORDINATE * n_coordinates
     p, count = len(weights) // 2, len(panels)
     middles = np.arange(p, p + count)
     first = np.flatnonzero(paired(panels, domain, _PAIR_RATIO))
-    # Where coordinates were left out, others oscillate as fast as the panels follow each other.
+    # If steep coordinates were left out, some of the others still oscillate from panel to panel.
     if n_coordinates == n_unknown and count - len(first) >= wanted:
         index, share = middles.copy(), length.copy()
         index[first] = first + 1
@@ -282,24 +290,24 @@ def _hessian_nodes(
 
 
 def real_columns(rows: np.ndarray) -> np.ndarray:
-    """``[Re D, -Im D]`` of the rows of ``D``, transposed: half of (15), (E.4) and (G.5)."""
+    """``[Re D, -Im D]`` from the rows of ``D``, transposed: half of (15), (E.4) and (G.5)."""
     return np.ascontiguousarray(np.concatenate([np.real(rows), -np.imag(rows)], axis=1).T)
 
 
 def bucket(count: int) -> int:
-    """The padded size for ``count`` items: multiples of 128, from 512 on 16 sizes an octave."""
+    """The padded size for ``count`` items: multiples of 128, above 512 16 sizes per octave."""
     wanted = count + count // 64
     step = 128 if wanted <= 512 else 1 << (wanted.bit_length() - 5)
     return max(-(-wanted // step) * step, 128)
 
 
 def _rung(count: int) -> int:
-    """The padded size for panels that were split: one size an octave, with room for more."""
+    """The padded size after a split: one size per octave, with room for more panels."""
     return max(1 << int(_GROWTH * count).bit_length(), 128)
 
 
 def padded(array: np.ndarray, size: int, fill: float | None = None) -> np.ndarray:
-    """``array`` with its first axis extended to ``size`` by its first element or by ``fill``."""
+    """Extend the first axis of ``array`` to ``size`` with its first element or with ``fill``."""
     extra = size - len(array)
     value = array[:1] if fill is None else np.full_like(array[:1], fill)
     return np.concatenate([array, np.repeat(value, extra, axis=0)])

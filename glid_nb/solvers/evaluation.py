@@ -1,4 +1,4 @@
-"""What a map's coefficients say on the panels: values, energies, gradient, certificate."""
+"""Evaluate a map on the panels: values, energies, gradient, certificate."""
 
 from typing import NamedTuple
 
@@ -32,7 +32,8 @@ class Point(NamedTuple):
     energy_iso: Number
     energy_p2p: Number
     largest: Number
-    """What rounding errors are relative to, since samples were computed anew; see :func:`reach`."""
+    """The largest :func:`reach` since the samples were last computed from the coefficients.
+    Rounding errors are relative to this number."""
 
     @property
     def energy(self) -> Number:
@@ -46,19 +47,19 @@ class Line(NamedTuple):
 
 
 def evaluated(problem: SubspaceProblem, coefficients: Coefficients) -> Point:
-    """The point with these coefficients, its samples computed anew (Algorithm 1, line 3)."""
+    """The point with these coefficients and its samples (Algorithm 1, line 3)."""
     samples = products(problem.matrices, coefficients - problem.anchor)
     return _point(problem, coefficients, samples, reach(problem, coefficients))
 
 
 def line_along(problem: SubspaceProblem, direction: Coefficients, slope: Number) -> Line:
-    """The line in a direction, along which the energy changes by ``slope`` at first (G.11)."""
+    """The line in a direction (G.11). ``slope`` is the energy's derivative at its start."""
     return Line(direction, products(problem.matrices, direction), -slope)
 
 
 def moved(problem: SubspaceProblem, point: Point, line: Line, step: Number) -> Point:
-    """The point ``step`` along a line; its samples are carried along (Algorithm 1, line 16, by
-    (G.11))."""
+    """The point at ``step`` along a line. Its samples are updated, not recomputed (Algorithm 1,
+    line 16, by (G.11))."""
     samples = Samples(*(a + step * b for a, b in zip(point.samples, line.change, strict=True)))
     reached = point.coefficients + step * line.direction
     largest = jnp.maximum(point.largest, reach(problem, reached))
@@ -75,8 +76,10 @@ def _point(
 def isometric_energy(
     values: Float[Array, "4 *t s"], matrices: Matrices, energy: Energy
 ) -> Float[Array, "*t"]:
-    """(12) as the sum (31), less what stiff areas add to an isometry's; infinite at inverted
-    samples."""
+    """The isometric energy (12) as the sum (31); infinite if a sample is inverted.
+
+    The energy that stiff areas add to an isometry is subtracted.
+    """
     weights = matrices.weights
     x, y = squares(values)
     valid = x > y
@@ -89,7 +92,7 @@ def isometric_energy(
 
 
 def gradient(problem: SubspaceProblem, point: Point) -> Coefficients:
-    """Of the total energy, with respect to all coefficients (Algorithm 1, line 4)."""
+    """Gradient of the total energy with respect to all coefficients (Algorithm 1, line 4)."""
     values = point.samples.values
     d = problem.energy.differentials(*squares(values))
     isometric = energy_gradient(problem.matrices, values, d)
@@ -99,8 +102,8 @@ def gradient(problem: SubspaceProblem, point: Point) -> Coefficients:
 def energy_gradient(matrices: Matrices, values: Values, d: Differentials) -> Coefficients:
     """Gradient of the isometric energy: (13) as the sum (32) of (17), by one product (G.7).
 
-    It is (G.8) with the last block's sign corrected. Each sample's part is that of Appendix E:
-    (E.2), (E.6) and (E.7).
+    This is (G.8) with the sign of the last block corrected. Appendix E gives the term of each
+    sample: (E.2), (E.6) and (E.7).
     """
     w1, w2 = 2 * matrices.weights * d.alpha1, 2 * matrices.weights * d.alpha2
     m = matrices.nodes @ (values * jnp.stack([w1, w1, w2, w2])).T
@@ -126,7 +129,7 @@ def bounds(problem: SubspaceProblem, point: Point) -> PanelBounds:
 
 
 def tightened_by_splitting(problem: SubspaceProblem, point: Point) -> Bool[np.ndarray, " p"]:
-    """Panels, on the host, whose bounds are loose by more than rounding: splitting helps."""
+    """The panels whose bounds splitting improves: truncation exceeds rounding. On the host."""
     matrices: Matrices = jax.tree.map(np.asarray, problem.matrices)
     re, im = np.moveaxis(np.asarray(point.coefficients).reshape(2, 2, -1), 1, 0)
     truncation = matrices.proof.remainder(re + 1j * im, problem.singularities)
@@ -134,7 +137,11 @@ def tightened_by_splitting(problem: SubspaceProblem, point: Point) -> Bool[np.nd
 
 
 def reach(problem: SubspaceProblem, coefficients: Coefficients) -> Number:
-    """What errors are relative to: the largest coefficient beside the anchor, and its rounding."""
+    """The size to which errors are relative.
+
+    It is the largest coefficient after the anchor is subtracted, plus the rounding of that
+    subtraction.
+    """
     share = 8 * rounding.UNIT_ROUNDOFF / rounding.slack_factor(coefficients.shape[0] // 4)
     near = modulus(_complex(coefficients - problem.anchor)).max()
     return near + share * (near + 2 * jnp.max(jnp.abs(problem.anchor)))
@@ -147,19 +154,19 @@ def fz_turning(matrices: Matrices, values: Values) -> Float[Array, " p"]:
 
 
 def products(matrices: Matrices, coefficients: Coefficients) -> Samples:
-    """``f_z``, ``conj(f_zbar)`` (E.5) and their derivatives on the panels (G.6), a product each."""
+    """``f_z``, ``conj(f_zbar)`` (E.5) and their derivatives on the panels (G.6): two products."""
     re, im = jnp.moveaxis(coefficients.reshape(2, 2, -1), 1, 0)
     rows = jnp.stack([jnp.hstack([re, im]), jnp.hstack([im, -re])], axis=1).reshape(4, -1)
     return Samples(rows @ matrices.nodes, rows @ matrices.slopes)
 
 
 def squares(values: Float[Array, "4 *t s"]) -> tuple[Array, Array]:
-    """``|f_z|^2`` and ``|f_zbar|^2``, which the energies take for the singular values (11)."""
+    """``|f_z|^2`` and ``|f_zbar|^2``. Energies depend on these instead of singular values (11)."""
     return values[0] ** 2 + values[1] ** 2, values[2] ** 2 + values[3] ** 2
 
 
 def directions(values: Values) -> tuple[tuple[Array, Array], tuple[Array, Array]]:
-    """Unit vectors along both derivatives; (1, 0) where one vanishes."""
+    """Unit vectors along ``f_z`` and ``conj(f_zbar)``; (1, 0) where a derivative vanishes."""
     pairs = []
     for k in (0, 2):
         modulus = jnp.hypot(values[k], values[k + 1])
@@ -170,5 +177,5 @@ def directions(values: Values) -> tuple[tuple[Array, Array], tuple[Array, Array]
 
 
 def _complex(a: Coefficients | Values) -> Complex[Array, "2 k"]:
-    """From the parts (Re, Im, Re, Im), one after the other."""
+    """Two complex rows from the consecutive parts (Re, Im, Re, Im)."""
     return lax.complex(*jnp.moveaxis(a.reshape(2, 2, -1), 1, 0))

@@ -1,9 +1,10 @@
 """The Hessian of the isometric energy and its analytic modification (paper Section 7).
 
-At one sample ``nabla^2 E = B^T K B`` (18). In the frames ``f/|f|, i f/|f|`` of ``f_z`` and of ``g =
-conj(f_zbar)``, the 4 x 4 matrix ``K`` (19) splits into the eigenvalues ``lambda_1 = 2 alpha_1`` and
-``lambda_2 = 2 alpha_2`` across ``f`` and ``g`` and a symmetric 2 x 2 block along them, of
-eigenvalues ``lambda_3,4`` (23). So the eigenvectors (24) need no division by ``|f_zbar|``.
+At one sample ``nabla^2 E = B^T K B`` (18). The 4 x 4 matrix ``K`` (19) is written in the frames
+``f/|f|, i f/|f|`` of ``f = f_z`` and of ``g = conj(f_zbar)``. There it splits into two eigenvalues
+across ``f`` and ``g``, ``lambda_1 = 2 alpha_1`` and ``lambda_2 = 2 alpha_2``, and a symmetric 2 x 2
+block along them with the eigenvalues ``lambda_3,4`` (23). So the eigenvectors (24) need no division
+by ``|f_zbar|``.
 """
 
 import functools
@@ -19,7 +20,8 @@ Square = Float[Array, "u u"]
 PerNode = Float[Array, " h"]
 Pair = tuple[Columns, Columns]
 
-# Elements of a basis matrix assembled at once: copies of more would outgrow the Hessian.
+# Elements of a basis matrix that are processed at once. Copies of more elements would take more
+# memory than the Hessian.
 _PIECE = 1 << 19
 
 
@@ -48,7 +50,7 @@ def positive_part(k: LocalHessian) -> LocalHessian:
     """``K+`` of (21), the closest positive semidefinite matrix to ``K``, by (23) and (24)."""
     mean = (k.along_ff + k.along_gg) / 2
     half = (k.along_ff - k.along_gg) / 2
-    # Scaled, for the squares of an exponential energy's entries can overflow.
+    # Scale first: the squares of an exponential energy's entries can overflow.
     scale = jnp.maximum(jnp.abs(half), jnp.abs(k.along_fg))
     safe = jnp.where(scale > 0, scale, 1)
     radius = scale * jnp.sqrt((half / safe) ** 2 + (k.along_fg / safe) ** 2)
@@ -66,7 +68,7 @@ def positive_part(k: LocalHessian) -> LocalHessian:
 
 
 def _in_pieces(assembled: Callable[..., Array]) -> Callable[..., Array]:
-    """A sum over samples, the arguments' last axis, by pieces where it would take much room."""
+    """Compute a sum over samples (the arguments' last axis) in pieces if it needs much memory."""
 
     @functools.wraps(assembled)
     def summed(*arguments: Any) -> Array:
@@ -77,7 +79,7 @@ def _in_pieces(assembled: Callable[..., Array]) -> Callable[..., Array]:
         length = -(-count // pieces)
 
         def piece(i: Array | int) -> Array:
-            # The last piece reaches back to be as long as the others.
+            # The last piece starts earlier, so that it is as long as the others.
             start = jnp.minimum(i * length, count - length)
             part, weights, *rest = jax.tree.map(
                 lambda a: lax.dynamic_slice_in_dim(a, start, length, -1), arguments
@@ -102,15 +104,18 @@ def assemble(
 ) -> Float[Array, "4u 4u"]:
     """Upper triangle of ``sum_i w_i B_i^T K_i B_i`` over ``[Re phi, Im phi, Re psi, Im psi]``.
 
-    That is (14) as a sum of (18), in the blocks of Appendix E, (E.8) and (E.10), by products other
-    than (G.10). Below the diagonal blocks it is zero: a Cholesky factorisation does not read that.
+    This is (14) as a sum of (18), in the blocks of Appendix E, (E.8) and (E.10). The products
+    differ from those of (G.10). The block below the diagonal blocks is zero, because the Cholesky
+    factorisation does not read it.
 
-    ``nodes`` is ``D`` as ``[Re D, -Im D]``, transposed; ``f`` and ``g`` are unit vectors (Re, Im)
-    along ``f_z`` and ``conj(f_zbar)``, any where a derivative vanishes. ``K``'s diagonal block for
-    ``phi`` is ``p I + m R``, with ``p`` and ``m`` half the sum and half the difference of its
-    entries along and across ``f_z`` and ``R`` the reflection about ``f_z``. The first part gives
-    the Hermitian matrix ``D^H p D``, the second the complex symmetric ``(D')^T m D'`` with ``D' =
-    conj(f) D``. Each takes two real products: their symmetric parts are right.
+    ``nodes`` is ``D`` as ``[Re D, -Im D]``, transposed. ``f`` and ``g`` are unit vectors (Re, Im)
+    along ``f_z`` and ``conj(f_zbar)``; where a derivative vanishes, any unit vector is right.
+
+    The diagonal block of ``K`` for ``phi`` is ``p I + m R``. ``R`` is the reflection about ``f_z``.
+    ``p`` is half the sum of the entries along and across ``f_z``, ``m`` half their difference. The
+    first term gives the Hermitian matrix ``D^H p D``, the second the complex symmetric matrix
+    ``(D')^T m D'`` with ``D' = conj(f) D``. Two real products are enough for each, because only
+    their symmetric (or antisymmetric) parts are used.
     """
     columns = nodes.shape[0] // 2
     re, im = nodes[:columns], -nodes[columns:]
@@ -135,8 +140,10 @@ def assemble(
 def assemble_across_f(
     nodes: Float[Array, "2u h"], weights: PerNode, f: tuple[PerNode, PerNode], across: PerNode
 ) -> Float[Array, "2u 2u"]:
-    """The part of :func:`assemble` that ``across_f`` alone contributes, the block of ``phi``: added
-    to the exact Hessian, ``-lambda_1`` makes (25) of it."""
+    """The part of :func:`assemble` that depends on ``across_f``; it lies in the block of ``phi``.
+
+    With ``across = -lambda_1``, adding it to the exact Hessian gives (25).
+    """
     columns = nodes.shape[0] // 2
     u, v = _rotated(nodes[:columns], -nodes[columns:], f)
     # The component across f has the row [v, u].
@@ -152,9 +159,11 @@ def _rotated(re: Columns, im: Columns, direction: tuple[PerNode, PerNode]) -> Pa
 
 
 def _hermitian_products(re: Columns, im: Columns, weights: Array) -> tuple[Array, Array]:
-    """``(re + im) w (re + im)^T`` and ``re w im^T``, each (2, u, u), for (2, h) weights: of ``(re +
-    i im)^H w (re + i im)`` the imaginary part is the second less its transpose, the real part the
-    first less the second and its transpose."""
+    """``(re + im) w (re + im)^T`` and ``re w im^T``, each (2, u, u), for (2, h) weights.
+
+    They give ``(re + i im)^H w (re + i im)``. Its imaginary part is the second product minus its
+    transpose. Its real part is the first product minus the second product and its transpose.
+    """
     columns = re.shape[0]
 
     def against(left: Columns, right: Columns) -> Float[Array, "2 u u"]:
@@ -165,7 +174,7 @@ def _hermitian_products(re: Columns, im: Columns, weights: Array) -> tuple[Array
 
 
 def _symmetric_product(u: Columns, v: Columns, weights: PerNode) -> tuple[Square, Square]:
-    """Real and imaginary part of ``(u + iv) diag(weights) (u + iv)^T`` by two real products."""
+    """Real and imaginary part of ``(u + iv) diag(weights) (u + iv)^T``, by two real products."""
     # (u - v) w (u + v)^T differs from u w u^T - v w v^T by an antisymmetric matrix.
     real = (u - v) @ (weights * (u + v)).T
     imaginary = (weights * u) @ v.T

@@ -1,7 +1,7 @@
 """The line search: a batch of candidate steps, then the certificate (paper Section 9.2).
 
-``f_z`` and ``conj(f_zbar)`` are linear in the coefficients, so their values along the search
-direction cost no further product (G.11) and many candidate steps are tried at once.
+``f_z`` and ``conj(f_zbar)`` are linear in the coefficients. So their values along the search
+direction need no further matrix product (G.11), and many candidate steps are tried at once.
 """
 
 from typing import NamedTuple
@@ -12,17 +12,17 @@ from glid_nb.solvers import evaluation
 from glid_nb.solvers.evaluation import Line, Number, Point, Values
 from glid_nb.solvers.problem import SubspaceProblem
 
-# How a compiled call can end.
+# The outcomes of a compiled call.
 RUNNING, CONVERGED, NO_DECREASE, REFUSED, INDEFINITE, BLOCKED, PENDING = range(7)
 
 CANDIDATES = 24
 RATIO = 0.8
-# A Newton direction may be too short while the Hessian is modified; trying up to twice its length
+# A Newton direction may be too short while the Hessian is modified. Trying up to twice its length
 # costs nothing and saved up to a tenth of the iterations on the reference shapes.
 LONGEST_STEP = 2.0
 ARMIJO = 1e-4  # sufficient decrease, the constant c of Algorithm 1
-# Closest that a step may come to the first inversion at a sample: next to the barrier iterations
-# are short (0.95 took 12 instead of 8 on one reference shape).
+# The longest step, as a fraction of the step that inverts the first sample. Close to an inversion
+# the next steps are short: 0.95 took 12 iterations instead of 8 on one reference shape.
 SAFETY = 0.7
 LEAST_STEP = 1e-12
 
@@ -32,12 +32,15 @@ class Search(NamedTuple):
 
     steps: Float[Array, " t"]
     acceptable: Bool[Array, " t"]  # sufficient decrease (Algorithm 1, line 17)
-    best: Int[Array, ""]  # the candidate of least energy
+    best: Int[Array, ""]  # index of the candidate with the least energy
 
 
 def largest_step(values: Values, change: Values) -> Number:
-    """The step at which the first sample becomes inverted, or infinity: the first zero of
-    ``|f + t df|^2 - |g + t dg|^2``, a quadratic in ``t`` that is positive at 0."""
+    """The step at which the first sample becomes inverted, or infinity.
+
+    It is the first zero of ``|f + t df|^2 - |g + t dg|^2``, a quadratic in ``t`` that is positive
+    at 0.
+    """
     a = _difference_of_squares(change, change)
     b = 2 * _difference_of_squares(values, change)
     c = _difference_of_squares(values, values)
@@ -53,8 +56,10 @@ def _difference_of_squares(a: Values, b: Values) -> Float[Array, " s"]:
 
 
 def search(problem: SubspaceProblem, point: Point, line: Line) -> Search:
-    """Energies along the line in batches of candidates, each batch shorter, until one decreases
-    (Algorithm 1, lines 13 to 17 and 21 to 23)."""
+    """Evaluate batches of candidate steps along the line until one decreases the energy enough.
+
+    Each batch is shorter than the one before (Algorithm 1, lines 13 to 17 and 21 to 23).
+    """
     values, change, positional = point.samples.values, line.change.values, problem.positional
     residual = positional.residual(point.coefficients)
     residual_change = positional.matrix @ line.direction
@@ -71,7 +76,7 @@ def search(problem: SubspaceProblem, point: Point, line: Line) -> Search:
 
     def lower(carry: tuple[Array, Array]) -> tuple[Array, Array]:
         steps = carry[0] * RATIO**CANDIDATES
-        # The full Newton step is always among the candidates, or convergence would be linear.
+        # The full Newton step must be a candidate. Otherwise convergence would be linear.
         steps = jnp.where((steps > 1) & (steps * RATIO < 1), 1.0, steps)
         return steps, along(steps)
 
@@ -87,7 +92,7 @@ def search(problem: SubspaceProblem, point: Point, line: Line) -> Search:
 
 
 class Backtracking(NamedTuple):
-    outcome: Int[Array, ""]  # RUNNING where step is certified
+    outcome: Int[Array, ""]  # RUNNING if the step is certified
     step: Number
     point: Point
     panel: PanelBounds  # the bounds at the point
@@ -101,10 +106,12 @@ def backtrack(
     found: Search,
     once: Bool[AnyArray, ""] | bool,
 ) -> Backtracking:
-    """Go from the best candidate to shorter ones until one is certified (Algorithm 1, lines 18 to
-    20); ``once``: try one only.
-    Where Condition (30) fails and no panel refuses, the step jumps over a map with a zero of
-    ``f_z`` on the boundary: on the panels along which ``f_z`` turned most."""
+    """Try the best candidate, then shorter ones, until one is certified (Algorithm 1, lines 18 to
+    20). With ``once``, try only the best.
+
+    If Condition (30) fails and no panel refuses, the step jumps over a map whose ``f_z`` vanishes
+    on the boundary. Then the panels along which ``f_z`` turned most refuse the step.
+    """
     real, count = problem.matrices.real, found.steps.shape[0]
     before = evaluation.fz_turning(problem.matrices, point.samples.values)
 
@@ -125,7 +132,7 @@ def backtrack(
         refused = jnp.where(first, refuses, refused)
         shorter = jnp.argmax(found.acceptable & (jnp.arange(count) > index))
         outcome = jnp.where(~fails, RUNNING, jnp.where(first & once, REFUSED, BLOCKED))
-        # argmax gives 0 when there is no shorter acceptable candidate.
+        # argmax is 0 if there is no shorter acceptable candidate.
         ended = (outcome != BLOCKED) | (shorter == 0)
         outcome, index = jnp.where(ended, outcome, PENDING), jnp.where(ended, index, shorter)
         return outcome, index, there, panel, refused

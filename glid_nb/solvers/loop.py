@@ -1,4 +1,4 @@
-"""The outer loop on the host, the same for every method: record, show, split panels, stop."""
+"""The outer loop on the host, the same for every method: record, report, split panels, stop."""
 
 import math
 import time
@@ -17,13 +17,14 @@ from glid_nb.solvers.line_search import BLOCKED, REFUSED, RUNNING
 from glid_nb.solvers.method import Inputs, Method
 from glid_nb.solvers.result import Iteration, Make, Progress, Result, Status
 
-# How often panels are split before a shorter step is tried, and in all before a solve ends.
+# Rounds of splitting before a shorter step is tried.
 _PATIENCE = 3
+# Rounds of splitting without a step before the solve ends as blocked.
 _MOST_ROUNDS = 40
 
 
 class Stopwatch:
-    """Seconds since it was made, those of compiling apart."""
+    """Seconds since it was created; those of compiling are counted apart."""
 
     def __init__(self) -> None:
         self._clock, self._began = compilation_clock(), time.perf_counter()
@@ -41,14 +42,14 @@ class Stopwatch:
 
 class Ending(NamedTuple):
     status: Status
-    detail: str | None = None  # a full sentence, where that of the status says too little
+    detail: str | None = None  # a full sentence, if the status's own sentence says too little
 
 
 class Advance(NamedTuple):
     outcome: int = RUNNING
     iterations: int = 0
     refused: Array | None = None  # (p,) bool: panels that refused a step and may be split
-    ending: Ending | None = None  # where the method itself came to an end
+    ending: Ending | None = None  # set if the method itself ended
 
 
 class Reached(NamedTuple):
@@ -57,34 +58,36 @@ class Reached(NamedTuple):
 
 
 class Descent:
-    """A method at work: what the loop asks of it."""
+    """One run of a method: the interface that the loop uses."""
 
     initial: Iteration | None = None  # the start; None until the first advance has evaluated it
-    shows_start = True  # whether a callback is shown the start too
-    uses_lapack = False  # which several BLAS threads would slow down
+    shows_start = True  # whether the callback also sees the start
+    uses_lapack = False  # several BLAS threads would slow LAPACK down
     discretisation: Discretisation | None = None  # the panels, which may be split
-    sigma2_lower: Array | None = None  # (p,) certified, once a step was taken
-    factor: Any = None  # of the last Hessian, for a solve that goes on from here
+    sigma2_lower: Array | None = None  # (p,) certified; None before the first step
+    factor: Any = None  # of the last Hessian, for a solve that continues from here
 
     def __init__(self, method: Method, inputs: Inputs) -> None:
         self.method, self.inputs = method, inputs
         self.history: list[Iteration] = []
 
     def advance(self, may_refine: bool) -> Advance:
-        """Go on by some iterations, at most those that are left, and extend the history. Where a
-        panel refuses a step it ends as REFUSED with ``may_refine``; without, it tries shorter steps
-        and ends as BLOCKED where none is certified."""
+        """Run some iterations, at most those that are left, and extend the history.
+
+        If a panel refuses a step, the outcome is REFUSED with ``may_refine``. Without it, shorter
+        steps are tried, and the outcome is BLOCKED if none is certified.
+        """
         raise NotImplementedError
 
     def reached(self) -> Reached:
         raise NotImplementedError
 
     def adapt(self, done: Advance) -> Ending | None:
-        """Change course after what an advance came to, or end."""
+        """Change settings after an advance, or return how the solve ends."""
         raise NotImplementedError
 
     def split(self, refused: Array) -> int:
-        """Split panels that refused a step; how many were."""
+        """Split panels that refused a step. Returns how many were split."""
         raise NotImplementedError
 
     @property
@@ -105,7 +108,7 @@ class Descent:
         return Progress(make=now.make, sigma2_lower=self.sigma2_lower, **self._course(now.entry))
 
     def result(self, ending: Ending, compile_time: float, solve_time: float) -> Result:
-        """What a solve returns (Algorithm 1, line 10)."""
+        """The result of the solve (Algorithm 1, line 10)."""
         now = self.reached()
         made = now.make()
         harmonic = isinstance(made, Certificate)
@@ -126,7 +129,7 @@ class Descent:
         )
 
     def stagnation(self) -> Ending | None:
-        """The end, where the iterations of the method's window gain next to nothing."""
+        """CONVERGED if the last ``window`` iterations together hardly changed the energy."""
         window, tolerance = self.method.window, self.method.tolerance
         assert window is not None
         assert self.initial is not None
@@ -140,7 +143,7 @@ class Descent:
 
 
 def follow(make: Callable[[], Descent]) -> Result:
-    """Follow a method to its end, to its most iterations or until the callback returns True."""
+    """Run a method until it ends, reaches its iteration limit or the callback returns True."""
     watch = Stopwatch()
     descent = make()
     with single_blas_thread() if descent.uses_lapack else nullcontext():
@@ -149,7 +152,7 @@ def follow(make: Callable[[], Descent]) -> Result:
 
 
 def followed(descent: Descent, done: Advance | None = None) -> Ending:
-    """The loop; ``done`` is an advance that was made before it."""
+    """The loop. ``done`` is an advance that was made before the loop starts."""
     callback, rounds, total_rounds = descent.inputs.callback, 0, 0
 
     def stopped() -> bool:
@@ -177,16 +180,16 @@ def followed(descent: Descent, done: Advance | None = None) -> Ending:
             if not descent.split(np.asarray(done.refused)):
                 if blocked:
                     return Ending(Status.BLOCKED)
-                rounds = _PATIENCE  # a shorter step, then
+                rounds = _PATIENCE  # nothing can be split: try shorter steps
         done = None
 
 
 Steps = Generator[Callable[[], Reached], None, Ending]
-"""Yields at the start and after each step what tells where the method is; returns how it ended."""
+"""Yields a function that returns the state: at the start and after each step. Returns the end."""
 
 
 class GeneratedDescent(Descent):
-    """A method written as a generator; one that is not asked for its next step has stopped."""
+    """A method written as a generator. It stops when the loop does not ask for the next step."""
 
     def __init__(self, method: Method, inputs: Inputs, steps: Steps) -> None:
         super().__init__(method, inputs)

@@ -1,4 +1,4 @@
-"""What a method is: a value whose fields are its settings."""
+"""A solving method: a value whose fields are its settings."""
 
 import importlib
 import importlib.util
@@ -20,7 +20,7 @@ Family = Literal["harmonic", "mesh", "linear"]
 
 _EXTRA = "compare"
 _DISTRIBUTIONS = {"igl": "libigl"}
-"""Names under which packages are installed, where they are imported under another."""
+"""The distribution's name of each imported package whose two names differ."""
 
 
 class MethodError(InputError):
@@ -33,7 +33,7 @@ class StartError(InputError):
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Inputs:
-    """What every method is given."""
+    """The problem that a method solves."""
 
     domain: Domain
     pose: Pose
@@ -52,25 +52,25 @@ class Method:
     """A way to deform a domain, for the argument ``method`` of :func:`glid_nb.solve`.
 
     Subclasses are frozen dataclasses; their fields are the method's own settings. A MethodError
-    says which setting is of another kind than its annotation says, or out of its range.
+    names a setting that has the wrong type or is out of range.
     """
 
     name: ClassVar[str]  # for files and the shell
     label: ClassVar[str]  # for menus
     summary: ClassVar[str]  # the first paragraph of the class's docstring
     family: ClassVar[Family]
-    """Where its maps live: in the harmonic subspace, certified, or on a mesh; "linear" methods are
-    on a mesh, too, and solve once."""
-    max_iterations: ClassVar[int] = 200  # unless the options say otherwise
+    """The kind of its maps: "harmonic" maps lie in the harmonic subspace and are certified, "mesh"
+    maps are piecewise linear. "linear" methods also use a mesh and solve once."""
+    max_iterations: ClassVar[int] = 200  # the default; the options can change it
     window: ClassVar[int | None] = None
-    """It has converged where so many iterations together change the energy by no more than
-    ``tolerance`` of it; None for a method that ends otherwise."""
+    """The method has converged when this many iterations together change the energy by no more
+    than the fraction ``tolerance``. None for a method with another stopping rule."""
     tolerance: ClassVar[float] = 0.0
     energies: ClassVar[tuple[str, ...] | None] = None  # that it can minimise; None for any
-    stiffens: ClassVar[bool] = True  # whether it keeps stiff areas, where its maps are certified
+    stiffens: ClassVar[bool] = True  # whether a method with certified maps keeps stiff areas
     package: ClassVar[str | None] = None  # the optional package that it needs
     options: ClassVar[tuple[str, ...]] = ("p2p_weight", "align", "max_iterations")
-    """Names of the :class:`~glid_nb.Options` that count."""
+    """Names of the :class:`~glid_nb.Options` that the method uses."""
 
     def __init_subclass__(cls) -> None:
         cls.summary = " ".join((cls.__doc__ or "").split("\n\n")[0].split())
@@ -80,12 +80,12 @@ class Method:
         check_fields(self, MethodError, lambda name: f"the setting {name!r} {method}")
 
     def run(self, inputs: Inputs) -> Result:
-        """Deform; :func:`glid_nb.solve` has checked what it gives."""
+        """Deform. :func:`glid_nb.solve` has checked the inputs."""
         raise NotImplementedError
 
     @classmethod
     def kinds(cls) -> Mapping[str, Any]:
-        """What each setting may be, as an annotation."""
+        """The type of each setting, as an annotation."""
         return field_kinds(cls)
 
     @classmethod
@@ -94,7 +94,7 @@ class Method:
 
     @property
     def settings(self) -> dict[str, Any]:
-        """The settings that are not the defaults."""
+        """The settings that differ from the defaults."""
         return {k: getattr(self, k) for k, v in self.defaults().items() if getattr(self, k) != v}
 
     @property
@@ -104,11 +104,11 @@ class Method:
 
     @classmethod
     def available(cls) -> bool:
-        """Whether its package is installed."""
+        """Whether the package that it needs is installed."""
         return cls.package is None or importlib.util.find_spec(cls.package) is not None
 
     def check(self, energy: Energy, pose: Pose) -> None:
-        """Raise :class:`MethodError` where it cannot run with these, saying what to do."""
+        """Raise a :class:`MethodError`, with a remedy, if it cannot solve this problem."""
         if self.package is not None:
             self._import(self.package)
         method = f"the method {self.name!r}"
@@ -136,8 +136,11 @@ class Method:
             raise MethodError(f"{broken}; install it again with: {again}") from error
 
     def proved_start(self, inputs: Inputs) -> Certificate | None:
-        """The map to start from, if one is given, with its own proof or a new one; a
-        :class:`MethodError` where it is one of a mesh, a :class:`StartError` without a proof."""
+        """The given start map with its own proof or a new one; None if no start is given.
+
+        Raises a :class:`MethodError` for a map of a mesh, a :class:`StartError` for a map that
+        cannot be proved.
+        """
         start, map = inputs.start, inputs.start_map
         if map is None:
             return None

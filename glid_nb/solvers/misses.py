@@ -1,4 +1,4 @@
-"""By how much handles miss their targets, and what of the targets may be why."""
+"""How far handles are from their targets, and which conflict between targets may be the cause."""
 
 import itertools
 from typing import Any
@@ -11,13 +11,15 @@ from glid_nb.geometry import MeshMap
 from glid_nb.harmonic import HarmonicMap, as_complex
 from glid_nb.pose import Pose
 
-NOTABLE = 0.01  # twentieths of the cage's longer side; a smaller distance is not visible
-# Targets follow a motion where it leaves out less than the first share of their spread, and less
-# than the second share of what the present order of the targets leaves out.
+NOTABLE = 0.01  # in twentieths of the cage's longer side; a smaller distance is not visible
+# A similarity explains the targets if its residual is below two limits.
+# _FITS: the first limit, as a share of the targets' spread.
+# _BETTER: the second limit, as a share of the residual of the targets in their given order.
 _FITS, _BETTER = 0.1, 0.1
-# Targets this close beside their handles are one place, and the other way round.
+# Two targets count as one place if their distance is below this share of their handles' distance.
+# The same holds with handles and targets exchanged.
 _TOGETHER = 1e-3
-_MOST = 12  # handles that are compared in pairs, those that miss most
+_MOST = 12  # handles that are compared in pairs: the worst one and others that miss
 
 
 def misses_of(map: HarmonicMap | MeshMap, pose: Pose) -> Array:
@@ -28,14 +30,14 @@ def misses_of(map: HarmonicMap | MeshMap, pose: Pose) -> Array:
 
 
 def unit_of(map: HarmonicMap | MeshMap) -> float:
-    """The unit of a map's cage; of a mesh, which knows no cage, a twentieth of its longer side."""
+    """The unit of a map's cage. A mesh has no cage: its unit is 1/20 of its longer side."""
     if isinstance(map, HarmonicMap):
         return map.domain.cage.unit
     return float(np.ptp(map.triangulation.vertices, axis=0).max()) / 20
 
 
 def told(pose: Pose, misses: Array, unit: float) -> str:
-    """The largest miss as the end of a sentence, with what may be why; empty if none is notable.
+    """The largest miss and its likely cause, as part of a sentence; empty if no miss is notable.
 
     ``misses`` are (h,) distances, ``unit`` is that of the cage.
     """
@@ -48,10 +50,10 @@ def told(pose: Pose, misses: Array, unit: float) -> str:
 
 
 def conflict(pose: Pose, missing: Array, worst: int) -> str:
-    """What is seen in the targets that a map without folds can hardly do; empty if nothing is.
+    """A conflict between targets that a map without folds can hardly satisfy; empty if none.
 
-    ``missing`` (h,) tells the handles that miss, of which the ``worst`` misses most. Where shapes
-    are long and bend far, some of these targets can be reached, but not by a shape that lies flat.
+    ``missing`` (h,) marks the handles that miss; the handle ``worst`` misses most. A long shape
+    that bends far can reach some of these targets, but then it overlaps itself.
     """
     z, w = as_complex(pose.handles), as_complex(pose.targets)
     first = np.flatnonzero(missing)
@@ -75,14 +77,14 @@ def conflict(pose: Pose, missing: Array, worst: int) -> str:
 
 
 def _left(z: Array, w: Array) -> float:
-    """The share of the targets' spread that the similarity closest to them leaves out."""
+    """The residual of the best similarity from ``z`` to ``w``, relative to the spread of ``w``."""
     z, w = z - z.mean(), w - w.mean()
     spread = np.sum(np.abs(z) ** 2) * np.sum(np.abs(w) ** 2)
     return float(1 - abs(np.vdot(z, w)) ** 2 / spread) if spread > 0 else 0.0
 
 
 def _turned_over(z: Any, w: Any, worst: int) -> str:
-    """A triangle of neighbouring handles, with the worst one, that its targets turn over."""
+    """Name a triangle of neighbouring handles, the worst among them, whose targets flip it."""
     if len(z) < 3:
         return ""
     try:

@@ -1,4 +1,5 @@
-"""Our method: Newton's, several iterations a compiled call, on the host (paper Algorithm 1)."""
+"""Our Newton method, the part on the host (paper Algorithm 1). A compiled call runs several
+iterations."""
 
 import functools
 from collections.abc import Sequence
@@ -22,31 +23,39 @@ from glid_nb.solvers.result import Iteration, Result, Status
 from glid_nb.solvers.subspace import SubspaceDescent
 from glid_nb.solvers.whitening import pulled_back
 
-# Without two handles a rotation costs nothing and the Hessian is singular (Appendix I). To begin
-# with the epsilon is one with which it is definite in single precision too.
+# The ridge is a shift of the Hessian's diagonal, relative to the diagonal's mean.
+# With fewer than two handles, rotations cost nothing and the Hessian is singular (Appendix I). This
+# is the initial shift for such poses, large enough for single precision.
 _SINGULAR_RIDGE = 1e-6
+# The smallest and the largest shift. The solve ends if the largest is not enough.
 _RIDGE, _LARGEST_RIDGE = 1e-9, 1e-2
+# The shift grows by this factor after a failed factorisation and shrinks by it after a step.
 _RIDGE_FACTOR = 100.0
-# When to put the Hessian on all nodes: many iterations, or a short step that gains little.
+# A solve with this many iterations is slow; from then on the Hessian uses all nodes.
 SLOW_ITERATIONS = 20
+# A solve is also slow if a step is shorter than _SLOW_STEP and gains less than _SLOW_GAIN of the
+# energy.
 _SLOW_STEP, _SLOW_GAIN = 0.5, 0.05
-# Steps in a row that together gain less than this fraction of the energy end a solve.
+# A solve has stalled if _STALLED steps in a row gain less than _STALL_GAIN of the energy together.
 _STALLED, _STALL_GAIN = 4, 1e-10
-# If all of them are shorter than this, it need only be less than this.
+# If each of these steps is shorter than this, a gain below this share of the energy is a stall.
 _CREEPING = 1e-6
-_WORK_PER_CALL = 10**10  # products of a Hessian: some seconds, after which a callback may stop it
-# Steep coordinates are put back until the others together would gain less than this share of the
-# energy. They are first asked at a decrement that promises the second share. One that needs larger
-# coefficients than this many times the shape's size stays out.
+# Multiplications for Hessians in one call: some seconds. A callback can stop the solve afterwards.
+_WORK_PER_CALL = 10**10
+# A solve begins without the steep coordinates (see whitening.py) and puts some of them back.
+# _GAIN: the coordinates that stay out would together gain less than this share of the energy.
+# _ROUGH: the first check is where the decrement predicts a decrease below this share.
+# _GROWTH: a coordinate stays out if its coefficients would exceed this many times the shape's size.
 _GAIN, _ROUGH, _GROWTH = 1e-7, 4e-3, 1e2
-_ROUNDING = 1e-8  # a decrease promised by the Newton decrement that rounding of the energy can hide
+# The rounding of the energy can hide a predicted decrease below this share of the energy.
+_ROUNDING = 1e-8
 
 
 @dataclass(frozen=True)
 class Newton(Method):
     """Newton's method, with the exact Hessian where that is positive definite, else the projected.
 
-    Ours; its settings are the :class:`~glid_nb.Options`.
+    This is our method. Its settings are the :class:`~glid_nb.Options`.
     """
 
     name = "newton"
@@ -60,7 +69,7 @@ class Newton(Method):
 
 @double_precision
 def descend(inputs: Inputs, method: Method) -> Result:
-    """One descent from one map to the local minimum that it leads to."""
+    """One descent from one map to a local minimum."""
     return follow(lambda: NewtonDescent(method, inputs))
 
 
@@ -80,7 +89,7 @@ class Treatment:
     """The number of iterations after which the Hessian was put on all nodes."""
 
     def relaxed(self) -> "Treatment":
-        """With less of a ridge that one place needed: at the minimum it would make steps short."""
+        """With a smaller ridge: near the minimum a ridge shortens the steps."""
         relaxed = self.ridge / _RIDGE_FACTOR
         return replace(self, ridge=max(relaxed if relaxed >= _RIDGE else 0.0, self.least_ridge))
 
@@ -90,7 +99,8 @@ class Treatment:
 
 
 class NewtonDescent(SubspaceDescent):
-    """Algorithm 1 at work. The Hessian is singular without two handles (Proposition I.1)."""
+    """One run of Algorithm 1. With fewer than two handles the Hessian is singular (Proposition
+    I.1)."""
 
     shows_start = False
 
@@ -98,7 +108,7 @@ class NewtonDescent(SubspaceDescent):
         super().__init__(method, inputs, reduced=True)
         self.problem = self.problem._replace(p2p_hessian=_p2p_hessian(self.problem))
         if isinstance(inputs.start, Result) and self._continues(inputs.start):
-            # The result keeps its own.
+            # A copy, because a call destroys the factor that it gets.
             self.factor = jnp.array(inputs.start.factor, copy=True)
         self.decrement = np.inf  # of the last step
         singular = len(inputs.pose) < 2
@@ -110,7 +120,7 @@ class NewtonDescent(SubspaceDescent):
         )
 
     def _continues(self, start: Result) -> bool:
-        """Whether the last Hessian of an earlier solve is one of this problem's."""
+        """Whether the last Hessian of an earlier solve belongs to this problem."""
         mine, theirs = self.inputs.options, start.options
         return bool(
             mine.corrections
@@ -139,7 +149,7 @@ class NewtonDescent(SubspaceDescent):
         return max(_WORK_PER_CALL // (rows**2 * nodes), 1)
 
     def advance(self, may_refine: bool) -> Advance:
-        """One compiled call; with nothing left it still evaluates the energies."""
+        """One compiled call. Without iterations left, it still evaluates the energies."""
         watch = Stopwatch()
         if self.factor is None:
             self.factor = np.zeros(self.problem.p2p_hessian.shape)
@@ -151,7 +161,7 @@ class NewtonDescent(SubspaceDescent):
         return self.take(state, watch.seconds)
 
     def take(self, state: step.State, seconds: float) -> Advance:
-        """Go to where a call of so many seconds has come."""
+        """Read the state after a compiled call that took ``seconds``."""
         self.point = state.point
         self.decrement = float(state.decrement)
         end, taken = int(state.outcome), int(state.iteration)
@@ -170,13 +180,13 @@ class NewtonDescent(SubspaceDescent):
         refused = np.asarray(state.refused)
         if refused.any():
             refused = refused & evaluation.tightened_by_splitting(self.problem, state.point)
-        # After a split the map is still where its Hessian was taken.
+        # After a split the map is unchanged, so its last Hessian is still right.
         reuse = end == line_search.REFUSED and bool(self.inputs.options.corrections)
         self.treatment = replace(self.treatment, reuse=reuse)
         return Advance(end, taken, refused)
 
     def adapt(self, done: Advance) -> Ending | None:
-        """Take the full Hessian or another ridge where that may help; else end."""
+        """Switch to the full Hessian or another ridge if that may help; else end the solve."""
         if done.outcome == line_search.CONVERGED and self.treatment.rough:
             rough = self.put_back()
             reuse = not rough and bool(self.inputs.options.corrections)
@@ -188,15 +198,15 @@ class NewtonDescent(SubspaceDescent):
             return None if goes_on else Ending(Status.CONVERGED)
         if done.iterations:
             self.treatment = self.treatment.relaxed()
-            # Other nodes make no fewer iterations with K+, which are slow anyway.
+            # Finer quadrature does not help the projected Hessian.
             coarse = self.discretisation.can_refine and self.inputs.options.hessian != "projected"
             if coarse and _is_slow(self.history):
                 self._take_full_hessian()
         if done.outcome == line_search.INDEFINITE:
-            # Rounding or the nodes may have made it so.
+            # Rounding or the coarse quadrature may be the cause.
             if self._take_full_hessian():
                 return None
-            # The Hessian is singular to rounding where two handles are in one place.
+            # Another cause: with two handles in nearly one place, the Hessian is almost singular.
             if self.inputs.options.hessian == "exact":
                 return Ending(Status.INDEFINITE)
             self.treatment = self.treatment.raised()
@@ -208,7 +218,8 @@ class NewtonDescent(SubspaceDescent):
         return Ending(Status.STATIONARY if self.decrement**2 / 2 <= hidden else Status.BLOCKED)
 
     def put_back(self) -> bool:
-        """Take the steep coordinates by which the minimum would fall; whether there are any."""
+        """Put back the steep coordinates that would lower the minimum. Returns whether there are
+        any."""
         steep = self.discretisation.whitening.steep
         if not steep.shape[1]:
             return False
@@ -222,7 +233,7 @@ class NewtonDescent(SubspaceDescent):
         self.discretisation = self.discretisation.with_steep(chosen)
         basis, t = self.discretisation.basis, self.discretisation.whitening.t
         unknowns = unknowns_of(basis, self.inputs.options.conformal, t)
-        # What is steep oscillates between the fewer nodes.
+        # Steep coordinates oscillate between the nodes of the coarse quadrature: use all nodes.
         if self.treatment.full_since is None:
             self.treatment = replace(self.treatment, full_since=len(self.history))
         self.problem = self.problem._replace(matrices=self._hessian_matrices(), unknowns=unknowns)
@@ -231,7 +242,7 @@ class NewtonDescent(SubspaceDescent):
         return True
 
     def _hessian_matrices(self) -> Matrices:
-        """The panels' matrices, with the full Hessian where that was taken."""
+        """The panels' matrices, for the full Hessian if the solve has switched to it."""
         full = self.treatment.full_since is not None
         return self.discretisation.full(self.matrices) if full else self.matrices
 
@@ -247,7 +258,7 @@ class NewtonDescent(SubspaceDescent):
         return count
 
     def _take_full_hessian(self) -> bool:
-        """From now on the Hessian in double precision on all nodes; False when it is so already."""
+        """Use double precision and all nodes for the Hessian; False if that is already so."""
         if self.treatment.full_since is not None:
             return False
         self.treatment = replace(self.treatment, full_since=len(self.history))
@@ -259,10 +270,11 @@ _gradient = jit(evaluation.gradient)
 
 
 def _promised(problem: SubspaceProblem, point: Point, columns: Array, conformal: bool) -> Array:
-    """(k,) decreases of the energy along orthonormal steep columns (c, k), each by itself.
+    """(k,) predicted decreases of the energy along orthonormal steep columns (c, k), each alone.
 
-    By a Newton step with the mean curvature along and across the derivatives, for what is steep
-    oscillates; harmonic means over the boundary, which are rather too small.
+    The prediction is that of a Newton step. Steep columns oscillate, so their curvature is the mean
+    of the curvatures along and across the derivatives. Over the boundary the harmonic mean is
+    taken, which is rather too small.
     """
     x, y = evaluation.squares(point.samples.values)
     k = hessian.positive_part(hessian.local_hessian(problem.energy.differentials(x, y), x, y))
@@ -278,7 +290,7 @@ def _promised(problem: SubspaceProblem, point: Point, columns: Array, conformal:
     gains, changes = slopes / (2 * curvature), np.sqrt(slopes) / curvature
     if conformal:
         gains, changes = gains[:1], changes[:1]
-    # Where the coefficients would outgrow the shape, double precision loses the map's digits.
+    # With coefficients much larger than the shape, the map would lose digits to cancellation.
     size = np.abs(problem.matrices.chord).sum(axis=1).max() / 2
     allowed = changes.max(axis=0) * np.abs(columns).max(axis=0) <= _GROWTH * size
     return np.where(allowed, gains.sum(axis=0), 0.0)

@@ -12,7 +12,7 @@ from glid_nb.geometry import Cage
 from glid_nb.solvers.discretisation import CertificateKind, Sampling
 
 MOST_CORRECTIONS = 3
-# The certificate's allowance for rounding covers so many steps of one compiled call.
+# The certificate's allowance for rounding covers CARRIED_STEPS steps of one compiled call.
 MOST_PER_CALL = CARRIED_STEPS // (1 + MOST_CORRECTIONS)
 
 HessianKind = Literal["adaptive", "projected", "exact"]
@@ -36,45 +36,47 @@ class Options:
     """
 
     sampling: Sampling = option("graded", "Where the energy is integrated", "Sampling", _SAMPLINGS)
-    """Where the energy is integrated: panels graded by their distance to the singularities, or the
-    paper's 10^4 uniform samples (31)."""
+    """Where the energy is integrated: on panels graded by their distance to the singularities
+    ("graded"), or at the paper's 10^4 uniform samples (31) ("uniform")."""
     certificate: CertificateKind = option(
         "hermite", "How local injectivity is proved", "Certificate", _CERTIFICATES
     )
-    """How local injectivity is proved; "lipschitz" is the paper's (Section 8), "bdhm" has the
-    larger constants that the paper replaces (Figure 7)."""
+    """How local injectivity is proved. "lipschitz" is the paper's certificate (Section 8). "bdhm"
+    has the larger constants that the paper replaces (Figure 7)."""
     hessian: HessianKind = option("adaptive", "The matrix of Newton's method", "Hessian", _HESSIANS)
-    """The exact Hessian where it is positive definite, else the projected one (Section 7); with
-    "projected" always that, as in the paper; with "exact" never, halting where it is indefinite."""
+    """The matrix of Newton's method. "adaptive" uses the exact Hessian where it is positive
+    definite, else the projected one (Section 7). "projected" always uses the projected one, as in
+    the paper. "exact" never projects and stops at an indefinite Hessian."""
     p2p_weight: float = option(1e5, "How strongly handles are held at targets", "Weight λ", above=0)
     """``lambda`` of (20), positive, for lengths in twentieths of the cage's longer side. So a shape
-    deforms alike in every unit; in the cage's own units ``lambda`` is :meth:`lambda_on`. Certified
-    maps, and their energies, use at most 2.5e10: beside more the distortion is lost in rounding."""
+    deforms the same way in every unit of length. :meth:`lambda_on` gives ``lambda`` in the cage's
+    own units. Methods with certified maps use at most 2.5e10, because rounding would hide the
+    distortion beside a larger weight."""
     conformal: bool = option(False, "No shear anywhere", "Conformal maps only")
     """Restrict the maps to conformal ones, ``psi = 0`` (Section 6)."""
     align: bool = option(True, "Begin at the best rigid motion to the targets", "Align")
-    """Begin with the rigid motion that brings the handles closest to their targets. It changes
-    neither distortion nor certificate and often saves half of the iterations."""
+    """Begin with the rigid motion that brings the handles closest to their targets. This motion
+    changes neither distortion nor certificate and often saves half of the iterations."""
     restarts: int = option(10, "Other ways to try after a high energy", "Restarts")
-    """How many other ways to a minimum (see :mod:`glid_nb.minima.ways`) a solve from the
-    identity may try when its first one does not converge, ends at a high energy, or turns parts so
-    far that they may as well turn the other way round; 0 tries none.
-    The result's ``attempts`` tell what each of them reached."""
+    """How many restarts (see :mod:`glid_nb.minima.ways`) a solve from the identity may try; 0
+    tries none. It tries them when the first descent does not converge, ends at a high energy, or
+    turns parts so far that they might turn the other way round. The result's ``attempts`` list what
+    each of them reached."""
     max_iterations: int | None = option(
         None, "Most iterations of one attempt; Newton's method makes 200", "Iterations"
     )
-    """Most iterations of one attempt, at least 0; by default the method's own, 200 for Newton's."""
+    """Most iterations of one attempt, at least 0. The default is the method's: 200 for Newton's."""
     tolerance: float = option(
         1e-10, "Relative decrease at which the solve ends", "Tolerance", least=0
     )
-    """The solve has converged when the Newton decrement's promise of a decrease, ``decrement^2 /
-    2``, falls below ``tolerance`` times the energy. Other methods have tolerances of their own."""
+    """The solve has converged when the decrease predicted by the Newton decrement, ``decrement^2 /
+    2``, is below ``tolerance`` times the energy. Other methods have their own tolerances."""
     corrections: int = option(
         MOST_CORRECTIONS, "Most steps by an old Hessian", "Corrections", most=MOST_CORRECTIONS
     )
-    """Most steps that an iteration close to the minimum adds by the Hessian it has, 0 to 3. They
-    save iterations, and a solve that goes on from another takes that one's last Hessian first; 0
-    for Newton's method proper."""
+    """Most extra steps with the same Hessian, 0 to 3, in an iteration close to the minimum. They
+    save iterations. Also, a solve that continues another one begins with the last Hessian of that
+    one. 0 gives the plain Newton method."""
     iterations_per_call: int = option(
         MOST_PER_CALL,
         "Iterations between two frames",
@@ -88,7 +90,7 @@ class Options:
         check_fields(self, OptionError)
 
     def lambda_on(self, cage: Cage) -> float:
-        """``lambda`` of (20) per square of the cage's own unit of length."""
+        """``lambda`` of (20) for lengths in the cage's own units."""
         return self.p2p_weight / cage.unit**2
 
     @classmethod
@@ -96,8 +98,9 @@ class Options:
         """The paper's settings (Section 10).
 
         They are uniform samples, the Lipschitz certificate and the projected Hessian. They start at
-        the identity itself and try no other way. The paper gives ``lambda = 1e5`` in its cages' own
-        units. For exactly that, pass ``p2p_weight=1e5 * cage.unit**2``.
+        the identity itself, without alignment, restarts or corrections. The paper gives
+        ``lambda = 1e5`` in its cages' own units. For exactly that, pass
+        ``p2p_weight=1e5 * cage.unit**2``.
         """
         kinds = {"sampling": "uniform", "certificate": "lipschitz", "hessian": "projected"}
         settings: dict[str, Any] = {**kinds, "align": False, "restarts": 0, "corrections": 0}

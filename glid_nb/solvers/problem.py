@@ -1,8 +1,9 @@
 """A deformation problem as data for compiled programs (paper Sections 5 and 6).
 
 Real vectors ``[Re phi, Im phi, Re psi, Im psi]`` hold all padded columns, or the coordinates of
-:mod:`glid_nb.solvers.whitening`. Entries that are not unknowns are masked: their gradient is 0 and
-their rows and columns of the Hessian are the identity's. The holes' ``psi_j`` fold onto ``phi_j``.
+:mod:`glid_nb.solvers.whitening`. Entries that are not unknowns are masked: their gradient is 0, and
+their rows and columns of the Hessian are those of the identity. The coefficients ``psi_j`` of the
+holes' logarithms are tied to ``phi_j``, so their derivatives are added to those of ``phi_j``.
 """
 
 from __future__ import annotations
@@ -23,8 +24,8 @@ from glid_nb.pose import Pose, rigid_motion
 from glid_nb.solvers.discretisation import Matrices, complex_basis
 
 _HANDLE_BUCKET = 16
-_TURN = 10.0  # weight of f_z at a handle, beside that of its image
-# Larger weights would hide the distortion in rounding errors.
+_TURN = 10.0  # weight of f_z at a handle, relative to the weight of the handle's image
+# Larger weights of an image or of f_z would hide the distortion in rounding errors.
 _MOST, _MOST_TURN = 2.5e10, 1e13
 _FARTHEST_TURN = 1.0  # radians between two measurements
 _SAME_DIRECTION = 1e-4  # radians
@@ -37,7 +38,7 @@ Square = Float[Array, "4u 4u"]
 class Unknowns:
     """The unknowns of one domain, as data for compiled programs: a pytree."""
 
-    free: Float[AnyArray, " 4u"]  # 1 for an unknown, 0 for padding and what is fixed or tied
+    free: Float[AnyArray, " 4u"]  # 1 for an unknown, 0 for padding and fixed or tied entries
     n_holes: int  # padded hole columns; every number of them has a program of its own
 
 
@@ -51,7 +52,7 @@ once_loaded(
 
 
 class SubspaceProblem(NamedTuple):
-    """What is minimised, over which unknowns; a pytree, padded to buckets."""
+    """The objective and its unknowns: a pytree, padded to buckets."""
 
     matrices: Matrices
     singularities: Singularities
@@ -60,7 +61,8 @@ class SubspaceProblem(NamedTuple):
     energy: Energy
     p2p_hessian: Any = None  # (4u, 4u), in whitened coordinates; for Newton's method
     anchor: Float[AnyArray, " 4c"] | float = 0.0
-    """A constant map's, to which derivatives are relative: a translation costs no accuracy."""
+    """Coefficients of a constant map, subtracted before derivatives are computed. So a translation
+    costs no accuracy."""
 
 
 class Positional(NamedTuple):
@@ -88,12 +90,14 @@ class Positional(NamedTuple):
 def positional_energy(
     map: HarmonicMap, pose: Pose, weight: float, damping: float = 1.0
 ) -> Positional:
-    """The positional energy of a pose, its rows padded to a bucket; ``weight`` is the options'
-    ``p2p_weight``, so lengths are measured in the cage's ``unit``.
+    """The positional energy of a pose, its rows padded to a bucket.
 
-    Angles and scales are rows for ``f_z`` at their handles, along the map's own ``f_z``, turned
-    towards the wanted angle by at most a radian. A scale alone asks for ``|f_z|``, whose level sets
-    bend: its second derivative along them is a row too, larger by ``damping``.
+    ``weight`` is the options' ``p2p_weight``, for lengths in the cage's ``unit``.
+
+    Angles and scales add rows for ``f_z`` at their handles. The rows measure ``f_z`` along and
+    across one direction: that of the map's own ``f_z``, turned towards the wanted angle by at most
+    one radian. A scale without an angle constrains ``|f_z|`` only, whose level sets are curved. So
+    the row across gets the weight of this curvature, enlarged by ``damping``.
     """
     domain, count, turned = map.domain, len(pose), np.flatnonzero(pose.turned)
     firm, unit = pose.weights, domain.cage.unit
@@ -125,7 +129,7 @@ def positional_energy(
 
 
 def measured_apart(a: Positional, b: Positional) -> float:
-    """By how much measurements of angles and scales differ, about radians; 0 where that is all."""
+    """The difference of two measurements of angles and scales, roughly in radians; 0 if small."""
     gaps, lengths = (np.linalg.norm(m, axis=1) for m in (a.matrix - b.matrix, a.matrix))
     apart = float((gaps / np.maximum(lengths, 1e-300)).max())
     alike = apart <= _SAME_DIRECTION and np.allclose(a.weights, b.weights, rtol=0.1, atol=0.1)
@@ -140,7 +144,7 @@ def _basis_at(domain: Domain, points: bytes, kernel: Any) -> NDArray[Any]:
 
 @functools.lru_cache(maxsize=32)
 def matrix_at(domain: Domain, handles: bytes, size: int) -> NDArray[Any]:
-    """The matrix (F.5) of the handles, padded to ``size`` rows for each of the two parts."""
+    """The matrix (F.5) of the handles, padded to ``size`` rows for the real and imaginary part."""
     own = _basis_at(domain, handles, cauchy.cauchy_coordinates)
     rows = np.zeros((size, own.shape[1]), dtype=complex)
     rows[: len(own)] = own
@@ -160,7 +164,7 @@ def aligned(map: HarmonicMap, pose: Pose) -> HarmonicMap:
 
 
 def moved(map: HarmonicMap, turn: complex, by: complex) -> HarmonicMap:
-    """The map followed by a turn, of modulus 1, and a translation."""
+    """The map followed by a rotation ``turn``, of modulus 1, and a translation ``by``."""
     phi, psi = map.phi * turn, map.psi * np.conj(turn)
     phi[: len(map.domain.offset_cage.loops_complex[0])] += by
     return HarmonicMap(map.domain, phi, psi)
@@ -173,7 +177,7 @@ def real_coefficients(map: HarmonicMap) -> NDArray[Any]:
 
 
 def anchor_of(basis: Basis, coefficients: NDArray[Any]) -> NDArray[Any]:
-    """The translation by the mean of the exterior's ``phi``, as coefficients."""
+    """The coefficients of the constant map to the mean of the exterior's ``phi``."""
     c, first = basis.n_columns, basis.n_exterior
     anchor = np.zeros_like(coefficients)
     anchor[:first] = coefficients[:first].mean()
@@ -189,8 +193,10 @@ def map_from(domain: Domain, coefficients: Any) -> HarmonicMap:
 
 
 def unknowns_of(basis: Basis, conformal: bool, whitening: AnyArray | None = None) -> Unknowns:
-    """Among all columns or the coordinates of a whitening (2, c, u); ``conformal`` drops psi
-    (Section 6)."""
+    """The unknowns among all columns, or among the coordinates of a whitening (2, c, u).
+
+    ``conformal`` drops psi (Section 6).
+    """
     n_holes = basis.n_hole_columns
     if whitening is None:
         phi, psi = np.array(basis.phi_free), np.array(basis.psi_free)
@@ -227,12 +233,12 @@ def restrict_hessian(
     other: Square | None = None,
     ridge: Float[AnyArray, ""] | float = 0.0,
 ) -> Square:
-    """Hessian with respect to the unknowns plus ``other``, restricted already; else the identity
-    (Algorithm 1, line 6).
+    """Hessian with respect to the unknowns (Algorithm 1, line 6), plus ``other``.
 
-    Of ``h`` the columns of ``psi`` and the block of ``phi`` are read; below the diagonal blocks the
-    result means nothing. The diagonal is raised by ``ridge`` times its mean, except for
-    translations that ``other`` holds: a single handle moves the shape freely."""
+    ``other`` is already restricted. Without it, entries that are no unknowns get the identity's
+    rows. Only the columns of ``psi`` and the block of ``phi`` of ``h`` are read. Below the diagonal
+    blocks the result is meaningless. The diagonal is raised by ``ridge`` times its mean, except for
+    translations that ``other`` holds, so that a single handle moves the shape freely."""
     phi, psi, sign = _hole_slices(h.shape[0], unknowns)
     if phi is not None:
         sign = sign.astype(h.dtype)
@@ -241,7 +247,7 @@ def restrict_hessian(
         h = h.at[phi, :].add(tied.T)
         h = h.at[phi[:, None], phi].add(sign[:, None] * tied[psi])
     free = unknowns.free
-    # One pass over the matrix, nothing that a compiled loop would keep.
+    # One pass over the matrix, without temporaries that a compiled loop would keep.
     diagonal = jnp.diag(h) * free + (1 - free if other is None else jnp.diag(other))
     index = jnp.arange(len(free))
     raised = ridge * jnp.mean(diagonal)
@@ -255,14 +261,15 @@ def restrict_hessian(
 
 
 def expand(step: Vector, unknowns: Unknowns) -> Vector:
-    """A change of the unknowns as a change of all coefficients."""
+    """Expand a change of the unknowns to a change of all coefficients."""
     phi, psi, sign = _hole_slices(step.shape[0], unknowns)
     step = step * unknowns.free
     return step if phi is None else step.at[psi].set(sign * step[phi])
 
 
 def _hole_slices(size: int, unknowns: Unknowns) -> tuple:
-    """Positions of the holes' ``[Re phi, Im phi]`` and ``[Re psi, Im psi]``, and conj's signs."""
+    """Positions of the holes' ``[Re phi, Im phi]`` and ``[Re psi, Im psi]``, and the signs of the
+    conjugation that ties them."""
     n_holes = unknowns.n_holes
     if n_holes == 0:
         return None, None, None
@@ -272,9 +279,11 @@ def _hole_slices(size: int, unknowns: Unknowns) -> tuple:
 
 
 def canonical(map: HarmonicMap) -> HarmonicMap:
-    """The same map with the redundant coefficients at zero (Section 5). Adding ``a z_j + b`` to a
-    hole loop's coefficients changes no map (Cauchy's theorem): the loop's first two become zero. A
-    constant moves from ``psi`` to ``phi`` to zero the exterior's first."""
+    """The same map with the redundant coefficients at zero (Section 5).
+
+    Adding ``a z_j + b`` to a hole loop's coefficients does not change the map (Cauchy's theorem).
+    This makes the loop's first two coefficients zero. A constant moves from ``psi`` to ``phi``,
+    which makes the exterior's first ``psi`` zero."""
     phi, psi = map.phi.copy(), map.psi.copy()
     loops = map.domain.offset_cage.loops_complex
     first = len(loops[0])

@@ -1,4 +1,4 @@
-"""What a solve shows while it runs, and what it returns, the same for every method."""
+"""The records of a solve: its progress and its result, the same for every method."""
 
 from __future__ import annotations
 
@@ -23,11 +23,11 @@ if TYPE_CHECKING:
     from glid_nb.solvers.method import Method
 
 Make = Callable[[], Certificate | MeshMap]
-"""Makes the map of a moment: a harmonic one with its proof, which holds it, or one of a mesh."""
+"""Makes the current map: a Certificate that contains a harmonic map, or a map of a mesh."""
 
 
 class Status(Enum):
-    """Outcome of a solve; every member's value is a word and its ``message`` a full sentence."""
+    """Outcome of a solve. The value of a member is a word, its ``message`` a full sentence."""
 
     CONVERGED = ("converged", "The solver converged: the Newton decrement is below the tolerance.")
     STATIONARY = (
@@ -82,16 +82,17 @@ class Energies:
 
 @dataclass(frozen=True, kw_only=True)
 class Iteration(Energies):
-    """One iteration of a method, as it was after its step; None for what the method does not have.
+    """One iteration of a method, after its step. A field is None if the method does not have it.
 
-    Energies are means: of the density over the boundary, or over the area of a mesh.
+    Energies are means of the density over the boundary, or over the area of a mesh.
     """
 
     iteration: int = 0
     """1 for the first; 0 for the start."""
     time: float = 0.0
-    """Seconds without compilation, shared evenly within one compiled call, and without what only
-    serves this record; for the start, what its making took beyond preparing the domain."""
+    """Seconds without compilation and without the work for this record alone. The iterations of
+    one compiled call share its time evenly. For the start: the seconds that making it took, without
+    the preparation of the domain."""
     step: float | None = None
     """Step length along the method's own direction."""
     decrement: float | None = None
@@ -101,18 +102,18 @@ class Iteration(Energies):
     hessian_modified: bool | None = None
     """Whether the projected Hessian was used."""
     corrections: int | None = None
-    """Further steps by the same Hessian, from gradients of their own."""
+    """Further steps with the same Hessian but new gradients."""
     panels: int | None = None
-    """Panels of the boundary."""
+    """Number of panels of the boundary."""
     panels_split: int | None = None
-    """Panels split since the iteration before, because they refused a step."""
+    """Number of panels split since the last iteration because they refused a step."""
     flips: int | None = None
-    """Triangles of a mesh that are turned over or flat."""
+    """Number of triangles of a mesh that are flipped or flat."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Course(Energies):
-    """What a method has come to."""
+    """The state of a method: its iterations so far and its energy."""
 
     method: Method
     initial: Iteration
@@ -120,16 +121,16 @@ class Course(Energies):
     history: tuple[Iteration, ...]
     """All iterations so far. Empty at the start, and while panels are split before the first."""
     discretisation: Discretisation | None = field(default=None, repr=False)
-    """Panels and matrices of a method in the harmonic subspace, to go on from."""
+    """Panels and matrices of a method in the harmonic subspace, from which to continue."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Progress(Course):
-    """What a callback sees."""
+    """The state of a running solve, as a callback sees it."""
 
     make: Make = field(repr=False)
     sigma2_lower: Array | None = None
-    """(p,) certified bound per panel, once a step was taken."""
+    """(p,) certified bound per panel; None before the first step."""
 
     @functools.cached_property
     def _made(self) -> Certificate | MeshMap:
@@ -142,7 +143,7 @@ class Progress(Course):
 
     @property
     def map(self) -> DeformationMap:
-        """The map of this moment; a harmonic one is certified."""
+        """The current map. A harmonic map is certified."""
         return self._made.map if isinstance(self._made, Certificate) else self._made
 
 
@@ -151,20 +152,20 @@ Callback = Callable[[Progress], bool | None]
 
 @dataclass(frozen=True)
 class Attempt:
-    """One of several ways to a minimum."""
+    """One of several descents to a minimum, by different ways."""
 
     name: str
     status: Status
     energy: float
     iterations: int
     given_up: bool = False
-    """Whether it was left on the way, for it distorted the shape more than the best so far would
-    there; its energy is that of the stage that it had come to."""
+    """Whether it was abandoned before its end, because it distorted the shape more than the best
+    attempt so far. Then its energy is that of the last stage."""
 
 
 @dataclass(frozen=True)
 class Refinement:
-    """One of several bases, each finer than the one before."""
+    """The solve in one of several bases, each finer than the one before."""
 
     unknowns: int
     status: Status
@@ -176,13 +177,14 @@ class Refinement:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Result(Course):
-    """The best map that a solve found, and how it got there.
+    """The best map that a solve found, and how the solve found it.
 
-    A map of the harmonic subspace is certified; one of a mesh is not, and has no certificate.
+    A map of the harmonic subspace is certified. A map of a mesh is not certified and has no
+    certificate.
     """
 
     map: DeformationMap
-    """A HarmonicMap, or a MeshMap where the method works on a mesh."""
+    """A HarmonicMap, or a MeshMap if the method works on a mesh."""
     status: Status
     pose: Pose
     options: Options
@@ -193,18 +195,18 @@ class Result(Course):
     solve_time: float
     """Seconds of the solve without compilation."""
     detail: str | None = None
-    """The outcome as a full sentence, where that of the status does not say enough."""
+    """The outcome as a full sentence, if the status's own sentence says too little."""
     factor: Any = field(default=None, repr=False)
-    """Cholesky factor of the last Hessian, for a solve that goes on from here."""
+    """Cholesky factor of the last Hessian, for a solve that continues from here."""
     attempts: tuple[Attempt, ...] = ()
-    """All ways to a minimum that were tried, when the first was not the only one."""
+    """All attempts, the first one included; empty if the solve tried no other."""
     refinements: tuple[Refinement, ...] = ()
-    """All bases by :func:`glid_nb.refine`, the first one's too; empty without it."""
+    """All bases of :func:`glid_nb.refine`, the first one included; empty without it."""
     proof: Certificate | None = field(default=None, repr=False)
-    """What the solver proved of a harmonic map; always certified."""
+    """The solver's proof for a harmonic map; always certified."""
 
     def __getstate__(self) -> dict[str, Any]:
-        """For pickles: JAX's arrays would be read in single precision outside the package."""
+        """Pickle NumPy arrays: outside the package, JAX arrays would load in single precision."""
         return {**vars(self), "factor": None if self.factor is None else np.asarray(self.factor)}
 
     @property
@@ -219,8 +221,8 @@ class Result(Course):
 
     @property
     def message(self) -> str:
-        """The outcome as a full sentence; where handles miss their targets notably, another one
-        tells the largest miss and, where the targets fold the shape, what was seen in them."""
+        """The outcome as a full sentence. If a handle misses its target notably, a second sentence
+        gives the largest miss and, if the targets would fold the shape, the conflict."""
         outcome = self.detail or self.status.message
         if self.status is Status.STOPPED:
             return outcome
@@ -256,14 +258,14 @@ class Result(Course):
 
     @property
     def flips(self) -> int | None:
-        """Triangles that are turned over or flat; None for a harmonic map."""
+        """Number of triangles that are flipped or flat; None for a harmonic map."""
         return int(np.sum(self.map.flipped)) if isinstance(self.map, MeshMap) else None
 
     @functools.cached_property
     def certificate(self) -> Certificate | None:
         """The proof for a harmonic map, with tight bounds from its coefficients alone.
 
-        Computed on first use; where that fails, :attr:`proof` holds all the same.
+        Computed on first use. If this computation proves nothing, :attr:`proof` still holds.
         """
         disc, proof = self.discretisation, self.proof
         if isinstance(self.map, MeshMap):

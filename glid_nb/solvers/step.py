@@ -16,11 +16,13 @@ from glid_nb.solvers.problem import SubspaceProblem, expand, restrict_gradient, 
 
 Factor = Float[Array, "4u 4u"]
 
-# Corrections end where one gains more than the first share of what the step before it gained, and
-# begin only after steps that gain less than the second share of the energy.
+# _CONTRACTION: another correction follows only if this one gained less than this share of what the
+# step before it gained.
+# _CLOSE: corrections begin only after a step that gained less than this share of the energy.
 _CONTRACTION, _CLOSE = 0.3, 0.1
 LEAST_ENERGY = 1e-6
-"""What a decrease is compared with where the energy is less: ARAP's vanish at rigid motions."""
+"""Decreases are compared with the energy or with this, whichever is larger. ARAP's energy is 0 at
+rigid motions."""
 
 
 class Settings(NamedTuple):
@@ -30,20 +32,20 @@ class Settings(NamedTuple):
     iterations: Int[AnyArray, ""] | int
     may_refine: Bool[AnyArray, ""] | bool  # whether to return when a panel refuses a step
     ridge: Float[AnyArray, ""] | float  # added to the diagonal, relative to its mean
-    reuse: Bool[AnyArray, ""] | bool  # whether to begin with the factor that is given
+    reuse: Bool[AnyArray, ""] | bool  # whether to begin with the given factor
     corrections: Int[AnyArray, ""] | int  # most corrections of one iteration
-    projects_first: Bool[AnyArray, ""] | bool  # before the first factorisation
-    attempts: Int[AnyArray, ""] | int  # factorisations of one iteration
+    projects_first: Bool[AnyArray, ""] | bool  # whether to project before the first factorisation
+    attempts: Int[AnyArray, ""] | int  # most factorisations of one iteration
 
 
 Record = namedtuple(
     "Record", "energy_iso energy_p2p step decrement sigma2_lower hessian_modified corrections"
 )
-"""One iteration, the state after its step, as a row of numbers named as in ``Iteration``."""
+"""One iteration after its step, as a row of numbers with the names of ``Iteration``."""
 
 
 class State(NamedTuple):
-    point: Point  # certified, once a step was taken
+    point: Point  # certified after the first step
     start_iso: Number  # energies before the first iteration of this call
     start_p2p: Number
     iteration: Int[Array, ""]
@@ -51,11 +53,11 @@ class State(NamedTuple):
     decrement: Number
     records: Float[Array, "i r"]  # a Record in each row
     refused: Bool[Array, " p"]  # panels that refused the last preferred step
-    sigma2_lower: Float[Array, " p"]  # certified at the point, once a step was taken
-    turning: Float[Array, " p"]  # the proved change of arg f_z along each panel there
+    sigma2_lower: Float[Array, " p"]  # certified bounds at the point, NaN before the first step
+    turning: Float[Array, " p"]  # the proved change of arg f_z along each panel at the point
     factor: Factor  # Cholesky factor of the last Hessian, in whitened coordinates
     corrects: Bool[Array, ""]  # whether the next step is a correction
-    gain: Number  # what the last step gained
+    gain: Number  # the decrease of the energy by the last step
 
 
 def iterations(
@@ -64,9 +66,9 @@ def iterations(
     """Up to ``settings.iterations`` (at most `MOST_PER_CALL`) iterations of Algorithm 1, to be
     compiled.
 
-    An iteration is a step with a Hessian of its own and, close to the minimum, corrections: steps
-    by the same factor from gradients of their own (Shamanskii's method). All are turns of one loop,
-    so that one body is compiled.
+    An iteration is a step with a new Hessian and, close to the minimum, corrections: steps with the
+    same factor but new gradients (Shamanskii's method). One loop makes all steps, so only one body
+    is compiled.
     """
 
     def goes_on(state: State) -> Bool[Array, ""]:
@@ -94,7 +96,7 @@ def iterations(
 
 
 def _step(problem: SubspaceProblem, settings: Settings, state: State) -> State:
-    """One step of Algorithm 1, the first of an iteration or a correction."""
+    """One step of Algorithm 1: the first step of an iteration, or a correction."""
     point, corrects = state.point, state.corrects
     # The Hessian and its factor, projected where it is not positive definite.
     factor, modified = _factorised(problem, settings, state)
@@ -131,7 +133,8 @@ def _step(problem: SubspaceProblem, settings: Settings, state: State) -> State:
         corrections=jnp.where(corrects, known.corrections + 1, 0),
     )
     record = jnp.where(stepped, jnp.stack(record), state.records[i])
-    # A correction that fails only ends the iteration, and the solve where it has no more to gain.
+    # A correction that fails ends the iteration only. The solve ends if a later correction predicts
+    # no decrease.
     ends = corrects & minimal & (known.corrections > 0)
     outcome = jnp.where(corrects, jnp.where(ends, CONVERGED, RUNNING), outcome)
     gain = point.energy - there.energy
@@ -152,10 +155,12 @@ def _step(problem: SubspaceProblem, settings: Settings, state: State) -> State:
 
 
 def _factorised(problem: SubspaceProblem, settings: Settings, state: State) -> tuple[Factor, Array]:
-    """Cholesky factor of the Hessian, NaN where that fails, and whether ``K`` was projected; or the
-    factor that the call was given (Algorithm 1, line 5). Projected is (21), or (25) if enough.
+    """Cholesky factor of the Hessian (Algorithm 1, line 5), and whether ``K`` was projected.
 
-    A loop, for its turns write into the same memory."""
+    The last element of the factor is NaN if the factorisation failed. A correction, or a first step
+    that reuses, keeps the given factor. The projection is (21), or (25) if that is enough.
+
+    The attempts form a loop, so that they write into the same memory."""
     matrices, energy = problem.matrices, problem.energy
     first_step = jnp.logical_not(settings.reuse) | (state.iteration > 0)
     wanted = first_step & ~state.corrects
@@ -178,7 +183,7 @@ def _factorised(problem: SubspaceProblem, settings: Settings, state: State) -> t
             return hessian.assemble(matrices.whitened, weights, f, g, k)
 
         def project(h: Factor) -> Factor:
-            # The Hessian that was not definite lacks this block alone.
+            # The indefinite Hessian differs from the projected one in this block only.
             across = (projected.across_f - local.across_f).astype(dtype)
             block = hessian.assemble_across_f(matrices.whitened, weights, f, across)
             return h.at[: block.shape[0], : block.shape[0]].add(block)
@@ -213,9 +218,9 @@ def _newton_line(problem: SubspaceProblem, point: Point, factor: Factor) -> Line
 
 
 def _is_ours(problem: SubspaceProblem, *_: Any) -> bool:
-    """Whether the energy is one of Table 1; a kept program also needs LAPACK ready."""
+    """Whether the compiled program may be kept: for an energy of Table 1, with LAPACK ready."""
     return lapack_in_place() and type(problem.energy).__module__ == table1.__name__
 
 
 run = Program(iterations, donated=2, may_keep=_is_ours)
-""":func:`iterations` compiled, for one pose; the factor that it is given is gone afterwards."""
+""":func:`iterations` compiled, for one pose. It destroys the factor that it is given."""

@@ -1,4 +1,4 @@
-"""What stiff areas change of a solve's matrices."""
+"""How stiff areas change the matrices of a solve."""
 
 import functools
 
@@ -15,16 +15,19 @@ from glid_nb.solvers import discretisation
 from glid_nb.solvers.discretisation import Discretisation, Matrices, padded
 from glid_nb.solvers.whitening import whitened
 
-NODES = 128  # inside the areas; always as many, so that painting more compiles nothing
-_COARSER, _MOST_LINES = 1.03, 400  # of their grid
+NODES = 128  # inside the areas; a fixed number, so that painting more compiles nothing
+# The grid of these nodes: the factor that makes it coarser, and its most lines in one direction.
+_COARSER, _MOST_LINES = 1.03, 400
 
 
 @functools.lru_cache(maxsize=4)
 @double_precision
 def stiff_matrices(disc: Discretisation, stiffness: Stiffness) -> Matrices:
-    """The matrices with the weights of a stiffness; the very same where nothing is stiff. A node on
-    the boundary weighs ``FULL_WEIGHT**strength`` times as much. What that adds is added for the
-    inside, too, as the same share of an integral over the area."""
+    """The matrices with the weights of a stiffness; the same object if nothing is stiff.
+
+    The weight of a node on the boundary is multiplied by ``FULL_WEIGHT**strength``. Nodes inside
+    the areas get the same extra density, as a mean over the area of the cage.
+    """
     m, panels = disc.matrices, disc.panels
     areas = stiffness.within(disc.domain.cage)
     if not areas:

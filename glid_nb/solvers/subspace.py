@@ -1,4 +1,4 @@
-"""A method at work in the harmonic subspace: its problem, its map, and its panels."""
+"""A run of a method in the harmonic subspace: its problem, its map and its panels."""
 
 import functools
 from typing import Any
@@ -19,19 +19,22 @@ from glid_nb.solvers.problem import SubspaceProblem, canonical, map_from, unknow
 from glid_nb.solvers.result import Iteration, Result, Status
 from glid_nb.solvers.stiffness import stiff_matrices
 
-# Measurements of angles and scales, after which the directions found are kept by that damping.
+# MOST_PINS: after this many measurements of angles and scales, their directions are fixed.
+# KEPT: the damping that fixes them.
 MOST_PINS, KEPT = 16, 1e9
-_FAR, _DAMPING = 0.2, 3.0  # a measurement that far from the last one, radians, overshot
+# _FAR: a measurement has overshot if it differs from the last one by more than this, in radians.
+# _DAMPING: then the damping is multiplied by this.
+_FAR, _DAMPING = 0.2, 3.0
 
 
 class SubspaceDescent(Descent):
-    """A method on maps of the harmonic subspace, such as Algorithm 1; ``reduced``: in whitened
-    coordinates."""
+    """A run of a method in the harmonic subspace, such as Algorithm 1. ``reduced``: the unknowns
+    are whitened coordinates."""
 
     uses_lapack = True
     discretisation: Discretisation
     proved: tuple[Panels, Array, Array] | None = None
-    """What the last step was proved by: panels, bounds on sigma_2 and turnings."""
+    """The proof of the last step: panels, bounds on sigma_2 and turnings."""
     just_split = 0  # panels split since the last iteration
     _pins, _damping = 1, 1.0
 
@@ -67,12 +70,12 @@ class SubspaceDescent(Descent):
 
     @property
     def matrices(self) -> Matrices:
-        """Those of the panels, with the weights of the pose's stiffness."""
+        """The panels' matrices, with the weights of the pose's stiffness."""
         disc, stiffness = self.discretisation, self.inputs.pose.stiffness
         return stiff_matrices(disc, stiffness) if stiffness else disc.matrices
 
     def pin(self, map: HarmonicMap) -> bool:
-        """Measure angles and scales from this map; whether that changes what is minimised."""
+        """Measure angles and scales from this map. Returns whether this changes the objective."""
         inputs, before = self.inputs, self.problem.positional
         if not inputs.pose.turned.any() or self._damping == KEPT:
             return False
@@ -107,8 +110,8 @@ class SubspaceDescent(Descent):
 
     @functools.cached_property
     def start_proof(self) -> Certificate:
-        """The proof of the start, made only where no step leads away from it; that of the map as
-        given where rounding leaves none after the alignment."""
+        """The proof of the start; computed only if no step was taken. If rounding prevents the
+        proof after the alignment, it is the proof of the map before the alignment."""
         if self.given is not None and self.given.belongs_to(self.start):
             return self.given
         certificate = certify(self.start)
@@ -120,7 +123,7 @@ class SubspaceDescent(Descent):
         return certificate
 
     def result(self, ending: Ending, compile_time: float, solve_time: float) -> Result:
-        """What a solve returns; the last proved map where the start itself cannot be proved."""
+        """The result; with the map before the alignment if the start itself cannot be proved."""
         if self.proved is None and not self.start_proof.belongs_to(self.start):
             ending = Ending(Status.UNPROVED)
             coefficients = problem.real_coefficients(self.start_proof.map)

@@ -1,18 +1,19 @@
 """Coordinates of the subspace in which the Hessian of an isometric energy is well conditioned.
 
-The derivatives of Cauchy coordinates on the boundary are nearly dependent, and the Hessian's
-condition is the square of theirs, beyond what single precision resolves. In coordinates ``x`` with
-``phi = T x``, where the derivatives ``D T`` are orthonormal along the boundary, it is ``K``'s.
+The derivatives of Cauchy coordinates on the boundary are nearly dependent. The Hessian's condition
+number is the square of theirs, too large for single precision. In the coordinates ``x`` with
+``phi = T x``, the derivatives ``D T`` are orthonormal along the boundary. Then the Hessian's
+condition number is that of ``K``.
 
-``T`` has a row for each column, and columns for the translation, for the other unknowns, zeros for
-padding, and last one for each logarithm, its coefficient, scaled. All but the translation vanish at
-one point of the boundary, so none moves a handle by more than its length along the boundary: else
-the positional energy would swamp the other.
+``T`` has a row for each column of the basis. Its columns are, in this order: the translation, the
+other unknowns, zeros as padding, and one for each logarithm (its scaled coefficient). All columns
+but the translation vanish at one point of the boundary. So none of them moves a handle by more than
+a length along the boundary. Otherwise the positional energy would dominate the isometric energy.
 
-On a finely divided cage some large coefficients make next to no map: the derivative is small
-against the slopes of the coefficients along the offset cage. A solve begins without coordinates for
-such steep directions, which need many nodes and gain little, and puts back those that would gain
-something (:meth:`~glid_nb.solvers.newton.NewtonDescent.put_back`).
+On a finely divided cage, some large coefficients change the map very little: the derivative is
+small, although the coefficients change steeply along the offset cage. Coordinates in these steep
+directions need many nodes and gain little. A solve begins without them and later puts back those
+that lower the energy (:meth:`~glid_nb.solvers.newton.NewtonDescent.put_back`).
 """
 
 from typing import Any as Array  # of NumPy or of JAX
@@ -24,24 +25,24 @@ import scipy
 from glid_nb._jax import AnyArray, Complex, Float, Int, jnp
 from glid_nb.harmonic.basis import Basis, column_bucket
 
-# Raises the Gram matrix's diagonal, relative to its mean, should columns be dependent.
+# Raises the Gram matrix's diagonal, relative to its mean, in case columns are dependent.
 _RIDGE = 1e-13
-# Derivatives, in the mean square over the boundary, of coordinates whose slopes along the offset
-# cage have the mean square 1. Where some are below the first number (traced cages have 0.005 and
-# more), a solve begins without those below the second: they oscillate about as fast as the panels'
-# nodes follow each other.
+# Coordinates are scaled so that their slopes along the offset cage have the mean square 1. These
+# are limits on the root mean square of their derivatives over the boundary.
+# _STEEP: coordinates are left out only if some are below this; traced cages have 0.005 and more.
+# _LEAST: then all below this are left out. They oscillate about as fast as the panels' nodes.
 _STEEP, _LEAST = 4.5e-3, 3e-2
 
 
 class Whitening(NamedTuple):
-    """The coordinates of a solve, and those that it begins without."""
+    """The coordinates of a solve, and the steep ones that are left out."""
 
     t: Float[np.ndarray, "2 c u"]  # as (Re, Im)
     steep: Complex[np.ndarray, "c k"]
-    """Columns that are orthonormal to those of ``t``, too."""
+    """Columns left out; they are orthonormal, also to those of ``t``."""
 
     def with_steep(self, chosen: Int[np.ndarray, " m"], n_hole_columns: int) -> "Whitening":
-        """With some of the steep columns as coordinates."""
+        """Add some of the steep columns to the coordinates."""
         t = self.t[0] + 1j * self.t[1]
         own, logarithms = np.split(t, [t.shape[1] - n_hole_columns], axis=1)
         kept = own[:, : 1 + np.flatnonzero(own.any(axis=0)).max()]
@@ -56,12 +57,15 @@ def whitening(
     basis: Basis,
     whole: bool = False,
 ) -> Whitening:
-    """``T`` from ``D`` at samples of the boundary (``rows``), their quadrature's ``weights``, and
-    ``C`` at the ``anchor`` where all but the translation vanish; ``whole``: with all coordinates.
+    """Compute ``T``.
+
+    ``rows`` is ``D`` at samples of the boundary, ``weights`` their quadrature weights. ``anchor``
+    is ``C`` at the point where all columns but the translation vanish. ``whole`` keeps all
+    coordinates, the steep ones too.
     """
     c, scaled = basis.n_columns, np.sqrt(weights)[:, None] * rows
     single_valued = np.flatnonzero(basis.psi_free)
-    # The exterior's first is no unknown of psi either.
+    # The first entry is the exterior's first vertex, which is no unknown of psi either.
     logarithms = np.flatnonzero(basis.phi_free & ~basis.psi_free)[1:]
     columns = scaled[:, single_valued]
     gram = columns.conj().T @ columns
@@ -90,7 +94,7 @@ def whitening(
 def _padded(
     own: Complex[np.ndarray, "c k"], logarithms: Complex[np.ndarray, "c N"]
 ) -> Float[np.ndarray, "2 c u"]:
-    """Columns as (Re, Im), with zeros between them and the logarithms, which come last."""
+    """Columns, zeros as padding, then the logarithms; as (Re, Im)."""
     c, count = len(own), own.shape[1] + logarithms.shape[1]
     t = np.hstack([own, np.zeros((c, column_bucket(count) - count)), logarithms])
     return np.stack([np.real(t), np.imag(t)])
@@ -99,7 +103,7 @@ def _padded(
 def _without_steep(
     inverse: Complex[np.ndarray, "n n"], chosen: Int[np.ndarray, " n"], basis: Basis
 ) -> tuple[Complex[np.ndarray, "k n"], Complex[np.ndarray, "m n"]]:
-    """The chosen columns' coordinates, conjugate rows: those to begin with, and the others."""
+    """Split the chosen columns' coordinates, as conjugate rows, into those kept and the steep."""
     values = np.zeros((basis.n_columns, len(inverse)), dtype=complex)
     values[chosen] = inverse.conj().T
     vertices, _, previous, _ = basis.singularities
@@ -121,7 +125,7 @@ def whitened(
     t: Float[AnyArray, "2 c u"],
     dtype: type[np.floating],
 ) -> Float[np.ndarray, "2u h"]:
-    """``D T`` at some nodes from ``D``, both as ``[Re, -Im]``, transposed."""
+    """``D T`` at some nodes, from ``D``; both as ``[Re, -Im]``, transposed."""
     re, minus_im = np.split(np.asarray(nodes)[:, index], 2)
     t_re, t_im = np.asarray(t)
     parts = [t_re.T @ re + t_im.T @ minus_im, t_re.T @ minus_im - t_im.T @ re]
@@ -129,14 +133,14 @@ def whitened(
 
 
 def coefficients(x: Float[Array, " 4u"], t: Float[Array, "2 c u"]) -> Float[Array, " 4c"]:
-    """``[Re phi, Im phi, Re psi, Im psi]`` of coordinates laid out alike."""
+    """``[Re phi, Im phi, Re psi, Im psi]`` from coordinates in the same layout."""
     x = x.reshape(2, 2, -1)
     re, im = x[:, 0], x[:, 1]
     return jnp.stack([re @ t[0].T - im @ t[1].T, re @ t[1].T + im @ t[0].T], axis=1).ravel()
 
 
 def pulled_back(rows: Float[AnyArray, "*r 4c"], t: Float[Array, "2 c u"]) -> Float[Array, "*r 4u"]:
-    """Derivatives with respect to coordinates from those with respect to coefficients."""
+    """Derivatives with respect to coordinates, from those with respect to coefficients."""
     xp = t.__array_namespace__()
     parts = rows.reshape(-1, 2, t.shape[1])
     re, im = parts[:, 0], parts[:, 1]  # one product for all rows, not one for each

@@ -1,1 +1,1 @@
-"""Bounded distortion harmonic mappings (Chen & Weber 2015), for multiply-connected domains too."""
+"""Bounded distortion harmonic mappings (Chen & Weber 2015), also for domains with holes."""

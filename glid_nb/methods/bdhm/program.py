@@ -1,6 +1,6 @@
-"""One step of BDHM: a convex program with the frames ``f_z / |f_z|`` held fixed, and its bounds.
+"""One step of BDHM: a convex program with fixed frames ``f_z / |f_z|``, and its bounds.
 
-Domain and pose are linear functions of unknowns that make the energy with fixed frames round.
+The unknowns ``v`` are chosen so that the Hessian of the energy with fixed frames is the identity.
 """
 
 import importlib
@@ -28,14 +28,15 @@ from glid_nb.solvers.problem import (
     unknowns_of,
 )
 
-_RATIO = 0.5  # panels this long relative to their distance from the singularities carry the samples
-# What a step costs, beside the energy, while fewer than two handles hold the map's rotation.
+_RATIO = 0.5  # length of the panels of samples, relative to their distance from singularities
+# With fewer than two handles, rotations cost nothing. Then this quadratic term is added.
 _RIDGE = 1e-6
-# By which share of a bound's range the bounds at samples are stricter than the proved ones.
+# The bounds at samples are stricter than the proved bounds by this share of the bound's range.
 MARGIN = 0.01
-# How much of the margin a sample that is not in the active set may use before it joins.
+# A sample outside the active set joins when it uses more than this share of the margin.
 _SLACK = 0.1
-# A sample joins the active set within the first share of a bound's range, leaves beyond the other.
+# A sample joins the active set closer to a bound than _JOIN, and leaves it farther than _LEAVE.
+# Both are shares of the bound's range.
 _JOIN, _LEAVE = 0.10, 0.15
 
 
@@ -50,7 +51,7 @@ class SampleRows(NamedTuple):
 
 
 class BoundedProblem:
-    """The energy of a map; with frames held fixed it is ``|v|^2 / 2`` plus something linear."""
+    """The energy of a map. With fixed frames it is ``|v|^2 / 2`` plus a linear function."""
 
     @double_precision
     def __init__(
@@ -59,7 +60,7 @@ class BoundedProblem:
         domain = self.domain = map.domain
         self.pose = pose
         self._basis = basis_of(domain)
-        # The holes' psi = conj(phi) are no unknowns of their own.
+        # The holes' psi = conj(phi) are not separate unknowns.
         unknowns = unknowns_of(self._basis, False)
         self._free = np.flatnonzero(unknowns.free)
         changes = jnp.asarray(np.eye(len(unknowns.free))[self._free])
@@ -71,7 +72,7 @@ class BoundedProblem:
         root = np.sqrt(np.asarray(positional.weights))
         rows = root[:, None] * (np.asarray(positional.matrix) @ self._expansion)
         self._aims = root * np.asarray(positional.aims)
-        # R with R^T R the energy's matrix, without squaring its condition.
+        # R such that R^T R is the energy's matrix. QR does not square the condition number.
         share = np.sqrt(4 * self._shares)[:, None]
         stacked = [share * part(row) for row in self.samples for part in (np.real, np.imag)]
         ridge = np.sqrt(_RIDGE) / domain.cage.unit * np.eye(rows.shape[1])
@@ -96,13 +97,13 @@ class BoundedProblem:
         return map_from(self.domain, self._expansion @ v)
 
     def energies(self, v: Array) -> tuple[float, float]:
-        """ARAP along the boundary, and the positional part."""
+        """The mean ARAP energy along the boundary, and the positional energy."""
         f, g = self.samples.values(v)
         arap = 2 * (np.abs(f) - 1) ** 2 + 2 * np.abs(g) ** 2
         return float(self._shares @ arap), 0.5 * float(((self._rows @ v - self._aims) ** 2).sum())
 
     def gradient(self, v: Array) -> Array:
-        """Of the energy, and of the energy with the frames at ``v`` held fixed."""
+        """Gradient of the energy; also of the energy with the frames fixed at ``v``."""
         f, g = self.samples.values(v)
         pull = self.samples.a.conj().T @ (4 * self._shares * (f - f / np.abs(f)))
         pull += self.samples.b.conj().T @ (4 * self._shares * g)
@@ -116,8 +117,8 @@ def _bound(default: float, **limits: float) -> Any:
 
 @dataclass(frozen=True)
 class DistortionBounds:
-    """``k(z) <= k``, ``sigma_1(z) <= sigma1`` and ``sigma_2(z) >= sigma2`` (Theorem 4.2), which an
-    isometry must satisfy with room to spare."""
+    """The bounds ``k(z) <= k``, ``sigma_1(z) <= sigma1`` and ``sigma_2(z) >= sigma2`` (Theorem
+    4.2). An isometry must satisfy them strictly."""
 
     k: float = _bound(0.8, above=0, below=1)
     sigma1: float = _bound(5.0, above=1)
@@ -133,7 +134,7 @@ class DistortionBounds:
 
     @property
     def narrowest(self) -> float:
-        """The least of the bounds' ranges, each relative to its bound and no more than 1."""
+        """The smallest of the bounds' ranges, each relative to its bound, at most 1."""
         return min(1.0, (self.sigma1 - 1) / self.sigma1, (1 - self.sigma2) / self.sigma2)
 
     def used(self, k: Array, sigma1: Array, sigma2: Array) -> Array:
@@ -146,36 +147,36 @@ class DistortionBounds:
 class ActiveSet:
     problem: BoundedProblem
     bounds: DistortionBounds
-    samples: SampleRows  # the problem's own in order, then those that failed proofs added
-    chosen: Array  # (3, n) bool: where k, sigma_1 and sigma_2 are bounded
+    samples: SampleRows  # the problem's own in order, then those added after failed proofs
+    chosen: Array  # (3, n) bool: the samples where k, sigma_1 and sigma_2 are bounded
     excess: float = 1.0
-    """How much the next map may keep of what this one has beyond the stricter bounds. With 1 the
-    map itself is always admitted; with less it is drawn inward."""
+    """If the current map exceeds the stricter bounds, the next map may exceed them by this share.
+    With 1 the current map is always feasible. A smaller share moves the map inwards."""
 
     def used(self, v: Array) -> Array:
         f, g = (np.abs(part) for part in self.samples.values(v))
         return self.bounds.used(g / np.maximum(f, 1e-300), f + g, f - g)
 
     def levels(self, v: Array) -> tuple[Array, Array, Array]:
-        """k, sigma_1 and sigma_2 that the next map may have; no sample gets more than before."""
+        """The limits of k, sigma_1 and sigma_2 for the next map, at each sample."""
         strict, bounds = 1 - MARGIN, self.bounds
         k, sigma1, sigma2 = strict + self.excess * np.maximum(self.used(v) - strict, 0)
         return k * bounds.k, 1 + sigma1 * (bounds.sigma1 - 1), 1 - sigma2 * (1 - bounds.sigma2)
 
     def around(self, v: Array) -> Self:
-        """With the local extremes near a bound, and without samples far from it."""
+        """Add the local extremes near a bound, and drop samples far from it."""
         used = self.used(v)
         kept = self.chosen & (used > 1 - _LEAVE)
         return replace(self, chosen=kept | (self._peaks(used) & (used > 1 - _JOIN)))
 
     def and_violated(self, v: Array) -> Self:
-        """With the local extremes beyond a bound; the same object where there are no new ones."""
+        """Add the local extremes beyond a bound; the same object if there are no new ones."""
         used = self.used(v)
         beyond = self._peaks(used) & (used > 1 - (1 - _SLACK) * MARGIN) & ~self.chosen
         return replace(self, chosen=self.chosen | beyond) if beyond.any() else self
 
     def refined(self, certificate: Certificate) -> Self:
-        """With new samples on the panels, of each run of them the worst, that fail the proof."""
+        """Add samples on panels that fail the proof. Only local extremes among them count."""
         panels = certificate.panels
         used = self.bounds.used(panels.k_upper, panels.sigma1_upper, panels.sigma2_lower)
         failed = (used > 1) & _peaks(used)
@@ -186,7 +187,7 @@ class ActiveSet:
         return replace(self, samples=SampleRows(*map(np.concatenate, parts)), chosen=chosen)
 
     def _peaks(self, used: Array) -> Array:
-        """Local extremes; samples that were added are taken for such."""
+        """(3, n) bool: local extremes. Samples added after failed proofs count as extremes."""
         peaks = np.ones(used.shape, dtype=bool)
         own = len(self.problem.samples.a)
         peaks[:, :own] = _peaks(used[:, :own])
@@ -198,9 +199,9 @@ def _peaks(used: Array) -> Array:
 
 
 class Step(NamedTuple):
-    change: Array | None  # to add to the unknowns; None where it was not solved
-    decrease: float  # by weak duality no admitted point lowers its energy by more
-    status: str  # Clarabel's; "Solved" to the accuracy that was asked for
+    change: Array | None  # to add to the unknowns; None if the program was not solved
+    decrease: float  # by weak duality, no feasible point lowers the energy by more
+    status: str  # Clarabel's status; "Solved" means solved to the wanted accuracy
 
 
 def solve_program(gradient: Array, active: ActiveSet, v: Array, gap: float) -> Step:
@@ -208,8 +209,8 @@ def solve_program(gradient: Array, active: ActiveSet, v: Array, gap: float) -> S
 
     With the frame ``r`` of a sample (a unit complex number) the bounds become second-order cones:
     ``|f_zbar| <= k Re(conj(r) f_z)``, ``|f_zbar| <= Re(conj(r) f_z) - sigma2``, and ``|f_z| <= s``,
-    ``|f_zbar| <= sigma1 - s`` with one more unknown ``s``. The duality gap is to be at most
-    ``gap``, or 1e-8 of the decrease where that is more.
+    ``|f_zbar| <= sigma1 - s`` with one more unknown ``s``. The duality gap is at most ``gap`` or
+    1e-8 of the decrease, whichever is larger.
     """
     i, j, m = (np.flatnonzero(row) for row in active.chosen)
     if not len(i) + len(j) + len(m):
@@ -220,7 +221,7 @@ def solve_program(gradient: Array, active: ActiveSet, v: Array, gap: float) -> S
     size = np.abs(f)
     along = [np.real(samples.a[at] * (f[at].conj() / size[at])[:, None]) for at in (i, m)]
     nothing = np.zeros((len(j), len(v)))
-    # Each cone is a head and a complex body, (of d, constant) each.
+    # Each cone has a head and a complex body. Each of these is a matrix for d and a constant.
     cones = [
         (k[i, None] * along[0], k[i] * size[i], samples.b[i], g[i]),
         (along[1], size[m] - sigma2[m], samples.b[m], g[m]),
@@ -229,7 +230,7 @@ def solve_program(gradient: Array, active: ActiveSet, v: Array, gap: float) -> S
     ]
     rows = np.concatenate([_triples(head, body) for head, _, body, _ in cones])
     offset = np.concatenate([_triples(head, body) for _, head, _, body in cones])
-    # s is counted from where the map is now, and only heads have it.
+    # s is measured from its value at the current map. It occurs in heads only.
     of_s = np.kron(np.eye(len(j)), np.array([[1.0], [0.0], [0.0]]))
     without = np.zeros((3 * (len(i) + len(m)), len(j)))
     return _solved(gradient, rows, np.concatenate([without, of_s, -of_s]), offset, gap)
@@ -241,7 +242,8 @@ def _triples(head: Array, body: Array) -> Array:
 
 
 def _solved(gradient: Array, rows: Array, slack: Array, offset: Array, gap: float) -> Step:
-    """Only what the rows see of ``d`` is left to Clarabel; across them it is minus the gradient."""
+    """Solve the cone program with Clarabel for the part of ``d`` in the span of the rows. The part
+    orthogonal to it is minus the gradient."""
     q, r = np.linalg.qr(rows.T)
     seen = q.T @ gradient
     across = gradient - q @ seen
@@ -250,9 +252,9 @@ def _solved(gradient: Array, rows: Array, slack: Array, offset: Array, gap: floa
     settings = clarabel.DefaultSettings()
     settings.verbose = False
     settings.tol_gap_abs = gap
-    # Relative to 1 at least, so that the smaller of the two gaps ends a small program.
+    # Clarabel's relative gap is relative to at least 1. So this bounds small programs too.
     settings.tol_gap_rel = min(settings.tol_gap_rel, gap)
-    # Clarabel wants b - A x in the cones.
+    # Clarabel's constraint is that b - A x lies in the cones.
     solution = clarabel.DefaultSolver(
         scipy.sparse.diags_array(np.repeat([1.0, 0.0], [n, n_slack])).tocsc(),
         np.concatenate([seen, np.zeros(n_slack)]),

@@ -1,9 +1,10 @@
-"""BDHM's iteration: a second-order cone program per step, its result certified within the bounds.
+"""BDHM's iteration: one second-order cone program per step, whose result is certified.
 
-With its frames held fixed ARAP lies above ARAP and touches it at the map they are of, and the
-bounds with these frames are convex and imply the true ones (Chen & Weber 2015). So toward the
-solution of a program that admits the current map the energy falls all the way. The bounds hold at
-samples, by a margin, or by what the current map leaves of it, and are then proved everywhere.
+ARAP with fixed frames is an upper bound of ARAP, and both are equal at the map of these frames. The
+bounds with fixed frames are convex and imply the true bounds (Chen & Weber 2015). So if the current
+map is feasible, the energy decreases along the whole way to the program's solution. The program
+imposes the bounds at samples, with a margin, or with the rest of the margin that the current map
+leaves. A proof then shows them everywhere.
 """
 
 import functools
@@ -22,20 +23,21 @@ from glid_nb.solvers.loop import Ending, GeneratedDescent, Reached, Steps, follo
 from glid_nb.solvers.problem import measured_apart
 from glid_nb.solvers.subspace import KEPT, MOST_PINS
 
-_PROOF = 0.4  # how much of the margin the proof may take
-# How often one program is solved again with more samples.
+_PROOF = 0.4  # the share of the margin that the proof may use
+# Most programs of one step; each has more samples than the one before.
 _ROUNDS = 10
 _HALVINGS = 12
-# What a map may keep of its share of the margin after no step from it could be proved.
+# The excess for the next program if no step from a map could be proved (see ActiveSet.excess).
 _INWARD = 0.9
-# Before the first full step one program is enough, unless its solution is cut shorter than this.
+# Before the first full step, each step solves one program, unless a step is shorter than this.
 _SHORT = 1 / 64
-_NOTHING = 1e-10  # an energy as good as none, to which the tolerance is not relative any more
-# What a program's duality gap may be: relative to the decrease that counts as none, and in itself.
+_NOTHING = 1e-10  # the tolerance is relative to at least this energy
+# The wanted duality gap: relative to the decrease that counts as none, its least and its most.
 _GAP, _LEAST_GAP, _MOST_GAP = 0.01, 1e-12, 1e-6
 
-# The share of the energy that a program may still promise to gain where the method has converged;
-# the energy may be some twenty times that above its least, for the method is of first order.
+# The method has converged when a program predicts a decrease below this share of the energy. The
+# energy may then still be some twenty times as far above its minimum, because the method is of
+# first order.
 TOLERANCE = 1e-5
 
 
@@ -44,11 +46,14 @@ class BDHM(program.DistortionBounds, Method):
     """ARAP within given bounds on k, sigma_1 and sigma_2 by cone programs (Clarabel).
 
     Bounded distortion harmonic maps (Chen & Weber 2015). ``k``, ``sigma1`` and ``sigma2`` bound the
-    distortion of the whole map; an isometry must satisfy them with room to spare. The energy never
-    rises, and every map is proved to keep the bounds. A certified start that is not gives way
-    to the identity. The method has converged when the program at the current map can, by its dual,
-    lower the energy by no more than ``tolerance`` of it: the map is then stationary within bounds
-    at samples that are stricter than those asked for by `MARGIN` or, where it uses more, by less.
+    distortion of the whole map. An isometry must satisfy them strictly. The energy never rises, and
+    every map is proved to keep the bounds. A start that is certified but does not keep the bounds
+    is replaced by the identity.
+
+    The method has converged when the dual of the program at the current map shows that the program
+    cannot lower the energy by more than the share ``tolerance``. Then the map is stationary under
+    bounds at samples that are stricter by `MARGIN`; if the map uses a part of this margin, by the
+    rest of it.
     """
 
     name = "bdhm"
@@ -65,7 +70,7 @@ class BDHM(program.DistortionBounds, Method):
 
 
 class Iterate(NamedTuple):
-    """A map that is proved to keep the bounds."""
+    """A map for which the bounds are proved."""
 
     v: Array
     energy: float
@@ -91,7 +96,7 @@ class _Descent(GeneratedDescent):
         self.measured += 1
 
     def _measured_anew(self, now: Iterate) -> Iterate | None:
-        """The same map, where angles and scales are measured otherwise from it; else None."""
+        """The same map with angles and scales measured from it; None if that changes nothing."""
         if self.measured > MOST_PINS or not self.inputs.pose.turned.any():
             return None
         before, map = self.problem.positional, now.certificate.map
@@ -141,8 +146,8 @@ class _Descent(GeneratedDescent):
                 outcome = self._attempt(now, _ROUNDS)
         if isinstance(outcome, Iterate) or outcome.status is Status.CONVERGED:
             return outcome
-        # Where the map has used up the margin no step is proved any more. A program that gives
-        # some of it back need not lower the energy, but far from the minimum it does.
+        # If the map has used up the margin, no step can be proved. A program that moves the map
+        # inwards may raise the energy, but far from the minimum it lowers it.
         self.active = replace(self.active, excess=_INWARD)
         inward = self._attempt(now, _ROUNDS)
         self.active = replace(self.active, excess=1.0)
@@ -187,11 +192,11 @@ class _Descent(GeneratedDescent):
         return Iterate(v, energy, certificate, step)
 
     def _shortened(self, now: Iterate, change: Array, solved: program.Step) -> Iterate | Ending:
-        """The longest of the steps 1, 1/2, 1/4, ... whose map is proved to keep the bounds."""
+        """The longest of the steps 1, 1/2, 1/4, ... for which the bounds are proved."""
         for halvings in range(_HALVINGS):
             step = 0.5**halvings
             v = now.v + step * change
-            # Samples are looked at first, for they cost less than a proof.
+            # Check the samples first, because that is cheaper than a proof.
             if (self.active.used(v) <= 1).all():
                 accepted = self._accepted(now, v, step)
                 if isinstance(accepted, Iterate):

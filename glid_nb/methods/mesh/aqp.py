@@ -16,11 +16,12 @@ from glid_nb.solvers.loop import Ending, Steps
 _ARMIJO = 1e-4
 _SAFETY = 0.9
 _LEAST_STEP = 1e-14
-# A decrease promised by the proxy that rounding of the energy can hide.
+# The rounding of the energy can hide a decrease below this share, as predicted by the proxy.
 _ROUNDING = 1e-8
 _SMOOTHING = 30
 _MOST_PROJECTIONS = 500
-BOUND, ENOUGH = 0.9, 0.95  # the little dilatation is projected onto the first until below this
+# The projection bounds the little dilatation by BOUND and stops when it is below ENOUGH.
+BOUND, ENOUGH = 0.9, 0.95
 
 
 class _State(NamedTuple):
@@ -34,10 +35,10 @@ class _State(NamedTuple):
 class AQP(MeshMethod):
     """Accelerated Quadratic Proxy on a triangle mesh, hard constraints.
 
-    Kovalsky et al. 2016: steps with the Laplacian in place of the Hessian, from extrapolated
-    points. Started from ARAP that is projected onto maps without inverted triangles, as in the
-    paper (Section 10). An extrapolated step that does not lower the energy is taken again without
-    extrapolation, so the energy decreases throughout.
+    Kovalsky et al. 2016: steps from extrapolated points, with the Laplacian instead of the Hessian.
+    The start is an ARAP map, projected onto maps without inverted triangles, as in the paper
+    (Section 10). If an extrapolated step does not lower the energy, the step is repeated without
+    extrapolation. So the energy always decreases.
     """
 
     name = "aqp"
@@ -57,7 +58,8 @@ class AQP(MeshMethod):
     )
 
     def steps(self, problem: MeshProblem) -> Steps:
-        # Hard constraints: a positional part of rounding alone would be noise times lambda.
+        # With hard constraints, the positional energy is rounding noise. A weight of 1 keeps it
+        # small.
         problem = replace(problem, p2p_weight=1.0 / problem.inputs.domain.cage.unit**2)
         theta = (1 - np.sqrt(1 / self.kappa)) / (1 + np.sqrt(1 / self.kappa))
         pinned = Pinned(problem.operators, problem.handles)
@@ -82,7 +84,7 @@ class AQP(MeshMethod):
                 w = proxy.pinned.solve(pull, problem.targets)
             w, _ = project(operators, proxy.pinned, w)
         if problem.inputs.energy.name != "iso":
-            # The projection leaves slender triangles, where an exponential energy overflows.
+            # The projection leaves slender triangles, in which an exponential energy overflows.
             smoothing = replace(proxy, energy=SymmetricDirichlet())
             for now, _ in itertools.islice(smoothing.path(smoothing.state(w)), _SMOOTHING):
                 w = now.w
@@ -129,7 +131,7 @@ class _Proxy:
         return _State(now.w + t * (now.w - before.w), fz, fzb, value)
 
     def _descended(self, start: _State, last: float) -> tuple[_State, float] | None:
-        """One step with backtracking, and its length; None when none decreases."""
+        """One step with backtracking, and its length; None if no step lowers the energy."""
         gradient = self.operators.gradient(self.energy, start.fz, start.fzb)
         if not np.isfinite(gradient).all():
             return None
@@ -158,9 +160,12 @@ def largest_step(fz: Array, fzb: Array, dfz: Array, dfzb: Array) -> float:
 
 
 def project(operators: MeshOperators, pinned: Pinned, w: Array) -> tuple[Array, int]:
-    """A map close to ``w`` with the same held vertices, and how many iterations it took. Projection
-    onto maps of bounded distortion (Kovalsky et al. 2015): the next map is the closest one on the
-    hyperplane that separates them. Triangles may be left that are turned over."""
+    """Project ``w`` onto maps of bounded distortion (Kovalsky et al. 2015), with the same held
+    vertices. Returns the map and the number of iterations.
+
+    Each iteration moves to the closest map on a hyperplane that separates the current map from
+    these maps. Some triangles may stay flipped.
+    """
     for iteration in range(_MOST_PROJECTIONS):
         fz, fzb = operators.wirtinger(w)
         if (np.abs(fzb) < ENOUGH * np.abs(fz)).all():

@@ -1,4 +1,4 @@
-"""SLIM and ARAP of libigl, which is an optional package."""
+"""SLIM and ARAP of the optional package libigl."""
 
 from dataclasses import dataclass
 
@@ -12,14 +12,14 @@ from glid_nb.pose import Pose
 from glid_nb.solvers import MethodError
 from glid_nb.solvers.loop import Steps
 
-# libigl's names of energies, and libigl's energies in ours.
+# For each of our energies: libigl's name, and libigl's energy divided by ours.
 _ENERGIES = {
     "iso": ("SYMMETRIC_DIRICHLET", 2.0),
     "exp": ("EXP_SYMMETRIC_DIRICHLET", 1.0),
     "mips": ("CONFORMAL", 1.0),
 }
-# On triangles libigl weights EXP_CONFORMAL by the symmetric Dirichlet energy's gradient, so it does
-# not end at a minimum of that either, and it is not offered under another name.
+# We do not offer EXP_CONFORMAL. On triangles libigl weights it by the gradient of the symmetric
+# Dirichlet energy, so it does not even end at a minimum of EXP_CONFORMAL.
 _REFUSED = {
     "amips": "has no AMIPS: the closest of its energies, EXP_CONFORMAL, is "
     "exp((sigma_1/sigma_2 + sigma_2/sigma_1)/2), without AMIPS' terms of area and with no s; use "
@@ -36,9 +36,9 @@ _REFUSED = {
 class SLIM(MeshMethod):
     """Scalable Locally Injective Mappings on a triangle mesh, soft constraints (libigl).
 
-    Rabinovich et al. 2017. libigl minimises ``sum_t 2 area_t E_t + soft_p sum |f(p_i) - q_i|^2``;
+    Rabinovich et al. 2017. libigl minimises ``sum_t 2 area_t E_t + soft_p sum |f(p_i) - q_i|^2``.
     ``soft_p`` is chosen so that this is a multiple of our energy with the same ``lambda``. A start
-    with triangles turned over is left out.
+    with flipped triangles is replaced by the identity.
     """
 
     name = "slim"

@@ -1,4 +1,4 @@
-"""A deformation problem on a triangle mesh: its operators, energies, and base of methods."""
+"""A deformation problem on a triangle mesh: operators, energies, and the base class of methods."""
 
 import functools
 from collections.abc import Callable
@@ -22,8 +22,11 @@ _AT_VERTEX = 1e-9  # of the shape's longer side
 
 
 class MeshOperators:
-    """A mesh for solvers; images are (v,) complex. On a triangle ``f_z = sum_i conj(G_i) w_i / 2``
-    and ``f_zbar = sum_i G_i w_i / 2``, ``G_i`` the complex gradient of a corner's hat function."""
+    """The differential operators of a mesh. Images are (v,) complex.
+
+    On a triangle ``f_z = sum_i conj(G_i) w_i / 2`` and ``f_zbar = sum_i G_i w_i / 2``. ``G_i`` is
+    the complex gradient of a corner's hat function.
+    """
 
     def __init__(self, mesh: Triangulation) -> None:
         self.mesh = mesh
@@ -57,9 +60,9 @@ class MeshOperators:
 
     @double_precision
     def energy(self, energy: Energy, fz: Array, fzb: Array) -> float:
-        """The area mean of the density; infinite where a triangle is turned over."""
+        """The area mean of the density; infinite if a triangle is flipped, except for ARAP."""
         x, y = np.abs(fz) ** 2, np.abs(fzb) ** 2
-        if not (x > y).all() and energy.name != "arap":  # with a signed sigma_2 that is finite
+        if not (x > y).all() and energy.name != "arap":  # ARAP is finite with a signed sigma_2
             return np.inf
         return float(self.weights @ np.asarray(_density(energy, x, y)))
 
@@ -113,7 +116,7 @@ class MeshProblem:
     handles: Array  # (h,) vertex indices
     targets: Array  # (h,) complex
     p2p_weight: float  # lambda of (20), in the cage's own units
-    start: Array  # (v,) complex images, rigidly moved if that was asked for
+    start: Array  # (v,) complex images, rigidly moved to the targets with the option align
 
     @classmethod
     def of(cls, inputs: Inputs, n_vertices: int) -> Self:
@@ -160,10 +163,10 @@ def _vertices_at(mesh: Triangulation, points: Array, tolerance: float) -> Array:
 
 @dataclass(frozen=True)
 class MeshMethod(Method):
-    """A method on a triangle mesh of about ``n_vertices`` vertices, handles among them.
+    """A method on a triangle mesh of about ``n_vertices`` vertices. The handles are vertices.
 
     To choose the mesh, start from a map of it: ``MeshMap(triangulation, triangulation.vertices)``.
-    What it returns has no certificate.
+    The result has no certificate.
     """
 
     family = "mesh"
@@ -176,7 +179,7 @@ class MeshMethod(Method):
             raise MethodError(f"the method {self.name!r} needs at least one handle")
 
     def steps(self, problem: MeshProblem) -> Steps:
-        """The method itself, as the start and each step."""
+        """The method as a generator: yields the start and then each step."""
         raise NotImplementedError
 
     def run(self, inputs: Inputs) -> Result:

@@ -1,1 +1,1 @@
-"""Methods in the harmonic subspace, with Newton's own line search and certificate."""
+"""Methods in the harmonic subspace, with the line search and certificate of our Newton method."""

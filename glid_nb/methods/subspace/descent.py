@@ -28,13 +28,13 @@ from glid_nb.solvers.subspace import SubspaceDescent
 
 Curvature = Literal["exact", "projected", "gauss-newton", "dirichlet"]
 
-_ROUNDING = 1e-8  # a decrease promised by the direction that rounding of the energy can hide
-# The same for a first-order direction, which promises far more than a step can hold.
+_ROUNDING = 1e-8  # the rounding of the energy can hide a predicted decrease below this share
+# The same for first-order directions, which predict much larger decreases than a step can reach.
 _SMALL_SLOPE = 1e-4
-# A direction longer than this multiple of the coefficients is shortened, for the line search.
+# The line search shortens a direction that is longer than this multiple of the coefficients.
 _LONGEST = 10.0
-# Newton's steps that are shorter, and gain less of the energy, creep: each is dearer than the last,
-# for it splits panels next to where the map folds.
+# A Newton solve ends when a step is shorter than this and gains a smaller share of the energy.
+# Close to a fold, such steps get more and more expensive, because each splits panels.
 _CREEPING = 1e-6
 _FOLDS = "the map is too close to folding for this method; the last certified map is returned."
 _JAMMED = f"No step on the search direction lowers the energy, whose gradient is not zero: {_FOLDS}"
@@ -53,7 +53,7 @@ class SubspaceMethod(Method):
         raise NotImplementedError
 
     def forget(self, memory: Any) -> bool:  # noqa: ARG002
-        """Drop what a solve remembers, after a direction that led nowhere; False for nothing."""
+        """Clear the method's memory after a direction without decrease. False if it was empty."""
         return False
 
     def started(self, inputs: Inputs) -> "DirectedDescent":
@@ -65,7 +65,7 @@ class SubspaceMethod(Method):
 
 @dataclass(frozen=True)
 class SecondOrderMethod(SubspaceMethod):
-    """A variant of Newton's method; converged where ``decrement^2 / 2 < tolerance * energy``."""
+    """A variant of Newton's method. It converges at ``decrement^2 / 2 < tolerance * energy``."""
 
     window = None
 
@@ -73,11 +73,12 @@ class SecondOrderMethod(SubspaceMethod):
 
 
 class DirectedDescent(SubspaceDescent):
-    """Follows a method's directions by Newton's own line search and certificate."""
+    """Follows the directions of a method, with the line search and certificate of our Newton
+    method."""
 
     method: SubspaceMethod
     gradient: Array  # (4c,) with respect to the unknowns, 0 elsewhere
-    memory: Any = None  # what the method remembers of its earlier steps
+    memory: Any = None  # the method's data from earlier steps
     step: float | None = None  # length of the last step
     _chosen: Array | None = None
     _seconds = 0.0
@@ -90,7 +91,7 @@ class DirectedDescent(SubspaceDescent):
 
     @property
     def unit(self) -> float:
-        """The length in which absolute constants are measured."""
+        """The unit of length of absolute constants."""
         return self.inputs.domain.cage.unit
 
     @property
@@ -104,22 +105,22 @@ class DirectedDescent(SubspaceDescent):
 
     @functools.cached_property
     def p2p_hessian(self) -> Array:
-        """(4c, 4c) Hessian of the positional energy, fixed and tied unknowns left out."""
+        """(4c, 4c) Hessian of the positional energy, zero for fixed and tied unknowns."""
         matrix, weights = map(jnp.asarray, self.problem.positional[::2])
         h = restrict_hessian(matrix.T @ (weights[:, None] * matrix), self.problem.unknowns)
-        # The identity on what is fixed is already in the isometric Hessian.
+        # The isometric Hessian already has a diagonal for fixed unknowns.
         return np.asarray(h) - np.diag(1 - self.free)
 
     def hessian(self, curvature: Curvature) -> Array:
-        """(4c, 4c) Hessian of the isometric energy; on what is fixed or tied a diagonal that scales
-        with it."""
+        """(4c, 4c) Hessian of the isometric energy. For fixed and tied unknowns, its diagonal is
+        ``unit**-2``."""
         h = np.array(_hessian(self.problem, self.evaluated, curvature=curvature))
         fixed = np.flatnonzero(self.free == 0)
         h[fixed, fixed] = self.unit**-2
         return h
 
     def advance(self, may_refine: bool) -> Advance:
-        """The next certified step, or why there is none."""
+        """Take the next certified step, or return why there is none."""
         if not self.left:
             return Advance()
         watch = Stopwatch()
@@ -141,7 +142,7 @@ class DirectedDescent(SubspaceDescent):
         return Advance(iterations=1)
 
     def adapt(self, done: Advance) -> Ending | None:
-        """End where steps gain nothing, unless free angles and scales have to be measured anew."""
+        """End if steps gain nothing, unless measuring angles and scales changes the objective."""
         ending = self._adapted(done)
         if ending is None or not ending.status.ok:
             return ending
@@ -153,7 +154,7 @@ class DirectedDescent(SubspaceDescent):
         return None
 
     def _adapted(self, done: Advance) -> Ending | None:
-        """End where steps gain nothing; try without memory where none lowers the energy."""
+        """End if steps gain nothing. If no step lowers the energy, try once without memory."""
         if done.ending is not None:
             return done.ending
         if done.outcome == NO_DECREASE:
@@ -174,7 +175,7 @@ class DirectedDescent(SubspaceDescent):
         return Ending(Status.BLOCKED, _CREPT) if crept else None
 
     def split(self, refused: Array) -> int:
-        # The direction stays, the values are computed anew.
+        # Keep the direction, and compute the values on the new panels.
         watch = Stopwatch()
         count = super().split(refused)
         self._seconds += watch.seconds
@@ -214,9 +215,11 @@ def _evaluate(problem: SubspaceProblem, coefficients: Coefficients) -> tuple[Poi
 
 @functools.partial(solver_jit, static_argnames="curvature")
 def _hessian(problem: SubspaceProblem, point: Point, *, curvature: Curvature) -> DeviceArray:
-    """(4c, 4c) Hessian of the isometric energy with respect to the unknowns (33). ``gauss-newton``
-    is for ARAP, ``2 (|f_z| - 1)^2 + 2 |f_zbar|^2``, without the residuals' second derivatives;
-    ``dirichlet`` is that of ``|f_z|^2 + |f_zbar|^2``."""
+    """(4c, 4c) Hessian of the isometric energy with respect to the unknowns (33).
+
+    ``gauss-newton`` is for ARAP, ``2 (|f_z| - 1)^2 + 2 |f_zbar|^2``, and leaves out the second
+    derivatives of the residuals. ``dirichlet`` is the Hessian of ``|f_z|^2 + |f_zbar|^2``.
+    """
     matrices = problem.matrices
     values = point.samples.values[:, matrices.hessian_index]
     x, y = evaluation.squares(values)
@@ -249,8 +252,8 @@ def _advance(
     line = evaluation.line_along(problem, expand(direction, problem.unknowns), slope)
     found = line_search.search(problem, point, line)
     end = line_search.backtrack(problem, point, line, found, may_refine)
-    # Values anew from the coefficients: their rounding errors must not add up over thousands of
-    # iterations, for which the certificate makes no allowance.
+    # Compute the values from the coefficients. Carried values would collect rounding errors over
+    # thousands of iterations, more than the certificate allows for.
     after = evaluation.evaluated(problem, point.coefficients + end.step * line.direction)
     gradient = restrict_gradient(evaluation.gradient(problem, after), problem.unknowns)
     return end._replace(point=after), gradient

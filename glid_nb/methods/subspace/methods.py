@@ -1,4 +1,4 @@
-"""First-order methods, and Newton's with other Hessians than ours."""
+"""First-order methods, and Newton methods with other Hessians than ours."""
 
 import functools
 from collections import deque
@@ -17,22 +17,25 @@ from glid_nb.solvers.newton import descend
 
 Initial = Literal["identity", "dirichlet"]
 
-_SAMPLES = 1e4  # that the published code adds up, starting from twice the identity
+# The published L-BFGS code sums the energy over this many samples; we take the mean. Its initial
+# Hessian is twice the identity.
+_SAMPLES = 1e4
 _RIDGE = 1e-9
-FLOOR = 1e-10  # what negative eigenvalues become (Section 10)
+FLOOR = 1e-10  # the value that replaces negative eigenvalues (Section 10)
 
 
 @dataclass(frozen=True)
 class LBFGS(SubspaceMethod):
     """L-BFGS with ``memory`` pairs (Nocedal & Wright 2006, Algorithm 7.4).
 
-    The Hessian that it starts from is the exact one of the positional energy plus, for the
-    isometric energy, a multiple of the identity, as in the published code, or the Hessian of the
-    Dirichlet energy, which the published code has as an alternative. It is factored once.
+    Its initial Hessian is the exact Hessian of the positional energy plus a simple one for the
+    isometric energy. With ``initial="identity"`` this is a multiple of the identity, as in the
+    published code. With "dirichlet" it is the Hessian of the Dirichlet energy, an alternative in
+    the published code. The initial Hessian is factored once.
 
-    How far it gets is a matter of ``lambda``: the published code's is 20 of (20), with which it
-    reaches Newton's minimum. With 1e5 the targets outweigh the distortion so much that directions
-    lead straight to them, through a fold, and thousands of iterations change little.
+    Its success depends on ``lambda`` of (20). The published code uses 20, with which L-BFGS reaches
+    Newton's minimum. With 1e5 the targets outweigh the distortion. Then directions lead straight to
+    the targets, through a fold, and thousands of iterations change little.
     """
 
     name = "lbfgs"
@@ -50,10 +53,10 @@ class LBFGS(SubspaceMethod):
 
     def direction(self, at: DirectedDescent) -> Array:
         if at.memory is None:
-            per_area = at.unit**-2  # so that scaled shapes take scaled steps
+            per_area = at.unit**-2  # makes the steps scale with the shape
             iso = np.diag(np.where(at.free > 0, 2 / _SAMPLES * per_area, 1.0))
             if self.initial == "dirichlet":
-                # Handles in one place leave the Dirichlet Hessian singular.
+                # With all handles in one place, the Dirichlet Hessian is singular.
                 iso = at.hessian("dirichlet") + 1e-9 * per_area * np.eye(len(iso))
             factor = scipy.linalg.cho_factor(at.p2p_hessian + iso, lower=True)
             at.memory = Pairs(self.memory, factor)
@@ -72,7 +75,7 @@ class GradientDescent(SubspaceMethod):
     max_iterations = 1000
 
     def direction(self, at: DirectedDescent) -> Array:
-        # Scaled to the size of the coefficients for the line search's sake.
+        # Scale the step to the size of the coefficients, which suits the line search.
         slope = float(np.linalg.norm(at.gradient))
         return -(at.size / slope if slope > 0 else 1.0) * at.gradient
 
@@ -93,7 +96,8 @@ class Pairs:
 
 
 def two_loop(gradient: Array, pairs: list[tuple[Array, Array]], apply_initial: Any) -> Array:
-    """The L-BFGS approximation of the inverse Hessian applied to a gradient; oldest pair first."""
+    """Apply the L-BFGS approximation of the inverse Hessian to a gradient. The oldest pair is
+    first."""
     q = gradient.copy()
     alphas = []
     for s, y in reversed(pairs):
@@ -108,7 +112,7 @@ def two_loop(gradient: Array, pairs: list[tuple[Array, Array]], apply_initial: A
 @dataclass(frozen=True)
 class _CompiledNewton(Method):
     family = "harmonic"
-    changed: ClassVar[dict[str, Any]]  # options that are not the caller's
+    changed: ClassVar[dict[str, Any]]  # options that override the caller's
 
     tolerance: float = 1e-10
 
@@ -175,10 +179,10 @@ class NewtonEigen(SecondOrderMethod):
     """Newton's method with a full eigen-factorisation, negative eigenvalues raised to 1e-10 or,
     with absolute, by their modulus.
 
-    Newton-Eigen (Section 10), for lengths in twentieths of the cage's longer side. 1e-10 is no
-    scale of the problem: along a direction of negative curvature the step is 1e10 times the
-    gradient's component, and the line search shortens all of it to what that one direction allows.
-    With ``absolute``, negative eigenvalues change their sign.
+    Newton-Eigen (Section 10), for lengths in twentieths of the cage's longer side. The value 1e-10
+    is much smaller than the problem's scale. Along a direction of negative curvature, the step is
+    1e10 times the gradient's component. The line search then shortens the whole step because of
+    this one direction. With ``absolute``, negative eigenvalues change their sign.
     """
 
     name = "newton-eigen"
@@ -197,8 +201,9 @@ class NewtonEigen(SecondOrderMethod):
 class NewtonShift(SecondOrderMethod):
     """Newton's method with a multiple of the identity added until the Hessian is definite.
 
-    Nocedal & Wright 2006, Algorithm 3.3, as in Fu & Liu 2016; their constant ``beta`` is taken
-    relative to the isometric Hessian's mean diagonal, for the coefficients have a unit of length.
+    Nocedal & Wright 2006, Algorithm 3.3, as in Fu & Liu 2016. Here their constant ``beta`` is
+    relative to the isometric Hessian's mean diagonal, because the coefficients have a unit of
+    length.
     """
 
     name = "newton-shift"
@@ -244,8 +249,8 @@ class GaussNewton(SecondOrderMethod):
 class LevenbergMarquardt(GaussNewton):
     """Gauss-Newton for ARAP with an adaptive damping.
 
-    The multiple of the identity is relative to the Hessian's mean diagonal: divided by 5 after a
-    full step, doubled after a shortened one.
+    The multiple of the identity is relative to the Hessian's mean diagonal. It is divided by 5
+    after a full step and doubled after a shortened one.
     """
 
     name = "levenberg-marquardt"
@@ -255,7 +260,7 @@ class LevenbergMarquardt(GaussNewton):
 
 
 def _solve_semidefinite(h: Array, gradient: Array) -> Array | Ending:
-    """``-H^-1 g``, where H is singular for want of samples or handles by Section 9.1's epsilon."""
+    """``-H^-1 g``. If H is singular (few samples or handles), Section 9.1's epsilon is added."""
     direction = _solve(h, gradient)
     if direction is None:
         ridge = _RIDGE * float(np.diag(h).mean())
