@@ -67,7 +67,9 @@ class Program:
         # functions when it is kept again.
         own = f"_{uuid.uuid4().hex}"
         lowered = self._lowered(arguments, own)
-        name = f"glid_nb_program_{_digest(lowered.as_text().replace(own, ''))}"
+        # The arguments too: another version may nest the same arrays in other classes.
+        text = f"{key!r}{lowered.as_text().replace(own, '')}"
+        name = f"glid_nb_program_{_digest(text)}"
         if (known := programs.by_name(name)) is not None:
             programs.name_again(name, alias)
             return known

@@ -99,8 +99,10 @@ class Treatment:
 
 
 class NewtonDescent(SubspaceDescent):
-    """One run of Algorithm 1. With fewer than two handles the Hessian is singular (Proposition
-    I.1)."""
+    """One run of Algorithm 1.
+
+    With fewer than two handles the Hessian is singular (Proposition I.1).
+    """
 
     shows_start = False
 

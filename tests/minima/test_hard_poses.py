@@ -336,7 +336,7 @@ def test_arap_meets_its_targets_where_the_direct_way_is_blocked() -> None:
 
 def test_mips_meets_its_targets_where_the_direct_way_is_blocked() -> None:
     """Nothing keeps it from shrinking a limb to nothing on the way; then other ways end lower."""
-    pose = Pose([[-8, 0], [0, 0], [8, 0]], [[4.5, 6.0], [0, 0], [8, 0]])
+    pose = Pose([[-8, 0], [0, 0], [8, 0]], [[7.5, 3.0], [0, 0], [8, 0]])
     direct = solve(bar(), pose, "mips", Options(restarts=0))
     result = solve(bar(), pose, "mips")
     check_certified(result)

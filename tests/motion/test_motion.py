@@ -18,7 +18,7 @@ from glid_nb.certificate import certificate_of, certify
 from glid_nb.certificate.pieces import certify_pieces
 from glid_nb.geometry import as_points, uniform_panels
 from glid_nb.harmonic import HarmonicMap
-from glid_nb.motion import MotionError, curve
+from glid_nb.motion import MotionError, bounded, curve
 from glid_nb.motion.boundary import boundary_of
 
 from ..domains import MANY_HOLES, NAMES, circle, dense_check, domain, random_map
@@ -167,6 +167,8 @@ def test_solving_ends_where_it_mends_nothing(
         return HarmonicMap(stretched[0].domain, *between(piece, s))
 
     monkeypatch.setattr(curve, "_solved", in_vain)
+    # Shorter pieces close more periods, which mends something by itself.
+    monkeypatch.setattr(bounded, "_CLOSES", 0.0)
     assert Motion(stretched[1:]).ways == ("bounded",)
     assert len(solved) <= 3
 
