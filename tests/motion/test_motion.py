@@ -169,8 +169,8 @@ def test_solving_ends_where_it_mends_nothing(
     monkeypatch.setattr(curve, "_solved", in_vain)
     # Shorter pieces close more periods, which mends something by itself.
     monkeypatch.setattr(bounded, "_CLOSES", 0.0)
-    assert Motion(stretched[1:]).ways == ("bounded",)
-    assert len(solved) <= 3
+    assert not Motion(stretched[1:]).certificate.certified
+    assert 1 <= len(solved) <= 3
 
 
 def test_a_fold_is_refused_at_once_and_as_asked(
