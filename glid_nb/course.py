@@ -1,5 +1,7 @@
-"""Helpers of the course: checks of exercises (``with check("exercise 1"): assert ...``), figures
-with sliders, and domains."""
+"""Helpers of the course: checks of exercises, figures with sliders, and domains.
+
+An exercise is checked by ``with check("exercise 1"): assert ...``.
+"""
 
 import importlib.util
 import re

@@ -1,5 +1,7 @@
-"""Our Newton method, the part on the host (paper Algorithm 1). A compiled call runs several
-iterations."""
+"""Our Newton method, the part on the host (paper Algorithm 1).
+
+A compiled call runs several iterations.
+"""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -75,8 +77,10 @@ def descend(inputs: Inputs, method: Method | None = None) -> Result:
 
 
 class NewtonDescent(SubspaceDescent):
-    """One run of Algorithm 1. With fewer than two handles the Hessian is singular (Proposition
-    I.1)."""
+    """One run of Algorithm 1.
+
+    With fewer than two handles the Hessian is singular (Proposition I.1).
+    """
 
     shows_start = False
 
