@@ -1,4 +1,4 @@
-"""Locally injective image deformation: the public face, whose names are listed in ``__init__.pyi``.
+"""Locally injective image deformation. ``__init__.pyi`` lists the public names.
 
 Names are loaded on first use, so that ``import glid_nb`` is quick and does not import JAX.
 """

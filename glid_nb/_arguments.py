@@ -1,4 +1,4 @@
-"""Strict checks of arguments, refused by name."""
+"""Strict checks of arguments. Error messages name the argument."""
 
 import functools
 import itertools
@@ -18,7 +18,8 @@ from glid_nb._errors import did_you_mean
 def check_type(
     name: str, value: Any, wanted: Any, hint: str, error: type[Exception] = TypeError
 ) -> None:
-    """Raise ``error`` unless ``value`` is of ``wanted``, a class or a union; end with ``hint``."""
+    """Raise ``error`` unless ``value`` is of the type ``wanted``, a class or a union. The message
+    ends with ``hint``."""
     if not isinstance(value, wanted):
         known = getattr(wanted, "__args__", (wanted,))
         *others, last = ("None" if kind is type(None) else kind.__name__ for kind in known)
@@ -27,7 +28,7 @@ def check_type(
 
 
 def check_count(name: str, value: Any, least: int, unit: str) -> int:
-    """``value`` as an int; a TypeError unless it is whole, a ValueError if it is too small."""
+    """``value`` as an int. Raises a TypeError if it is not whole, a ValueError if too small."""
     if isinstance(value, bool) or not isinstance(value, Integral):
         raise TypeError(f"{name} must be a whole number of {unit}, not {value!r:.60}")
     if value < least:
@@ -38,7 +39,7 @@ def check_count(name: str, value: Any, least: int, unit: str) -> int:
 def check_keywords(
     name: str, given: Iterable[str], known: Iterable[str], error: type[Exception] = TypeError
 ) -> None:
-    """Raise ``error`` for a keyword that ``name``, such as a class, does not have."""
+    """Raise ``error`` for a keyword that ``name``, for example a class, does not have."""
     known = list(known)
     for keyword in given:
         if keyword not in known:
@@ -53,13 +54,14 @@ def option(
     choices: Mapping[str, str] | None = None,
     **limits: Any,
 ) -> Any:
-    """A dataclass's field; how flags and controls present it, its values' labels, its range."""
+    """A dataclass's field with metadata: texts for flags and controls, labels of the values, and
+    the allowed range."""
     shown = {"help": help, "label": label, "choices": choices or {}}
     return field(default=default, metadata={**shown, **limits})
 
 
 def plain(value: Any) -> Any:
-    """Lists and arrays as tuples, NumPy's numbers as Python's; anything else as it is."""
+    """Convert lists and arrays to tuples, and NumPy's numbers to Python's. Other values stay."""
     if isinstance(value, np.ndarray | np.generic):
         value = value.tolist()
     return tuple(map(plain, value)) if isinstance(value, list | tuple) else value
@@ -75,7 +77,9 @@ def field_kinds(cls: type) -> dict[str, Any]:
 def check_fields(
     settings: Any, error: type[Exception], called: Callable[[str], str] = lambda name: name
 ) -> None:
-    """Raise ``error`` for a dataclass's field that its annotation or metadata do not allow."""
+    """Raise ``error`` if the annotation or metadata of a dataclass's field does not allow its
+    value.
+    """
     kinds = field_kinds(type(settings))
     for known in fields(settings):
         value = getattr(settings, known.name)
@@ -85,10 +89,11 @@ def check_fields(
 
 
 def unmet(kind: Any, value: Any, limits: Mapping[str, Any] | None = None) -> str:
-    """What a value of an annotated kind must be, if this one is not; empty if it is.
+    """A description of the allowed values if ``value`` is not allowed; empty if it is.
 
-    ``limits`` may hold the ends of a number's range: "least", by default 0, and "most", or "above"
-    and "below"; and the "form" in which a tuple of numbers or a sequence is written.
+    ``kind`` is an annotation. ``limits`` may contain the ends of a number's range: "least", by
+    default 0, and "most", or "above" and "below". For a tuple of numbers or a sequence it contains
+    the "form", the description of the allowed values.
     """
     limits, allowed = limits or {}, get_args(kind)
     if get_origin(kind) is Literal:

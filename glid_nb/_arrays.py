@@ -1,4 +1,4 @@
-"""Arrays: aliases of their types, arrays of numbers from untrusted values, immutable arrays."""
+"""Arrays: type aliases, arrays of numbers from untrusted values, immutable arrays."""
 
 import math
 from collections.abc import Iterator
@@ -14,9 +14,10 @@ A = TypeVar("A", bound=Array)
 
 
 def real_array(value: Any) -> NDArray[np.float64]:
-    """``value`` as a new float64 array; a missing number (None, or masked) becomes NaN.
+    """``value`` as a new float64 array. A missing number (None or masked) becomes NaN.
 
-    A TypeError or ValueError for anything but real numbers in range, and for ragged nesting.
+    Raises a TypeError or ValueError for ragged nesting, and for values that are not real numbers in
+    the range of float64.
     """
     value = list(value) if isinstance(value, Iterator) else value
     if _holds_truth_value(value):
@@ -35,7 +36,8 @@ def real_array(value: Any) -> NDArray[np.float64]:
 
 
 def number_pairs(value: Any, wanted: str, error: type[Exception]) -> NDArray[np.float64]:
-    """(n, 2) new numbers, NaN and infinity too; else an ``error`` that begins with ``wanted``."""
+    """(n, 2) array of numbers, NaN and infinity allowed. Otherwise raises an ``error`` whose
+    message begins with ``wanted``."""
     try:
         pairs = real_array(value)
     except (TypeError, ValueError) as problem:
@@ -47,7 +49,7 @@ def number_pairs(value: Any, wanted: str, error: type[Exception]) -> NDArray[np.
 
 
 def is_finite(number: Any) -> bool:
-    """Whether a real number, of Python's long ones too, is a finite float."""
+    """Whether a real number is finite as a float. Python's long integers may be too large."""
     try:
         return math.isfinite(number)
     except OverflowError:
@@ -55,26 +57,27 @@ def is_finite(number: Any) -> bool:
 
 
 def read_only(array: A) -> A:
-    """The array itself, which nobody can write to from now on."""
+    """Make the array read-only. Returns the same array."""
     array.setflags(write=False)
     return array
 
 
 class _Frozen(bytes):
-    """What nobody can write to; an array that comes from a pickle lies in writable bytes."""
+    """Memory that nobody can write to. Arrays from a pickle lie in writable memory instead."""
 
 
 def frozen(array: A) -> A:
-    """A copy whose bytes nobody can write to, whatever flags are set; of such a copy, itself."""
+    """A copy that can never be written to, whatever flags are set. A frozen array is returned
+    itself."""
     if type(array) is np.ndarray and isinstance(array.base, _Frozen):
         return array
     return np.ndarray(array.shape, array.dtype, _Frozen(array.tobytes()))  # type: ignore[return-value]
 
 
 class Rebuilt:
-    """A dataclass whose copies are made by its constructor, without what it keeps beside fields.
+    """A dataclass whose copies are made by its constructor from its fields alone.
 
-    So arrays are read-only again where they come from a pickle, and what was checked is checked.
+    So arrays from a pickle become read-only again, and all checks run again.
     """
 
     def __reduce__(self) -> tuple[Any, ...]:

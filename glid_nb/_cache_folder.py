@@ -1,4 +1,4 @@
-"""Whether compiled programs can be kept in a folder; if not, one warning says so."""
+"""Check whether compiled programs can be kept in a folder. If not, one warning says so."""
 
 import os
 import threading
@@ -14,7 +14,7 @@ class CacheWarning(RuntimeWarning):
 
 
 def refuse(folder: Path, why: str) -> None:
-    """Write no more to ``folder``, and say so once in a process."""
+    """Stop writing to ``folder``, with one warning per process."""
     with _lock:
         if folder in _refused:
             return
@@ -27,7 +27,7 @@ def refuse(folder: Path, why: str) -> None:
 
 
 def can_write(folder: Path) -> bool:
-    """Whether files can be made in ``folder``, which is made if it is missing; else one warning."""
+    """Whether files can be made in ``folder``, which is made if missing. If not, warns once."""
     probe = folder / f".probe-{os.getpid()}-{threading.get_ident()}"
     try:
         folder.mkdir(parents=True, exist_ok=True)

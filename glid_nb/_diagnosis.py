@@ -1,7 +1,7 @@
-"""What `glid-nb doctor` tells: versions, devices, fast paths, folders, the host, and extras.
+"""The diagnosis of `glid-nb doctor`: versions, devices, fast paths, folders, the host, and extras.
 
-It is asked for where something does not work, so each part answers in words where it cannot be
-known.
+Users run it when something does not work. So a part that cannot be determined must not raise an
+error; it gives a text instead.
 """
 
 import os
@@ -37,7 +37,7 @@ GIVES = {
     "cuda12": "JAX on an NVIDIA GPU, CUDA 12",
     "cuda13": "JAX on an NVIDIA GPU, CUDA 13",
 }
-"""What each extra that users install adds."""
+"""A description of each extra that users install."""
 
 _SERVERS = {
     "voila": "Voila",
@@ -48,7 +48,7 @@ _SERVERS = {
 
 
 def diagnosis() -> dict[str, Any]:
-    """Everything that `glid-nb doctor` tells, as values for JSON."""
+    """The whole diagnosis of `glid-nb doctor`, as values for JSON."""
     needed, extras = _requirements()
     return {
         "python": f"{platform.python_version()} ({sys.executable})",
@@ -72,7 +72,7 @@ def diagnosis() -> dict[str, Any]:
 
 
 def problems(found: dict[str, Any]) -> list[str]:
-    """One sentence for everything in a diagnosis that keeps the package from working well."""
+    """One sentence for each problem in a diagnosis that keeps the package from working well."""
     sentences = [
         f"{name} {state['installed'] or 'is missing'}, but glid-nb needs {name}{state['needed']}"
         for name, state in found["libraries"].items()
@@ -90,7 +90,7 @@ def problems(found: dict[str, Any]) -> list[str]:
 
 
 def host() -> str:
-    """The program in which this process works: a notebook's host, or none."""
+    """The notebook host in which this process runs, or none."""
     if "google.colab" in sys.modules or "COLAB_RELEASE_TAG" in os.environ:
         return "Google Colab"
     if "marimo" in sys.modules:
@@ -104,7 +104,7 @@ def host() -> str:
 
 
 def _server_of_kernel() -> str | None:
-    """The Jupyter program that has started this kernel, as far as its command line tells."""
+    """The Jupyter program that started this kernel, according to its command line."""
     try:
         words = Path(f"/proc/{int(os.environ['JPY_PARENT_PID'])}/cmdline").read_text("utf-8")
     except (KeyError, ValueError, OSError):
@@ -119,7 +119,7 @@ def _server_of_kernel() -> str | None:
 
 
 def _requirements() -> tuple[list[Requirement], dict[str, list[Requirement]]]:
-    """What the package needs, and what each extra needs, from its metadata."""
+    """The requirements of the package and of each extra, from its metadata."""
     try:
         texts = distribution("glid-nb").requires or []
     except PackageNotFoundError:  # a checkout that was not installed
@@ -144,7 +144,7 @@ def _installed(one: Requirement) -> str | None:
 
 def _is_met(one: Requirement) -> bool:
     found = _installed(one)
-    if canonicalize_name(one.name) == "glid-nb":  # an extra that consists of others
+    if canonicalize_name(one.name) == "glid-nb":  # an extra that consists of other extras
         own = [r for name in one.extras for r in _requirements()[1].get(name, [])]
         return all(map(_is_met, own))
     met = found is not None and one.specifier.contains(found, prereleases=True)
@@ -165,7 +165,7 @@ def _state_of(one: Requirement) -> dict[str, Any]:
 
 
 def _jax_state() -> dict[str, Any]:
-    """Devices and fast paths; or ``error``, why JAX does not work here."""
+    """Devices and fast paths; or ``error``, the reason why JAX does not work here."""
     try:
         devices = [f"{one.platform} {one.id}: {one.device_kind}" for one in jax.local_devices()]
         device = default_device()
@@ -179,7 +179,7 @@ def _jax_state() -> dict[str, Any]:
             "JAX's cache": None if configured is None else str(configured),
             "64 bits by default": bool(jax_option("jax_enable_x64")),
         }
-    except (InputError, RuntimeError) as error:  # JAX's errors of devices are RuntimeErrors
+    except (InputError, RuntimeError) as error:  # JAX raises a RuntimeError for device problems
         return {"error": " ".join(str(error).split())}
 
 
@@ -193,7 +193,7 @@ def _folder(path: Path, variable: str) -> dict[str, Any]:
             except OSError:  # removed meanwhile
                 continue
             count += 1
-    try:  # the answer of access() is not true everywhere
+    try:  # os.access() is not reliable everywhere
         with tempfile.TemporaryFile(dir=existing):
             writable = True
     except OSError:

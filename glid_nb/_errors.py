@@ -1,4 +1,4 @@
-"""Errors for bad input: the base class, the place in front of the message, "did you mean"."""
+"""Errors for bad input: the base class, a place in front of messages, "did you mean"."""
 
 import difflib
 import re
@@ -9,9 +9,9 @@ from pathlib import Path
 
 
 class InputError(ValueError):
-    """Bad input, the only kind of error that is no bug; the message says what to do.
+    """Bad input, the only kind of error that is not a bug. The message says what to do.
 
-    ``plain`` is the message for users of the editor: it names controls rather than options.
+    ``plain`` is the message for users of the editor. It names controls, not options.
     """
 
     def __init__(self, message: str, plain: str | None = None) -> None:
@@ -19,8 +19,9 @@ class InputError(ValueError):
         self.plain = message if plain is None else plain
 
     def _render_traceback_(self) -> list[str]:
-        """What IPython prints: the lines that lead to the package, none of IPython or of ours."""
-        from IPython import get_ipython  # noqa: PLC0415 - only where it asks
+        """The traceback that IPython prints: the user's lines only, none of IPython or this
+        package."""
+        from IPython import get_ipython  # noqa: PLC0415 - only IPython calls this
 
         ours, name_of = str(Path(__file__).parent), get_ipython().compile.format_code_name
         lines = []
@@ -33,7 +34,7 @@ class InputError(ValueError):
 
 
 class IncompatibleVersionsError(InputError, AttributeError):
-    """Installed libraries lack something that the package cannot do without, or do not fit."""
+    """Installed libraries lack a required feature or do not fit together."""
 
 
 class InputFileError(InputError):
@@ -42,7 +43,9 @@ class InputFileError(InputError):
 
 @contextmanager
 def about(where: str | Path, kind: type[InputError] = InputFileError) -> Iterator[None]:
-    """Put ``where``, a file or a key, in front of an InputError's message; raise it as ``kind``."""
+    """Put ``where``, a file or a key, in front of an InputError's message, and raise it as
+    ``kind``.
+    """
     try:
         yield
     except InputError as error:
@@ -50,11 +53,11 @@ def about(where: str | Path, kind: type[InputError] = InputFileError) -> Iterato
         if not re.match(rf"{re.escape(str(where))}(: | (is|has|holds|must) )", text):
             text = f"{where}: {text}"
         raise kind(text).with_traceback(error.__traceback__) from None
-    except RecursionError:  # of the checks, by lists in lists in lists
+    except RecursionError:  # the checks recurse into nested lists
         raise kind(f"{where}: it holds values that are nested too deep") from None
 
 
 def did_you_mean(name: str, known: Iterable[str]) -> str:
-    """``; did you mean 'cage'?`` for the end of a message; empty if no known name is similar."""
+    """The end of a message, such as ``; did you mean 'cage'?``; empty if no name is similar."""
     near = difflib.get_close_matches(str(name), list(known), 1)
     return f"; did you mean {near[0]!r}?" if near else ""

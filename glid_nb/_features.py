@@ -1,7 +1,7 @@
-"""What the installed libraries can do that other versions of them cannot.
+"""Features of the installed libraries that other versions of them lack.
 
-Every request that a library may refuse in another version is made here, once, and has an answer for
-the versions that refuse it. The package then works without that feature, only slower.
+All calls that another version of a library may refuse are here. Each has a fallback for the
+versions that refuse it. The package then works without the feature, only slower.
 """
 
 import functools
@@ -18,15 +18,15 @@ from threadpoolctl import OpenBLASController
 from glid_nb._jax import Array, CompiledOnUse, import_jax, incompatible, jax, lax
 
 _WANTED_OPTIONS: dict[str, Any] = {
-    # For programs with many small fusions: XLA's older CPU emitters compile them 1.6 times faster.
-    # JAX 0.11 and later no longer have them.
+    # XLA's older CPU emitters compile programs with many small fusions 1.6 times faster. JAX 0.11
+    # and later no longer have them.
     "xla_cpu_use_fusion_emitters": False,
 }
 
 FACTORISE, SOLVE = "lapack_dpotrf_ffi", "lapack_dtrsm_ffi"
-"""The names under which JAX on a CPU knows LAPACK's Cholesky factorisation and triangular solve."""
-# Patterns of JAX's own calls in the versions whose way of calling LAPACK we know: one matrix is
-# factorised; a factor and right-hand sides are solved (older versions give a third argument).
+"""JAX's names, on a CPU, of LAPACK's Cholesky factorisation and triangular solve."""
+# Patterns of JAX's own calls of LAPACK, in the versions whose calls we know. The factorisation has
+# one matrix. The solve has a factor and right-hand sides; older versions have a third argument.
 _KNOWN_CALLS = (
     rf"@{FACTORISE}\(%\w+\) .*\{{uplo = 76 : ui8\}}",
     rf"@{SOLVE}\(%\w+, %\w+\) .*"
@@ -37,7 +37,7 @@ _KNOWN_CALLS = (
 def enable_x64(enabled: bool = True) -> AbstractContextManager[None]:
     """``jax.enable_x64``, a context in which JAX computes in double precision.
 
-    JAX before 0.8 has it in ``jax.experimental``.
+    Before JAX 0.8 it is in ``jax.experimental``.
     """
     return _enable_x64()(enabled)
 
@@ -51,18 +51,18 @@ def _enable_x64() -> Any:
 
 
 def is_traced(value: Any) -> bool:
-    """Whether JAX traces a value, which then has no numbers yet."""
+    """Whether a value is a tracer of JAX, which has no numbers yet."""
     return isinstance(value, import_jax("jax.core").Tracer)
 
 
 @functools.cache
 def compiler_options() -> dict[str, Any]:
-    """The options of XLA that we would like to set, less those that this version does not know."""
+    """The XLA options that we want to set and that this version knows."""
     return {name: value for name, value in _WANTED_OPTIONS.items() if _is_known(name, value)}
 
 
 def unknown_options() -> list[str]:
-    """The options of XLA that we would like to set and this version does not know."""
+    """The XLA options that we want to set but that this version does not know."""
     return sorted(set(_WANTED_OPTIONS) - set(compiler_options()))
 
 
@@ -77,16 +77,16 @@ def _is_known(option: str, value: Any) -> bool:
 
 
 def solver_jit(function: Callable[..., Any], **options: Any) -> Callable[..., Any]:
-    """``jax.jit`` for the solver's programs: with :func:`compiler_options`, on first use."""
+    """``jax.jit`` for the solver's programs, with :func:`compiler_options`, on first use."""
     return CompiledOnUse(function, lambda: {**options, "compiler_options": compiler_options()})
 
 
 @functools.cache
 def lapack_in_place() -> bool:
-    """Whether this JAX calls LAPACK as ``solvers.cholesky`` does.
+    """Whether this JAX calls LAPACK in the same way as ``solvers.cholesky``.
 
-    JAX's own calls are read from lowered text, which also makes LAPACK ready to be called. Where
-    they look otherwise, or nothing is known of them, ``jax.lax.linalg`` does the work.
+    JAX's own calls are read from lowered text; the lowering also prepares LAPACK for calls. If the
+    calls look different, ``jax.lax.linalg`` does the work.
     """
 
     def both(h: Array, b: Array) -> Array:
@@ -104,7 +104,7 @@ def lapack_in_place() -> bool:
 def release_blas() -> None:
     """Let any thread set the number of BLAS threads next.
 
-    threadpoolctl from 3.8 on binds control of OpenBLAS to one Python thread; before, none is bound.
+    Since version 3.8, threadpoolctl binds the control of OpenBLAS to one Python thread.
     """
     release = getattr(OpenBLASController, "clear_controlling_thread", None)
     if release is not None:
@@ -113,7 +113,7 @@ def release_blas() -> None:
 
 @functools.cache
 def executables() -> Any | None:
-    """The module of JAX that writes compiled programs as bytes; None where it has none."""
+    """The module of JAX that writes compiled programs as bytes; None if this JAX has none."""
     try:
         module = importlib.import_module("jax.experimental.serialize_executable")
     except ImportError:
@@ -123,8 +123,9 @@ def executables() -> Any | None:
 
 @functools.cache
 def processor() -> str:
-    """What tells processors apart whose compiled programs differ, as far as NumPy knows it."""
-    # NumPy's table has no public name.
+    """A text that differs between processors that need different compiled programs, as far as NumPy
+    knows their features."""
+    # NumPy's table of features has no public name.
     umath = getattr(getattr(np, "_core", None), "_multiarray_umath", None)
     features: dict[str, bool] = getattr(umath, "__cpu_features__", {})
     names = sorted(name for name, has in features.items() if has)

@@ -1,4 +1,4 @@
-"""Writing files atomically, with errors that name the file."""
+"""Read files, and write them atomically, with errors that name the file."""
 
 import contextlib
 import errno
@@ -16,11 +16,13 @@ from glid_nb._errors import InputFileError
 
 
 def write_atomically(path: str | Path, data: bytes | str) -> None:
-    """Write ``data``, text as UTF-8, to a file beside ``path`` that is then renamed over it.
+    """Write ``data``, text as UTF-8, to a temporary file beside ``path``, then rename it to
+    ``path``.
 
-    Links and permissions stay. A file that has other hard links or another owner, or that Windows
-    does not replace because another program has it open, is overwritten in place; if that fails its
-    old content is put back. An OSError names ``path`` or its folder.
+    Links and permissions stay. Some files are overwritten in place instead: files with other hard
+    links or another owner, and files that Windows does not replace because another program has them
+    open. If that fails, the old content is restored. Raises an OSError that names ``path`` or its
+    folder.
     """
     path = path_of(path)
     target = Path(os.path.realpath(path))
@@ -57,7 +59,7 @@ def _replace(target: Path, data: bytes) -> None:
                 temporary.chmod(mode)
             try:
                 temporary.replace(target)
-            except PermissionError:  # of Windows, while another program has the file open
+            except PermissionError:  # on Windows, while another program has the file open
                 if old is None:
                     raise
                 _overwrite(target, data)
@@ -84,26 +86,28 @@ def _write(file: BinaryIO, data: bytes) -> None:
 
 
 def zipped(files: Mapping[str, bytes], stored: Collection[str] = ()) -> bytes:
-    """Files as a zip; those named in ``stored`` are not compressed. Equal files, equal bytes."""
+    """Files as a zip. Those named in ``stored`` are not compressed. Equal files give equal
+    bytes."""
     buffer = io.BytesIO()
     with zipfile.ZipFile(buffer, "w") as archive:
         for name, data in files.items():
             method = zipfile.ZIP_STORED if name in stored else zipfile.ZIP_DEFLATED
-            entry = zipfile.ZipInfo(name)  # dated 1980
-            entry.create_system = 3  # Unix, whatever system this is
+            entry = zipfile.ZipInfo(name)  # its date is 1980
+            entry.create_system = 3  # always Unix
             archive.writestr(entry, data, method)
     return buffer.getvalue()
 
 
 def same_file(path: Path, other: Path) -> bool:
-    """Whether two paths name one file, by whatever link, or will once it is made."""
+    """Whether two paths name the same file, also through links, or will once it is made."""
     linked = path.is_file() and other.exists() and path.samefile(other)
     first, second = (os.path.normcase(os.path.realpath(name)) for name in (path, other))
     return linked or first == second
 
 
 def discard(path: Path) -> None:
-    """Delete a file, unless it is gone, or another program has it open and Windows refuses."""
+    """Delete a file. Ignores a missing file, and a refusal by Windows while it is open
+    elsewhere."""
     with contextlib.suppress(FileNotFoundError, PermissionError):
         path.unlink()
 
@@ -112,13 +116,14 @@ _RESERVED = re.compile(r"(con|prn|aux|nul|com\d|lpt\d)(\..*)?", re.IGNORECASE)
 
 
 def portable_name(text: str) -> str:
-    """A file's name made of a text, possible on every system; "" if nothing of it can stay."""
+    """Make a file name that every system accepts from a text; "" if no character is possible."""
     name = re.sub(r'[<>:"/\\|?*\x00-\x1f]+', "_", text).strip(" .")
     return f"_{name}" if _RESERVED.fullmatch(name) else name
 
 
 def read_file(path: str | os.PathLike[str], most: int | None = None) -> bytes:
-    """The bytes of a file; an InputFileError over ``most``, an OSError that names the file."""
+    """The bytes of a file. Raises an InputFileError for more than ``most`` bytes, or an OSError
+    that names the file."""
     path = path_of(path)
     try:
         if path.is_dir():  # Windows would call it a file without permission
@@ -131,7 +136,7 @@ def read_file(path: str | os.PathLike[str], most: int | None = None) -> bytes:
 
 
 def path_of(name: str | os.PathLike[str]) -> Path:
-    """A path that can be a file's; an InputFileError for a null byte or half a character."""
+    """Check a path. Raises an InputFileError for a null byte or an invalid character."""
     try:
         possible = b"\0" not in os.fsencode(name)
     except UnicodeEncodeError:

@@ -1,7 +1,8 @@
 """JAX, imported on first use.
 
 An editor shows its canvas before JAX is imported. Modules import ``jax``, ``jnp``, ``lax`` from
-here; at module level they use :func:`jit` for ``jax.jit``, and :func:`once_loaded` for the rest.
+here. At module level they use :func:`jit` instead of ``jax.jit``, and :func:`once_loaded` for other
+calls.
 """
 
 import functools
@@ -19,19 +20,19 @@ import numpy as np
 from glid_nb._errors import IncompatibleVersionsError, InputError
 
 AnyArray: TypeAlias = "jax.Array | np.ndarray[Any, Any]"
-"""An array on the device or on the host: data for compiled programs may be either."""
+"""An array on the device or on the host. Compiled programs accept both."""
 
-_forked = False  # whether this process is a fork of one that had run JAX
+_forked = False  # whether this process was forked from one that had run JAX
 
 
 class ForkError(InputError):
-    """JAX is asked for in a process in which it cannot run."""
+    """JAX is used in a process in which it cannot run."""
 
 
 def _note_fork() -> None:
-    """Threads do not survive a fork, and JAX waits for its own for ever."""
+    """Threads do not survive a fork, but JAX would wait for its threads forever."""
     global _forked, _lock
-    _lock = threading.RLock()  # a thread that is gone may have held it
+    _lock = threading.RLock()  # a thread that no longer exists may have held the lock
     if (bridge := sys.modules.get("jax._src.xla_bridge")) is not None:
         ran = getattr(bridge, "backends_are_initialized", None)
         _forked = _forked or ran is None or bool(ran())
@@ -42,7 +43,7 @@ if hasattr(os, "register_at_fork"):
 
 
 def check_fork() -> None:
-    """Raise :class:`ForkError` where JAX would hang."""
+    """Raise a :class:`ForkError` if JAX would hang."""
     if _forked:
         what = "this process was forked from one that had run JAX, so JAX would wait here for ever"
         remedy = 'multiprocessing.get_context("spawn") or "forkserver"'
@@ -61,7 +62,7 @@ def once_loaded(action: Callable[[], Any]) -> None:
 
 
 def settle(waits: bool = False) -> None:
-    """Run the pending actions if JAX is imported by now; a thread that imports it does so then."""
+    """Run the pending actions if JAX is imported. If not, the thread that imports it runs them."""
     global _settling
     if not _waiting or "jax" not in sys.modules or not _lock.acquire(blocking=waits):
         return
@@ -69,14 +70,14 @@ def settle(waits: bool = False) -> None:
     try:
         while _waiting and not nested:
             _waiting[0]()
-            del _waiting[0]  # after the call: other threads must wait until it has run
+            del _waiting[0]  # after the call, because other threads must wait until it has run
     finally:
         _settling = nested
         _lock.release()
 
 
 def installed(*names: str) -> str:
-    """``JAX 0.10.2, jaxlib 0.10.2`` for names of distributions; ``jaxlib missing`` for one."""
+    """Versions of distributions as text, such as ``jax 0.10.2, jaxlib missing``."""
 
     def told(name: str) -> str:
         try:
@@ -88,7 +89,7 @@ def installed(*names: str) -> str:
 
 
 def incompatible(problem: str) -> IncompatibleVersionsError:
-    """An error that names the versions; ``problem`` goes on from "glid-nb"."""
+    """An error that names the versions. ``problem`` continues a sentence that begins "glid-nb"."""
     libraries = installed("jax", "jaxlib", "numpy", "scipy", "ml_dtypes")
     return IncompatibleVersionsError(
         f"glid-nb {problem}. Installed are {libraries}; install versions that belong together: "
@@ -97,17 +98,17 @@ def incompatible(problem: str) -> IncompatibleVersionsError:
 
 
 def import_jax(name: str) -> ModuleType:
-    """The module ``name`` of JAX. Raises IncompatibleVersionsError where it cannot be imported."""
+    """The module ``name`` of JAX. Raises an IncompatibleVersionsError if it cannot be imported."""
     try:
         importlib.import_module("jax")
         return importlib.import_module(name)
-    except Exception as error:  # JAX and what it imports raise various ones
+    except Exception as error:  # JAX and its dependencies raise many kinds of errors
         reason = " ".join(str(error).split())
         raise incompatible(f"cannot import {name} ({type(error).__name__}: {reason})") from error
 
 
 class CompiledOnUse:
-    """``jax.jit(function, **options())``, made when it is first called."""
+    """``jax.jit(function, **options())``, made on the first call."""
 
     def __init__(self, function: Callable[..., Any], options: Callable[[], dict[str, Any]]) -> None:
         functools.update_wrapper(self, function)
@@ -132,7 +133,7 @@ if TYPE_CHECKING:
     from jax import Array, jit, lax
     from jaxtyping import Bool, Complex, Float, Int
 else:
-    # Nobody evaluates the shapes in annotations, and importing jaxtyping takes 0.1 s.
+    # Nothing evaluates the shapes in annotations, and importing jaxtyping takes 0.1 s.
     Array, Bool, Complex, Float, Int = Any, Annotated, Annotated, Annotated, Annotated
 
     class _Module:
@@ -144,7 +145,7 @@ else:
             if _forked:
                 check_fork()
             if self._module is None:
-                with _lock:  # threads that import parts of JAX at once find them half made
+                with _lock:  # otherwise parallel imports find parts of JAX half initialised
                     self._module = import_jax(self._name)
             settle(waits=True)
             try:

@@ -1,4 +1,4 @@
-"""Reading and checking JSON files; every error names the key."""
+"""Read and check JSON files. Every error names the key."""
 
 import functools
 import json
@@ -15,23 +15,23 @@ Check = Callable[[Any, str], None]
 Checks = Mapping[str, Check]
 
 MOST_VALUES = 4_000_000
-_EXACT_DIGITS = 300  # integers of fewer are in the range of floating point
+_EXACT_DIGITS = 300  # integers with fewer digits are in the range of floating point
 
 _KINDS = {type(None): "null", bool: "true or false", int: "a number", float: "a number"}
 _KINDS |= {list: "a list", dict: "an object", str: "a string"}
 
 
 def parse_json(raw: bytes, name: str, kind: str = "a JSON file", *, nan: bool = True) -> Any:
-    """The JSON value in the bytes of a file; numbers beyond floating point become infinite.
+    """Parse the bytes of a JSON file. Numbers beyond the range of floating point become infinite.
 
-    NaN and Infinity may be accepted, so that a later check can name their key.
+    With ``nan``, NaN and Infinity are accepted, so that a later check can name their key.
     """
-    # Parsing more takes seconds and gigabytes; the largest documents have half as many.
+    # Parsing more values takes seconds and gigabytes. The largest documents have half as many.
     if raw.count(b",") > MOST_VALUES:
         raise InputFileError(f"{name} is not {kind}: it has over {MOST_VALUES:,} values")
     try:
         return json.loads(
-            raw.decode(json.detect_encoding(raw)),  # UTF-16 too, with or without a mark
+            raw.decode(json.detect_encoding(raw)),  # also UTF-16, with or without a byte order mark
             parse_int=lambda digits: (int if len(digits) < _EXACT_DIGITS else float)(digits),
             parse_constant=float if nan else _refuse_constant,
             object_pairs_hook=_object,
@@ -43,7 +43,8 @@ def parse_json(raw: bytes, name: str, kind: str = "a JSON file", *, nan: bool = 
 
 
 def read_json(path: str | Path) -> Any:
-    """The JSON value in a file; InputFileError for a folder or other content, OSError for none."""
+    """The JSON value in a file. Raises an InputFileError for a folder or other content, an OSError
+    for a missing file."""
     try:
         return parse_json(read_file(path), str(path))
     except IsADirectoryError:
@@ -51,7 +52,7 @@ def read_json(path: str | Path) -> Any:
 
 
 def read_object(path: str | Path) -> dict[str, Any]:
-    """The JSON object in a file, as :func:`read_json`; InputFileError for another value."""
+    """Like :func:`read_json`, but raises an InputFileError if the value is not an object."""
     data = read_json(path)
     if not isinstance(data, dict):
         raise InputFileError(f"{path} must hold a JSON object {{...}}, not {_KINDS[type(data)]}")
@@ -59,12 +60,12 @@ def read_object(path: str | Path) -> dict[str, Any]:
 
 
 def write_json(path: str | Path, data: Mapping[str, Any]) -> None:
-    """Write an object to a file, atomically: a line for each key."""
+    """Write an object to a file atomically, one line per key."""
     write_atomically(path, json_text(data))
 
 
 def json_text(data: Mapping[str, Any]) -> str:
-    """An object as JSON for a file: readable at the top, arrays on one line."""
+    """An object as JSON text: one line per key, arrays on one line."""
     lines = (f" {json.dumps(key)}: {json.dumps(value)}" for key, value in data.items())
     return "{\n" + ",\n".join(lines) + "\n}\n"
 
@@ -72,9 +73,10 @@ def json_text(data: Mapping[str, Any]) -> str:
 def check_fields(
     data: Any, name: str, required: Checks, optional: Checks | None = None, *, others: bool = False
 ) -> None:
-    """Raise InputFileError unless ``data``, called ``name``, is an object of valid keys and values.
+    """Raise an InputFileError unless ``data`` is an object with valid keys and values.
 
-    Optional keys may be missing or null. Other keys are refused unless ``others`` is true.
+    Messages call it ``name``. Optional keys may be missing or null. Other keys are refused unless
+    ``others`` is true.
     """
     check_object(data, name)
     known = {**required, **(optional or {})}
@@ -90,14 +92,14 @@ def check_fields(
 
 
 def keys(*names: str) -> Checks:
-    """Keys whose values are checked where they are used."""
+    """Keys without a check; their values are checked later."""
     return dict.fromkeys(names, lambda _value, _key: None)
 
 
 def checked_version(
     data: Any, kind: str, newest: int = 1, error: type[InputError] = InputFileError
 ) -> int:
-    """The version of what was written with the format ``glid_nb-kind``."""
+    """The version of data in the format ``glid_nb-kind``. Raises ``error`` for other data."""
     wanted, what = f"glid_nb-{kind}", f"this is not a glid_nb {kind}, which is a JSON object"
     if not isinstance(data, Mapping) or data.get("format") != wanted:
         raise error(f'{what}: the key "format" is not "{wanted}"')
@@ -119,13 +121,13 @@ check_text: Check = functools.partial(_check_kind, kind=str)
 
 
 def check_positive(value: Any, key: str) -> None:
-    """A finite number above 0."""
+    """Check that the value is a finite number above 0."""
     if not _is_number(value) or not is_finite(value) or value <= 0:
         raise InputFileError(f'"{key}" must be a positive number, not {_shown(value)}')
 
 
 def picture_size(value: Any, key: str) -> tuple[int, int]:
-    """The pixels of a picture, ``[width, height]``: whole numbers above 0, ``640.0`` too."""
+    """A picture's size, ``[width, height]`` in pixels: whole numbers above 0, also ``640.0``."""
     pair = isinstance(value, list) and len(value) == 2
     if not pair or not all(_is_number(n) and n > 0 and n % 1 == 0 for n in value):
         raise InputFileError(f"{key} must be [width, height] in pixels, not {_shown(value)}")
@@ -133,7 +135,7 @@ def picture_size(value: Any, key: str) -> tuple[int, int]:
 
 
 def check_points(value: Any, key: str) -> None:
-    """A list of ``[x, y]`` pairs of finite numbers."""
+    """Check that the value is a list of ``[x, y]`` pairs of finite numbers."""
     _check_list_of(value, key, "[x, y] pair")
     for i, point in enumerate(value):
         place = f"{key}[{i}] must be"
@@ -144,7 +146,8 @@ def check_points(value: Any, key: str) -> None:
 
 
 def check_loops(value: Any, key: str, each: str = "loop") -> None:
-    """A list of loops, each a list of ``[x, y]`` pairs of finite numbers."""
+    """Check that the value is a list of loops, each a list of ``[x, y]`` pairs of finite
+    numbers."""
     _check_list_of(value, key, each)
     for i, loop in enumerate(value):
         check_points(loop, f"{key}[{i}]")

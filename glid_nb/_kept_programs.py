@@ -1,7 +1,7 @@
-"""A folder of compiled programs, kept between processes. It saves time and nothing depends on it.
+"""A folder of compiled programs, kept between processes. It only saves time.
 
-A program that cannot be read is compiled again. A folder that cannot be written to is told in one
-warning, and the process goes on without it.
+A program that cannot be read is compiled again. If the folder cannot be written to, one warning
+says so, and the process continues without it.
 """
 
 import hashlib
@@ -21,13 +21,13 @@ _CHECKSUM = hashlib.sha256().digest_size
 
 
 class KeptPrograms:
-    """The programs in a folder. Each has a name, and aliases by which it is found too."""
+    """The programs in a folder. Each has a name and may have aliases."""
 
     def __init__(self, folder: Path) -> None:
         self._folder = folder
 
     def by_alias(self, alias: str) -> Any | None:
-        """The program that was last kept under ``alias``; None if there is none."""
+        """The program that was last saved under ``alias``; None if there is none."""
         try:
             name = self._read(alias).decode("ascii")
         except UnicodeDecodeError:
@@ -43,16 +43,17 @@ class KeptPrograms:
         stage("load")
         try:
             return library.deserialize_and_load(*pickle.loads(zlib.decompress(content)))
-        except Exception:  # another version wrote it: whatever its classes and JAX raise
+        except Exception:  # a file of another version can raise any error
             return None
 
     def keep(self, program: Any, name: str, aliases: Iterable[str]) -> None:
-        """Write a compiled program and its aliases, or warn once that this is not possible."""
+        """Write a compiled program and its aliases. If that is not possible, one warning says
+        so."""
         if is_refused(self._folder) or (library := executables()) is None:
             return
         try:
             content = zlib.compress(pickle.dumps(library.serialize(program)), 1)
-        except Exception as error:  # JAX's own, of many kinds
+        except Exception as error:  # JAX raises many kinds of errors
             refuse(self._folder, f"this JAX cannot write them: {error}")
             return
         self._write(name, hashlib.sha256(content).digest() + content)
@@ -60,11 +61,11 @@ class KeptPrograms:
             self.name_again(name, alias)
 
     def name_again(self, name: str, alias: str) -> None:
-        """Make the program ``name`` known as ``alias``, too."""
+        """Add an alias to the program ``name``."""
         self._write(alias, name.encode("ascii"))
 
     def _read(self, name: str) -> bytes:
-        """The bytes of a file; none if it is not there, cannot be read, or is somebody else's."""
+        """The bytes of a file; empty if it is missing, cannot be read, or has another owner."""
         path = self._folder / name
         try:
             if not path.is_file():
@@ -88,9 +89,9 @@ class KeptPrograms:
 
 
 def _is_trusted(path: Path) -> bool:
-    """Whether nobody but this user and the administrator may have written a program.
+    """Whether this user or the administrator wrote a program.
 
-    To load one is to run it.
+    Loading a program executes it, so programs of other users must not be loaded.
     """
     owners = _trusted_owners()
     return owners is None or path.stat().st_uid in owners

@@ -1,8 +1,9 @@
-"""Compiled programs that are kept, as executables, between processes.
+"""Compiled programs that are kept as executables between processes.
 
-In JAX's own cache a program is found once it is traced and lowered, which takes four times as long
-as reading it. Here it is found by the arguments that it is called with, as long as the package's
-files are the same, and else by its lowered text. Its stages can be watched (`_runtime.watched`).
+JAX's own cache finds a program only after tracing and lowering it, which takes four times as long
+as reading it. This cache finds a program by the types of its arguments, as long as the package's
+files have not changed. After a change it finds it by its lowered text. `_runtime.watched` observes
+the stages.
 """
 
 import functools
@@ -22,29 +23,30 @@ from glid_nb._jax import jax
 from glid_nb._kept_programs import KeptPrograms
 from glid_nb._runtime import default_device, jax_option, stage
 
-_MOST_LOADED = 4  # of 15 MB each; one solve uses up to four
+_MOST_LOADED = 4  # programs in memory, 15 MB each; one solve uses up to four
 
 
 class Program:
-    """A function compiled once for each kind of arguments, also where several threads want it.
+    """A function compiled once for each combination of argument types, also with several threads.
 
-    Of those in files the few that were used last stay in memory. The call takes its argument number
-    ``donated``. ``may_keep(*arguments)`` says whether their types and our own code tell what is
-    compiled.
+    Of the programs in files, the few that were used last stay in memory. A call destroys the
+    argument number ``donated``. ``may_keep(*arguments)`` returns whether the arguments' types and
+    our own code determine the compiled program.
     """
 
     def __init__(
         self, function: Callable[..., Any], donated: int, may_keep: Callable[..., bool]
     ) -> None:
         self._function, self._donated, self._may_keep = function, donated, may_keep
-        self._ready, self._last_use = dict[Any, Any](), dict[Any, float]()  # of those in files
+        # The last uses are recorded for programs in files only.
+        self._ready, self._last_use = dict[Any, Any](), dict[Any, float]()
         self._locks: defaultdict[Any, threading.Lock] = defaultdict(threading.Lock)
 
     def __call__(self, *arguments: Any) -> Any:
         leaves, tree = jax.tree.flatten(arguments)
         key = (default_device(), tree, *map(jax.typeof, leaves))
         if (ready := self._ready.get(key)) is None:
-            with self._locks[key]:  # a second thread waits for what the first compiles
+            with self._locks[key]:  # a second thread waits for the first one to compile
                 if (ready := self._ready.get(key)) is None:
                     ready = self._ready[key] = self._loaded_or_made(key, arguments)
         if key in self._last_use:
@@ -63,8 +65,8 @@ class Program:
         alias = f"glid_nb_arguments_{_digest(repr((_package_files(), key)))}"
         if (known := programs.by_alias(alias)) is not None:
             return known
-        # With a name of its own JAX's cache does not know it: what comes from there loses its
-        # functions when it is kept again.
+        # A unique name keeps the program out of JAX's own cache. A program from that cache would
+        # lose its functions when it is written again.
         own = f"_{uuid.uuid4().hex}"
         lowered = self._lowered(arguments, own)
         # The arguments too: another version may nest the same arrays in other classes.
@@ -97,10 +99,10 @@ class Program:
 
 
 def can_keep_for(device: Any) -> bool:
-    """Whether executables for a device are kept: a CPU's, as long as it is JAX's only device.
+    """Whether executables for a device are kept: for a CPU, if it is JAX's only device.
 
-    They are read for all devices of JAX's default platform, which on a machine with a GPU is that,
-    also where a caller chose the CPU.
+    JAX loads executables for all devices of its default platform. On a machine with a GPU this is
+    the GPU, even if the caller chose the CPU.
     """
     return device.platform == jax.default_backend() == "cpu" and jax.device_count() == 1
 
@@ -111,7 +113,7 @@ def _digest(text: str) -> str:
 
 @functools.cache
 def _here() -> tuple[Any, ...]:
-    """What every program depends on: the libraries, their flags and the processor."""
+    """The libraries, their flags and the processor, on which every program depends."""
     return version("jax"), version("jaxlib"), os.environ.get("XLA_FLAGS"), processor()
 
 

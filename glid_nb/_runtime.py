@@ -37,7 +37,7 @@ _limiter: Any = None
 
 
 def _unlock() -> None:
-    """In a forked process: a thread that is gone may have held the lock."""
+    """Replace the lock in a forked process: a thread that no longer exists may have held it."""
     global _lock
     _lock = threading.Lock()
 
@@ -48,7 +48,8 @@ if hasattr(os, "register_at_fork"):
 
 @contextmanager
 def watched(by: Callable[[str], None]) -> Iterator[None]:
-    """Call ``by`` with the name of every stage that begins within; what it raises ends the work."""
+    """Call ``by`` with the name of every stage that begins inside the context. An exception of
+    ``by`` ends the work."""
     token = _watcher.set(by)
     try:
         yield
@@ -57,7 +58,7 @@ def watched(by: Callable[[str], None]) -> Iterator[None]:
 
 
 def stage(name: str) -> None:
-    """Tell whoever watches this thread that a stage of its work begins."""
+    """Tell the watcher of this thread, if any, that a stage of the work begins."""
     if (by := _watcher.get()) is not None:
         by(name)
 
@@ -66,13 +67,13 @@ def stage(name: str) -> None:
 def single_blas_thread() -> Iterator[None]:
     """Limit BLAS to one thread while solver calls run.
 
-    XLA runs Cholesky on SciPy's BLAS, whose threads compete with XLA's own: a 384 x 384
-    factorisation took up to 240 ms instead of 1 ms. All uses of the process share one limiter.
+    XLA runs Cholesky on SciPy's BLAS, whose threads compete with XLA's own threads. A 384 x 384
+    factorisation took up to 240 ms instead of 1 ms. The whole process shares one limiter.
     """
     global _depth, _limiter
     with _lock:
         if _depth == 0:
-            # The limit may be lifted from another thread, so control is released after each change.
+            # Another thread may lift the limit, so control is released after each change.
             release_blas()
             _limiter = _controller().limit(limits=1, user_api="blas")
             release_blas()
@@ -95,18 +96,18 @@ def _controller() -> ThreadpoolController:
 
 
 def blas_libraries() -> list[str]:
-    """The BLAS libraries of this process, as ``openblas 0.3.30, 2 threads``."""
+    """The BLAS libraries of this process, for example ``openblas 0.3.30, 2 threads``."""
     found = [one for one in _controller().info() if one["user_api"] == "blas"]
     return [f"{b['internal_api']} {b['version']}, {b['num_threads']} threads" for b in found]
 
 
 def double_precision(function: Callable[P, R]) -> Callable[P, R]:
-    """Run ``function`` with 64-bit JAX types and products in full precision, whatever the caller's
-    JAX configuration says, and leave that alone.
+    """Run ``function`` with 64-bit JAX types and matrix products in full precision.
 
-    By default a GPU multiplies single precision matrices in TF32, which has 10 bits; and with
-    ``jax_default_matmul_precision`` a caller may have asked for less in double precision too, of
-    which the certificate knows nothing.
+    This is independent of the caller's JAX configuration and does not change it. By default, a GPU
+    multiplies single precision matrices in TF32, which has 10 bits. With
+    ``jax_default_matmul_precision`` a caller may also have reduced the precision of double
+    precision products. The certificate does not allow for this.
     """
 
     @functools.wraps(function)
@@ -121,13 +122,13 @@ def double_precision(function: Callable[P, R]) -> Callable[P, R]:
 def in_chunks(
     program: Callable[..., R], n_columns: int, rows: Sequence[NDArray[Any]], *fixed: Any
 ) -> R:
-    """``program(*rows, *fixed)``, in chunks whose matrices of ``n_columns`` stay in the cache.
+    """``program(*rows, *fixed)``, in chunks of rows whose matrices fit in the processor's cache.
 
-    It returns a pytree of NumPy arrays with one row per row, of which there may be none. What
-    overflows or is not defined there warns of nothing.
+    The matrices have ``n_columns``. ``program`` returns a pytree of NumPy arrays with one row for
+    each given row; there may be no rows. Overflows and undefined results give no warnings.
     """
     size, parts = max(_CHUNK_ELEMENTS // n_columns, 1), []
-    # Before SciPy's BLAS is loaded no solver runs beside it.
+    # If SciPy's BLAS is not loaded, no solver is running.
     limited = single_blas_thread() if "scipy.linalg" in sys.modules else nullcontext()
     with np.errstate(all="ignore"), limited:
         for first in range(0, max(len(rows[0]), 1), size):
@@ -137,7 +138,7 @@ def in_chunks(
 
 
 def _joined(parts: Sequence[Any]) -> Any:
-    """Arrays, or tuples and dicts of them, put together; without importing JAX."""
+    """Concatenate arrays, or tuples and dicts of them, without importing JAX."""
     first = parts[0]
     if first is None:
         return None
@@ -165,18 +166,18 @@ def _directory(own: str, common: str, usual: str) -> Path:
     if not (base := os.environ.get(common)):
         try:
             base = Path.home() / usual
-        except RuntimeError:  # a user without a name and a home, as in containers
+        except RuntimeError:  # a user without a name and a home directory, as in containers
             return Path(tempfile.gettempdir()) / f"glid_nb-{os.getuid()}"
     return Path(base) / "glid_nb"
 
 
 def jax_option(name: str) -> Any:
-    """The value of an option of JAX's, which are known at run time only."""
+    """The value of an option of JAX. Type checkers do not know these options."""
     return getattr(jax.config, name)
 
 
 def default_device() -> Any:
-    """The device on which JAX computes here; its own option may also name a platform only."""
+    """The device on which JAX computes. JAX's option may also name only a platform."""
     chosen = jax_option("jax_default_device")
     if chosen is None or isinstance(chosen, str):
         return jax.local_devices(backend=chosen)[0]
@@ -184,11 +185,11 @@ def default_device() -> Any:
 
 
 def enable_compilation_cache() -> Path | None:
-    """Keep compiled programs in :func:`cache_directory` between processes; returns that folder.
+    """Keep compiled programs in :func:`cache_directory` between processes. Returns the folder.
 
-    JAX has one such setting per process, so the command line and the editor call this; importing
-    the package and ``solve`` do not. A folder that the user configured before stays in use. Where
-    nothing can be written, one warning says so, and the answer is None.
+    JAX has one such setting per process. So the command line and the editor call this, but
+    importing the package and ``solve`` do not. A folder that the user configured before stays in
+    use. If the folder cannot be written to, one warning says so, and the result is None.
     """
     if configured := jax_option("jax_compilation_cache_dir"):
         return Path(configured)
@@ -198,7 +199,7 @@ def enable_compilation_cache() -> Path | None:
     jax.config.update("jax_compilation_cache_dir", str(folder))
     # Keep small programs too: reading them all takes a quarter of the time of compiling them.
     jax.config.update("jax_persistent_cache_min_compile_time_secs", 0.0)
-    # Should the folder fail later, one warning is enough, which is ours.
+    # If the folder fails later, our own warning is enough.
     warnings.filterwarnings("ignore", "Error (reading|writing) persistent compilation cache entry")
     return folder
 
@@ -208,7 +209,8 @@ _COMPILING = tuple(f"/jax/core/compile/{stage}_duration" for stage in _STAGES)
 
 
 class CompilationClock:
-    """Counts the programs that JAX traces, lowers, and compiles or loads, and the seconds of it."""
+    """Counts the programs that JAX compiles or loads, and the seconds of tracing, lowering and
+    compiling."""
 
     programs, seconds = 0, 0.0
 
@@ -221,4 +223,4 @@ class CompilationClock:
             self.programs += event == _COMPILING[-1]
 
 
-compilation_clock = functools.cache(CompilationClock)  # the process's one clock
+compilation_clock = functools.cache(CompilationClock)  # one clock per process

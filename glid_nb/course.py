@@ -1,4 +1,7 @@
-"""Checks of the course's exercises, ``with check("exercise 1"): assert ...``; what it shows."""
+"""Helpers of the course: checks of exercises, figures with sliders, and domains.
+
+An exercise is checked by ``with check("exercise 1"): assert ...``.
+"""
 
 import importlib.util
 import re
@@ -13,7 +16,8 @@ from glid_nb._errors import InputError
 from glid_nb.geometry import Cage, Domain, as_points
 from glid_nb.geometry._loops import subdivided
 
-_DISTRIBUTIONS = {"igl": "libigl", "glid_check": "glid-check"}  # where they differ from the import
+# Names of distributions that differ from the imported name.
+_DISTRIBUTIONS = {"igl": "libigl", "glid_check": "glid-check"}
 
 
 class MissingPackageError(InputError):
@@ -21,10 +25,10 @@ class MissingPackageError(InputError):
 
 
 def needs(*packages: str, without: str | None = None) -> None:
-    """Say in a sentence which of these packages, named as imported, are not installed.
+    """Print a sentence that names the packages (by their import names) that are not installed.
 
-    ``without`` names what the chapter then leaves out. A chapter that cannot run without them gives
-    none, and a :class:`MissingPackageError` is raised.
+    ``without`` names the parts that the chapter then leaves out. If the chapter cannot run without
+    the packages, leave ``without`` out; then a :class:`MissingPackageError` is raised.
     """
     missing = [name for name in packages if importlib.util.find_spec(name) is None]
     if not missing:
@@ -39,7 +43,7 @@ def needs(*packages: str, without: str | None = None) -> None:
 
 @contextmanager
 def check(name: str) -> Iterator[None]:
-    """Print whether the assertions of a block hold; whatever goes wrong in it ends there.
+    """Print whether the assertions of a block hold. All exceptions in the block are caught.
 
     >>> with check("exercise 1"):
     ...     assert 1 + 1 == 3, "the sum is not 3"
@@ -60,7 +64,8 @@ def check(name: str) -> Iterator[None]:
 
 
 def interact(show: Callable[..., Any], **sliders: Any) -> ipywidgets.VBox:
-    """The figure that ``show`` makes, by sliders. nbclient may wait for ever for Output widgets."""
+    """The figure that ``show`` makes, with sliders for its arguments. It uses no Output widget,
+    because nbclient may wait for one forever."""
     picture = ipywidgets.Image()
 
     def draw(_: Any = None) -> None:

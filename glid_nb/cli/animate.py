@@ -1,10 +1,11 @@
 """Make a moving picture from the poses of a session.
 
-SOURCE is a session (.glid), whose poses are the keyframes, as its timeline has them, or a file of
-`Motion.save`, which needs --picture. The suffix of --out says the format: .gif, .apng, .mp4 and
-.webm (with the extra `video`), .html for a page, .glb for a mesh with morph targets, .sheet.png for
-a sprite sheet with its JSON, .zip for frames as PNG, none for a folder of them, .motion.json for
-the motion and, as .motion.proof.json, what `glid-check` proves of it.
+SOURCE is a session (.glid) or a file of `Motion.save`. The poses of a session are the keyframes, at
+the times of its timeline. A file of `Motion.save` needs --picture. The suffix of --out selects the
+format: .gif, .apng, .mp4 and .webm (with the extra `video`), .html for a page, .glb for a mesh with
+morph targets, .sheet.png for a sprite sheet with its JSON, .zip for frames as PNG, no suffix for a
+folder of frames. .motion.json writes the motion, and its proof for `glid-check` to
+.motion.proof.json.
 """
 
 import argparse
@@ -64,7 +65,7 @@ def _read(chosen: argparse.Namespace) -> tuple[Any, glid_nb.Motion, list[glid_nb
             raise InputFileError(f"{chosen.source} holds {count} poses; a motion needs at least 2")
         if chosen.picture is not None:
             raise InputError("--picture is for saved motions; a session holds its picture")
-        if document.unsolved:  # it was saved while the solver was paused, or by an older version
+        if document.unsolved:  # saved while the solver was paused, or by an older version
             with step("solving the poses that were saved unsolved") as detail:
                 document = solved_document(document, detail)
         timeline = document.timeline or replace(Timeline.even(count), repeat="loop")

@@ -1,9 +1,10 @@
-"""From a picture to a certified deformation, with everything to look at.
+"""Make a certified deformation of a picture, and write all results.
 
-Traces the cage, poses it, solves, and writes into --out: deformed.png (the deformed picture),
-overview.png (a figure with all of it), cage.json, map.json and report.json. IMAGE is a file or the
-name of a bundled sample (see `glid-nb samples`). Without --pose a sample takes its gentle pose;
-for any other picture handles are placed automatically and one or two of them moved.
+The command traces the cage, poses it, solves, and writes into --out: deformed.png (the deformed
+picture), overview.png (a figure of the whole solve), cage.json, map.json and report.json. IMAGE is
+a file or the name of a bundled sample (see `glid-nb samples`). Without --pose, a sample gets its
+gentle pose. For any other picture, handles are placed automatically, and one or two of them are
+moved.
 """
 
 import argparse
@@ -23,7 +24,7 @@ from glid_nb.cli.trace import cage_data, size_in_words
 DEFAULT_SAMPLE = "gecko"
 DEFAULT_POSE = "gentle"
 _FILES = ("deformed.png", "overview.png", "cage.json", "map.json", "report.json")
-_CROPPED = 1e-3  # the picture is zoomed out if more than this share of the shape leaves its frame
+_CROPPED = 1e-3  # zoom out if more than this share of the shape lies outside the picture's frame
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -57,7 +58,7 @@ def run(chosen: argparse.Namespace) -> None:
     result, report = run_solver(domain, pose, energy, options)
     assert isinstance(result.map, glid_nb.HarmonicMap)
     with step("rendering"):
-        # Slow to import, and --help does not need it.
+        # This import is slow, and --help does not need it.
         from glid_nb.imaging.render import share_outside  # noqa: PLC0415
 
         cropped = share_outside(result.map, tracing.frame) > _CROPPED
@@ -84,7 +85,8 @@ def run(chosen: argparse.Namespace) -> None:
 
 
 def _source(image: str) -> tuple[Path, str | None]:
-    """The picture's file, and the sample's name if it is one. A file of that name has priority."""
+    """The picture's file, and the sample's name if it is a sample. A file with the name of a sample
+    has priority."""
     if Path(image).exists():
         return Path(image), None
     names = glid_nb.samples.names()

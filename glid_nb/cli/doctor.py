@@ -1,6 +1,6 @@
-"""Tell what is installed and what works, on one screen to paste into a bug report.
+"""Show what is installed and what works, on one screen to paste into a bug report.
 
-The exit code is 1 where something keeps glid-nb from working.
+The exit code is 1 if a problem keeps glid-nb from working.
 """
 
 import argparse

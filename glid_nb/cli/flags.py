@@ -1,7 +1,7 @@
 """The flags of the energy, the solver and the tracing, made from the fields that they set.
 
-A flag that is not given is None and leaves its field at the library's default. The library checks
-the values and lists the choices.
+A missing flag is None and leaves its field at the library's default. The library checks the values
+and lists the choices.
 """
 
 import argparse
@@ -17,7 +17,7 @@ from glid_nb.energies import ENERGIES
 _WITH_S = " and ".join(name for name, energy in ENERGIES.items() if "s" in energy.parameters())
 
 _PIXEL = {"type": float, "nargs": 2, "metavar": ("X", "Y")}
-_ARGUMENTS: dict[Any, dict[str, Any]] = {  # what argparse is told of a field, by its annotation
+_ARGUMENTS: dict[Any, dict[str, Any]] = {  # argparse's keywords for each annotation of a field
     bool: {"action": argparse.BooleanOptionalAction},
     int: {"type": int, "metavar": "N"},
     float: {"type": float, "metavar": "X"},
@@ -43,7 +43,7 @@ def add_trace_flags(parser: argparse.ArgumentParser) -> None:
 
 
 def _add_flags(group: Any, settings: Any) -> None:
-    """A flag for every field of a dataclass, ``--keep-hole`` for ``keep_holes``."""
+    """Add a flag for every field of a dataclass, for example ``--keep-hole`` for ``keep_holes``."""
     for field in dataclasses.fields(settings):
         kind, flag = field_kinds(settings)[field.name], f"--{field.name.replace('_', '-')}"
         if type(None) in get_args(kind):
@@ -61,7 +61,8 @@ def _add_flags(group: Any, settings: Any) -> None:
 
 
 def energy_of(chosen: argparse.Namespace) -> glid_nb.Energy:
-    """The chosen energy; InputError for an unknown name, or --s for an energy without it."""
+    """The chosen energy. Raises an InputError for an unknown name, or for --s with an energy that
+    has no s."""
     energy = glid_nb.energy_by_name(chosen.energy, chosen.s)
     if chosen.s is not None and not hasattr(energy, "s"):
         raise glid_nb.InputError(f"--s is the parameter of {_WITH_S}; {energy.name} has none")
@@ -80,6 +81,6 @@ def trace_options_of(chosen: argparse.Namespace) -> glid_nb.TraceOptions:
 
 
 def _given(chosen: argparse.Namespace, kind: Any) -> dict[str, Any]:
-    """The fields of a dataclass whose flags are given, with their values."""
+    """The values of the given flags, by the names of the dataclass's fields."""
     known = field_kinds(kind)
     return {k: value for k, value in vars(chosen).items() if k in known and value is not None}

@@ -1,7 +1,7 @@
 """Open JupyterLab on the editor's notebook.
 
-The notebook is copied into the folder as editor.ipynb, unless there is one already. Arguments
-after `--` are passed to JupyterLab.
+The notebook is copied into the folder as editor.ipynb, unless this file exists. Arguments after
+`--` are passed to JupyterLab.
 """
 
 import argparse
@@ -51,7 +51,7 @@ def become(command: list[str]) -> None:
 
 
 def _bundled_notebook() -> Path:
-    """The editor's notebook: in an installed package, or beside it in a checkout."""
+    """The editor's notebook: inside an installed package, or beside the package in a checkout."""
     for folder in Path(glid_nb.__file__).resolve().parents[:2]:
         if (folder / _BUNDLED).is_file():
             return folder / _BUNDLED

@@ -44,14 +44,14 @@ def build_parser() -> argparse.ArgumentParser:
 
 
 def _escape_what_cannot_be_printed() -> None:
-    """Print a sign that the console lacks as an escape, such as \\u03c3: it must end no command."""
+    """Print characters that the console lacks as escapes, such as \\u03c3, without an error."""
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper):
             stream.reconfigure(errors="backslashreplace")
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Run one command; the exit code is 0, 1 for bad input, 2 for wrong usage, 130 after Ctrl-C.
+    """Run one command. The exit code is 0, 1 for bad input, 2 for wrong usage, 130 after Ctrl-C.
 
     ``arguments`` are the words after ``glid-nb``, by default those of the process.
     """

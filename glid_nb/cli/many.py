@@ -1,4 +1,4 @@
-"""Where results go: a file, standard output, or a folder for those of many inputs."""
+"""The destination of results: a file, standard output, or a folder for many inputs."""
 
 import os
 import sys
@@ -11,14 +11,14 @@ from glid_nb.cli.output import BAD_INPUT, STANDARD_OUTPUT, check_folder, one_lin
 
 
 class Destination(NamedTuple):
-    """What a flag such as ``--out`` names."""
+    """The destination that a flag such as ``--out`` names."""
 
     path: Path
-    is_folder: bool  # it is written with a slash at its end, or is there
+    is_folder: bool  # the text ends with a slash, or the folder exists
 
 
 def destination(text: str) -> Destination:
-    """The argument of a flag, for argparse; ``-`` is standard output, ``./-`` a file."""
+    """Parse the argument of a flag, for argparse. ``-`` is standard output, ``./-`` a file."""
     if text == "-":
         return Destination(STANDARD_OUTPUT, False)
     path = Path(text)
@@ -28,9 +28,10 @@ def destination(text: str) -> Destination:
 def planned(
     inputs: Sequence[Path], flag: str, to: Destination | None, suffix: str
 ) -> list[Path | None]:
-    """The file of each input's result: in a folder, which is made, those of their names.
+    """The file of each input's result. In a folder, the files have the inputs' names.
 
-    An InputFileError for many results that one file cannot hold, or two of one name.
+    A missing folder is made. Raises an InputFileError for many results with only one file, or for
+    two results with the same name.
     """
     if to is None:
         return [None] * len(inputs)
@@ -58,7 +59,7 @@ def planned(
 
 
 def for_each(inputs: Sequence[Path], run: Callable[[int], None], debug: bool = False) -> None:
-    """Run every input, those too that come after one that fails; an InputError at the end, then."""
+    """Run every input, also after one that fails. Raises an InputError at the end if any failed."""
     if len(inputs) == 1:
         run(0)
         return
@@ -78,6 +79,6 @@ def for_each(inputs: Sequence[Path], run: Callable[[int], None], debug: bool = F
 
 
 def refuse_standard_output(path: Path, flag: str, needs: str) -> None:
-    """Raise an InputFileError for ``-`` where a command writes what one stream cannot hold."""
+    """Raise an InputFileError for ``-`` if a command's results do not fit one stream."""
     if str(path) == "-":
         raise InputFileError(f"{flag} -: {needs}")

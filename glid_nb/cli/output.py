@@ -1,4 +1,4 @@
-"""What a command tells: where results go, progress, a solve that Ctrl-C stops, the summary."""
+"""Output of a command: writing results, progress, a solve that Ctrl-C stops, the summary."""
 
 import json
 import signal
@@ -17,9 +17,9 @@ from glid_nb._files import same_file, write_atomically
 from glid_nb._json import json_text
 from glid_nb.certificate.rounding import rounded_down, rounded_up
 
-PATIENCE = 1.0  # seconds before a step is announced
-_REFRESH = 0.2
-_REPEAT = 15.0  # seconds between lines where they are kept, as in a log file
+PATIENCE = 1.0  # seconds before a step is reported
+_REFRESH = 0.2  # seconds between updates of the line in a terminal
+_REPEAT = 15.0  # seconds between lines in a log file
 _TIMES = {"compile": 2, "solve": 3, "certify": 3}
 _LONG = ("history", "attempts", "refinements", "options", "versions", "machine")
 _BASIS = "{unknowns} unknowns: {energy:.6g}, {solve_time:.3f} s"
@@ -28,7 +28,8 @@ _INJECTIVE["undecided"] = "locally; globally undecided"
 
 
 BAD_INPUT = (OSError, InputError)
-"""Errors told in one line. Any other, a plain ValueError too, is a bug and keeps its traceback."""
+"""Errors reported in one line. Any other error, also a plain ValueError, is a bug and keeps its
+traceback."""
 
 
 def one_line(error: BaseException) -> str:
@@ -39,7 +40,7 @@ def one_line(error: BaseException) -> str:
 
 
 STANDARD_OUTPUT = Path("standard output")
-"""Stands for ``-``; compared by identity, so that a file may have any name."""
+"""Stands for ``-``. It is compared by identity, so that a file may have any name."""
 
 
 def write(path: Path, data: bytes | str) -> None:
@@ -57,13 +58,14 @@ def write(path: Path, data: bytes | str) -> None:
 
 
 def tell(text: str, *results: Path | None) -> None:
-    """Print what was done, on stderr where standard output holds a result."""
+    """Print what was done; on stderr if standard output holds a result."""
     occupied = any(path is STANDARD_OUTPUT for path in results)
     print(text, file=sys.stderr if occupied else sys.stdout)
 
 
 def check_files(outputs: Iterable[Path | None], inputs: Iterable[str | Path | None]) -> None:
-    """Raise an error if a file cannot be made, or is an input or another output; skip None."""
+    """Raise an error if an output file cannot be made, or is also an input or another output. None
+    is skipped."""
     taken = [(Path(path), "it is read too") for path in inputs if path is not None]
     for path in outputs:
         if path is None or path is STANDARD_OUTPUT:
@@ -87,14 +89,15 @@ def check_folder(path: Path) -> None:
 
 @contextmanager
 def step(doing: str) -> Iterator[Callable[[str], None]]:
-    """Run a step, told on stderr when it takes long; yields what sets the detail to be told."""
+    """Run a step, and report it on stderr if it takes long. Yields a function that sets the
+    reported detail."""
     out, details = sys.stderr, list[str]()
     done, start, live = threading.Event(), time.perf_counter(), out.isatty()
-    width = 0  # of the line that a terminal shows
+    width = 0  # of the line in the terminal
 
     def write(text: str) -> None:
         nonlocal width
-        # Spaces erase on every terminal; older consoles of Windows print escape sequences.
+        # Erase with spaces: older consoles of Windows print escape sequences as text.
         out.write(f"\r{' ' * width}\r{text}" if live else f"glid-nb: {text}\n")
         out.flush()
         width = len(text)
@@ -110,7 +113,7 @@ def step(doing: str) -> Iterator[Callable[[str], None]]:
             write(line() if live else f"{line()} ...")
         write("" if live else line())
 
-    # The step may be one long call into compiled code, so another thread reports.
+    # Another thread reports, because the step may be one long call into compiled code.
     reporter = threading.Thread(target=report, daemon=True)
     reporter.start()
     try:
@@ -128,9 +131,9 @@ def run_solver(
     start: glid_nb.HarmonicMap | None = None,
     refine: bool = False,
 ) -> tuple[glid_nb.Result, dict[str, Any]]:
-    """The result, with ``refine`` that of the finest basis worth it, and its report.
+    """Solve. Returns the result and its report. ``refine`` also solves with finer bases.
 
-    Ctrl-C ends the solve with the last certified map; a second Ctrl-C raises KeyboardInterrupt.
+    Ctrl-C ends the solve with the last certified map. A second Ctrl-C raises KeyboardInterrupt.
     """
     glid_nb.enable_compilation_cache()
     doing = "solving (new shapes are compiled first; Ctrl-C stops)"
@@ -140,7 +143,7 @@ def run_solver(
             if state.history:
                 last = state.history[-1]
                 detail(f"iteration {last.iteration}, energy {last.energy:.6g}")
-            else:  # the first step was refused, so panels are split first
+            else:  # the first step was refused, so panels are being split
                 detail("before the first iteration, splitting panels")
             return interrupted()
 
@@ -153,7 +156,7 @@ def run_solver(
 
 @contextmanager
 def _interruptible() -> Iterator[Callable[[], bool]]:
-    """Turn the first Ctrl-C into a request; yields a function that tells whether it was made."""
+    """Turn the first Ctrl-C into a request. Yields a function that returns whether it was made."""
     asked = threading.Event()
 
     def ask(signal_number: int, frame: Any) -> None:
@@ -169,7 +172,7 @@ def _interruptible() -> Iterator[Callable[[], bool]]:
 
 
 def map_text(map: glid_nb.HarmonicMap, image_size: Sequence[int] | None, pose: glid_nb.Pose) -> str:
-    """The content of map.json, with the picture's size if known and depths for `glid-nb render`."""
+    """The content of map.json, with the picture's size if known and the depths of handles."""
     size = {} if image_size is None else {"image_size_px": image_size}
     return json_text({**map.to_dict(), **size, **(pose.to_dict() if pose.depths.any() else {})})
 
@@ -182,9 +185,9 @@ def finish(
     rows: Iterable[tuple[str, str]] = (),
     **extra: Any,
 ) -> None:
-    """Write the files and print the summary, with ``extra`` as JSON or with ``rows`` as text.
+    """Write the files and print the summary, as JSON with ``extra`` or as text with ``rows``.
 
-    Raises KeyboardInterrupt after a solve that Ctrl-C stopped, InputError where nothing is proved.
+    Raises KeyboardInterrupt after a solve that Ctrl-C stopped, InputError if nothing is proved.
     """
     for path, data in files.items():
         write(path, data)
@@ -200,7 +203,7 @@ def finish(
 
 
 def summary_text(report: Any, files: Iterable[Path], rows: Iterable[tuple[str, str]] = ()) -> str:
-    """The report on one screen: ``rows`` of (name, text) and ``files`` too."""
+    """The report as text for one screen, with ``rows`` of (name, text) and ``files``."""
     named = [path for path in files if path is not STANDARD_OUTPUT]
     folders = groupby(named, key=lambda path: path.parent)
     written = [f"{folder}: {', '.join(path.name for path in f)}" for folder, f in folders]

@@ -1,13 +1,13 @@
 """Warp a picture through a map.
 
-The picture must be the one that the map's cage was traced from, or one of the same size; another
-is refused. Its longer side is 20 world units. Maps without image_size_px do not tell the size:
-their cage must then lie on the picture. A line on stderr says which map is not proved injective.
-Of many maps --out is a folder, and one that fails does not stop the others. `--out -` is standard
+The picture must be the one from which the map's cage was traced, or one of the same size. Other
+pictures are refused. The picture's longer side is 20 world units. If a map has no image_size_px,
+its cage must lie on the picture. A line on stderr names each map that is not proved injective. For
+many maps, --out is a folder, and a map that fails does not stop the others. `--out -` is standard
 output.
 
-With --interpolation nearest no value is invented: label images stay label images. The picture may
-then be a .npy or .tif file of any numbers and channels, too, and so may the result.
+With --interpolation nearest, values are never mixed, so label images stay label images. Then the
+picture and the result may also be .npy or .tif files of any numbers and channels.
 """
 
 import argparse
@@ -56,7 +56,7 @@ def run(chosen: argparse.Namespace) -> None:
             raise InputFileError(f"{out}: {what}; name a file that ends in {' or '.join(allowed)}")
     check_files(results, [chosen.image, *chosen.map])
     glid_nb.enable_compilation_cache()
-    # Slow to import, and --help does not need it.
+    # This import is slow, and --help does not need it.
     from glid_nb.imaging.values import Values, read_values  # noqa: PLC0415
 
     picture = read_values(chosen.image) if nearest else glid_nb.read_image(chosen.image)

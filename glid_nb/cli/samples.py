@@ -1,4 +1,4 @@
-"""List the bundled sample pictures, which `glid-nb demo` takes by name."""
+"""List the bundled sample pictures. `glid-nb demo` accepts their names."""
 
 import argparse
 import json

@@ -1,10 +1,10 @@
 """Solve a problem given as a file, and write the map and a report.
 
-PROBLEM.json is an object with the keys cage, holes, handles and targets (world coordinates);
-offset, offset_cage, offset_holes, hole_points, angles, scales and weights (of the handles) are used
-when given, and image_size_px and depths go into the map. Without --report only the map is written,
-without --out only the report. Of many problems these are folders, and one that fails does not stop
-the others. One of them may be `-`, standard output.
+PROBLEM.json is an object with the keys cage, holes, handles and targets (world coordinates). The
+keys offset, offset_cage, offset_holes, hole_points, angles, scales and weights (of the handles) are
+optional. image_size_px and depths are copied into the map. Without --report only the map is
+written, without --out only the report. For many problems, both are folders, and a problem that
+fails does not stop the others. One of them may be `-`, standard output.
 """
 
 import argparse

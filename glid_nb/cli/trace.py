@@ -1,10 +1,10 @@
 """Trace the cage of a shape, with its holes, from a picture.
 
-The result holds the cage and its holes in world coordinates (y up, origin at the picture's centre,
-its longer side 20 units long). With the keys handles and targets added it is a problem for
-`glid-nb solve`. Pixels count from the picture's top left corner, x to the right and y down.
+The result contains the cage and its holes in world coordinates (y up, origin at the picture's
+centre, its longer side 20 units long). With added keys handles and targets, it is a problem for
+`glid-nb solve`. Pixels are counted from the picture's top left corner, x to the right and y down.
 
-Of many pictures --out is a folder, and one that cannot be traced does not stop the others.
+For many pictures, --out is a folder, and a picture that cannot be traced does not stop the others.
 `--out -` is standard output.
 """
 

@@ -1,7 +1,8 @@
 """Results for other programs: pictures, meshes, drawings, pages and animations.
 
-Pure functions of a picture and a map or a motion that return bytes or text; writing files is the
-caller's job, but for `animate`. Names are loaded on first use: the table of formats needs no more.
+These are pure functions of a picture and a map or a motion. They return bytes or text, and the
+caller writes the files; only `animate` writes files itself. Names are loaded on first use, so that
+importing the table of formats loads nothing else.
 """
 
 import lazy_loader as _lazy

@@ -1,4 +1,4 @@
-"""The deformed cage as a drawing."""
+"""The deformed cage as an SVG drawing."""
 
 from collections.abc import Iterable
 from xml.sax.saxutils import quoteattr
@@ -14,8 +14,8 @@ from glid_nb.imaging import PixelFrame, Sheets, deformed_loops, order_of
 from glid_nb.imaging.render import check_fits
 from glid_nb.pose import Pose
 
-_MARGIN = 0.02  # around everything, as a share of the longer side
-_PIECE = 0.0025  # of the cage's size: how finely its covered parts are found
+_MARGIN = 0.02  # around the drawing, as a share of the longer side
+_PIECE = 0.0025  # of the cage's size: the resolution at which covered parts are found
 
 
 def cage_svg(
@@ -23,14 +23,15 @@ def cage_svg(
 ) -> str:
     """Draw the image of a map's cage: curves, as polylines within 0.002 world units of them.
 
-    ``image_size`` (w, h) is that of the picture that the cage was traced from: the drawing's unit
-    is its pixel. With ``source`` the undeformed cage is drawn too, dashed; of a pose the targets as
-    disks and the images of the handles as dots, and its depths say which part is in front. Where
-    the shape overlaps itself, what another part covers is dashed; a covered handle is a ring.
+    ``image_size`` (w, h) is the size of the picture from which the cage was traced. The drawing's
+    unit is a pixel of this picture. ``source`` also draws the undeformed cage, dashed. With a pose,
+    its targets are drawn as disks and the images of its handles as dots, and its depths decide
+    which part is in front. Where the shape overlaps itself, covered parts are dashed, and a covered
+    handle is a ring.
 
-    The SVG document has the paths ``cage`` and, if wanted, ``source-cage``, each with one closed
-    subpath per loop, the exterior first. Where the shape overlaps itself the path ``in-sight`` lies
-    over ``cage``, with an open subpath for every piece that is not covered.
+    The SVG document has the path ``cage`` and, with ``source``, the path ``source-cage``. Each has
+    one closed subpath per loop, the exterior first. If the shape overlaps itself, the path
+    ``in-sight`` lies over ``cage``, with an open subpath for every visible piece.
     """
     frame = PixelFrame(*image_size)
     check_fits(frame, map)
@@ -68,7 +69,7 @@ def cage_svg(
 
 
 def _in_sight(map: HarmonicMap, sheets: Sheets) -> list[Array] | None:
-    """The pieces of the cage's image that no other part covers; None if nothing is covered."""
+    """The visible pieces of the cage's image; None if nothing is covered."""
     cage, pieces, covered = map.domain.cage, [], False
     for loop in cage.loops_complex:
         parts = np.ceil(np.abs(np.roll(loop, -1) - loop) / (_PIECE * cage.longer_side)).astype(int)
@@ -76,7 +77,7 @@ def _in_sight(map: HarmonicMap, sheets: Sheets) -> list[Array] | None:
         hidden, images = sheets.hidden(points), map(points)
         covered |= hidden.any()
         runs = np.split(np.concatenate([images, images[:1]]), np.flatnonzero(hidden))
-        # All but the first begin with a covered point.
+        # All runs but the first begin with a covered point.
         pieces += [run for run in (runs[0], *(run[1:] for run in runs[1:])) if len(run) > 1]
     return pieces if covered else None
 

@@ -1,6 +1,7 @@
-"""Frames as files: animated GIF and PNG, MP4 and WebM, a sprite sheet, pictures in a zip.
+"""Encode frames as files: animated GIF and PNG, MP4 and WebM, a sprite sheet, pictures in a zip.
 
-Frames are (h, w, 4) uint8 arrays of one size with straight alpha, opaque where a format wants it.
+Frames are (h, w, 4) uint8 arrays of the same size with straight alpha. They are opaque for formats
+without transparency.
 """
 
 import errno
@@ -28,7 +29,7 @@ RGB = tuple[int, int, int]
 
 
 class Frames(NamedTuple):
-    """Frames that are drawn one after the other, when they are wanted."""
+    """Frames that are drawn one by one, on demand."""
 
     size: tuple[int, int]  # width and height, pixels
     count: int
@@ -36,9 +37,10 @@ class Frames(NamedTuple):
 
 
 _LARGEST = 8192  # pixels of a frame's side
-_LARGEST_SHEET = 16384
-_MOST_PIXELS = 2**30  # of all frames together, where a format takes them at once
-# ffmpeg's settings: close to lossless for drawings. Browsers guess what colours are not named.
+_LARGEST_SHEET = 16384  # pixels of a sprite sheet's side
+_MOST_PIXELS = 2**30  # of all frames together, for formats that need all frames at once
+# ffmpeg's settings, close to lossless for drawings. The colour space is named, because browsers
+# would guess it otherwise.
 _CODECS = {
     ".mp4": ("-c:v", "libx264", "-crf", "16", "-preset", "slow", "-movflags", "+faststart"),
     ".webm": ("-c:v", "libvpx-vp9", "-crf", "24", "-b:v", "0", "-auto-alt-ref", "0"),
@@ -51,9 +53,9 @@ _COLORS = (
 
 
 def check_settings(size: Any, fps: Any, background: Any, suffix: str) -> None:
-    """Raise an InputError that names the setting which is out of range, or a missing package."""
+    """Raise an InputError that names a setting out of range or a missing package."""
     checked("size", int, size, least=16, most=_LARGEST)
-    # GIF counts in hundredths of a second, and players slow down frames of less than two.
+    # GIF counts in hundredths of a second. Players slow down frames shorter than two hundredths.
     of, most = (" of a GIF", 50) if suffix == ".gif" else ("", 100)
     checked(f"frames_per_second{of}", float, fps, above=0, most=most)
     rgb: Any = {"most": 255, "form": "three whole numbers from 0 to 255"}
@@ -69,7 +71,7 @@ def check_settings(size: Any, fps: Any, background: Any, suffix: str) -> None:
 def encoded(
     frames: Frames, name: str, suffix: str, fps: float, background: RGB | None, loop: bool = True
 ) -> list[bytes]:
-    """The contents of the files that a suffix stands for; for "" every frame as PNG."""
+    """The contents of the files of a suffix; for "", every frame as PNG."""
     if suffix in (".gif", ".apng"):
         return [_animation(frames, suffix, fps, background, loop)]
     if suffix in _CODECS:
@@ -84,7 +86,7 @@ def encoded(
 def _animation(
     frames: Frames, suffix: str, fps: float, background: RGB | None, loop: bool
 ) -> bytes:
-    """An animated PNG, or GIF of 256 colours, which counts in hundredths of a second."""
+    """An animated PNG, or a GIF. A GIF has 256 colours and counts in hundredths of a second."""
     width, height = frames.size
     if frames.count * width * height > _MOST_PIXELS:
         what = f"{frames.count} frames of {width} x {height} pixels are too many at once"
@@ -107,7 +109,7 @@ def _animation(
 
 
 def _video(frames: Frames, fps: float, suffix: str, transparent: bool) -> bytes:
-    """A video of even sides, by an ffmpeg that takes frames as they are drawn."""
+    """A video with even sides. ffmpeg gets the frames while they are drawn."""
     from imageio_ffmpeg import get_ffmpeg_exe  # noqa: PLC0415 - an extra
 
     size = "x".join(map(str, frames.size))
@@ -123,7 +125,7 @@ def _video(frames: Frames, fps: float, suffix: str, transparent: bool) -> bytes:
                 for frame in frames.pictures:
                     ffmpeg.stdin.write(frame.tobytes())
             except BaseException as error:
-                if not _is_broken_pipe(error):  # then ffmpeg has ended, and its log says why
+                if not _is_broken_pipe(error):  # at a broken pipe ffmpeg has ended; see its log
                     ffmpeg.kill()
                     raise
         if ffmpeg.returncode or not path.is_file():
@@ -134,7 +136,7 @@ def _video(frames: Frames, fps: float, suffix: str, transparent: bool) -> bytes:
 
 
 def _is_broken_pipe(error: BaseException) -> bool:
-    """Whether the program at the other end of a pipe has ended; Windows says "invalid argument"."""
+    """Whether a pipe's other end has ended. Windows reports "invalid argument" for this."""
     return isinstance(error, OSError) and error.errno in (errno.EPIPE, errno.EINVAL)
 
 
@@ -148,7 +150,8 @@ def _running(command: list[str], told: IO[bytes]) -> subprocess.Popen[bytes]:
 
 
 def _sprite_sheet(frames: Frames, fps: float, name: str) -> list[bytes]:
-    """All frames in a picture, and where each is: TexturePacker's "hash", Pixi's ``animations``."""
+    """One picture with all frames, and JSON with their places in TexturePacker's "hash" format and
+    Pixi's ``animations``."""
     (width, height), columns = frames.size, math.ceil(math.sqrt(frames.count))
     sides = columns * width, math.ceil(frames.count / columns) * height
     if max(sides) > _LARGEST_SHEET:
@@ -179,8 +182,11 @@ def names(count: int) -> list[str]:
 
 
 def _with_palette(pictures: list[Image.Image], background: RGB) -> list[Image.Image]:
-    """The pictures with one palette of at most eight of them, as flat areas flicker if each has
-    its own. The exact background comes first; an averaged one would show a dither pattern."""
+    """Convert the pictures to one common palette, from at most eight of them.
+
+    With a palette for each picture, flat areas would flicker. The exact background is the first
+    colour, because an averaged one would show a dither pattern.
+    """
     chosen = pictures[:: math.ceil(len(pictures) / 8)]
     montage = Image.fromarray(np.concatenate([np.asarray(picture) for picture in chosen]))
     colors = [*background, *(montage.quantize(255).getpalette() or [])]
@@ -189,7 +195,7 @@ def _with_palette(pictures: list[Image.Image], background: RGB) -> list[Image.Im
     result = []
     for picture in pictures:
         indices = np.array(picture.quantize(palette=palette))
-        # Pillow looks up colours in bins of four levels, so it may miss the background.
+        # Pillow looks up colours in bins of four levels, so it can miss the background.
         indices[(np.asarray(picture) == background).all(axis=2)] = 0
         result.append(Image.fromarray(indices))
         result[-1].putpalette(colors)

@@ -1,4 +1,4 @@
-"""What can be exported: a table of formats for maps, one for motions, by the names' endings."""
+"""Tables of the export formats, one for maps and one for motions, by the endings of file names."""
 
 from collections.abc import Mapping
 from pathlib import Path
@@ -8,13 +8,13 @@ from glid_nb._errors import InputError
 
 
 class ExportError(InputError):
-    """A file cannot be exported that way."""
+    """A file cannot be exported with this name or format."""
 
 
 class Format(NamedTuple):
     label: str
     beside: tuple[str, ...] = ()
-    """Endings, in place of the name's own, of the files that come with it."""
+    """Endings of the additional files; each replaces the ending of the name."""
 
 
 FORMATS = {
@@ -41,7 +41,8 @@ MOTION_FORMATS = {  # a motion's name without one of these is a folder of frames
 
 
 def suffix_of(name: str, formats: Mapping[str, Format] = MOTION_FORMATS) -> str:
-    """The one of the formats that a name ends in, "" for a folder; else an ExportError."""
+    """The ending of a name among the formats, or "" for a folder. Raises an ExportError for other
+    names."""
     found = next((suffix for suffix in formats if name.lower().endswith(suffix)), "")
     folder = formats is MOTION_FORMATS and not Path(name).suffix
     if len(name) == len(found) or not (found or folder):
@@ -52,7 +53,7 @@ def suffix_of(name: str, formats: Mapping[str, Format] = MOTION_FORMATS) -> str:
 
 
 def file_names(name: str, formats: Mapping[str, Format] = MOTION_FORMATS) -> tuple[str, ...]:
-    """The name, and those of the files that come with it."""
+    """The name and the names of the additional files."""
     suffix = suffix_of(name, formats)
     stem, beside = name[: len(name) - len(suffix)], formats[suffix].beside if suffix else ()
     return (name, *(stem + ending for ending in beside))

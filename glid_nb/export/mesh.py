@@ -20,7 +20,7 @@ from glid_nb.imaging.progress import Progress, report
 from glid_nb.motion import Motion
 from glid_nb.pose import Pose
 
-# trimesh takes a second to import, so only the functions that need it do.
+# Importing trimesh takes a second, so only the functions that need it import it.
 if TYPE_CHECKING:
     from trimesh import Trimesh
     from trimesh.visual.material import Material
@@ -33,7 +33,7 @@ class TexturedMesh:
     """A deformed shape, ready for a program that draws triangles."""
 
     positions: NDArray[np.float64]
-    """(v, 3) world units, y up. z rises by 0.02 from the lowest sheet to the highest, so that
+    """(v, 3) in world units, y up. z rises by 0.02 from the lowest sheet to the highest, so that
     viewers with a depth buffer draw an overlapping shape in the right order."""
     texture_coordinates: NDArray[np.float64]
     """(v, 2) (u, v) in the picture, (0, 0) at its bottom left corner."""
@@ -50,10 +50,10 @@ def textured_mesh(
 ) -> TexturedMesh:
     """Triangulate a map's domain and give each vertex its image and its place in the picture.
 
-    The image is the one that the map's cage was traced from. There are about ``n_vertices`` evenly
-    spread vertices, at least 3; edges that stray further from the map than a ``tolerance`` in world
-    units are split. The depths of a pose say which part is in front where the shape overlaps.
-    Raises a ValueError that names an argument out of range.
+    The image is the one from which the map's cage was traced. There are about ``n_vertices`` evenly
+    spread vertices, at least 3. Edges that deviate from the map by more than ``tolerance``, in
+    world units, are split. Where the shape overlaps itself, the depths of a pose decide which part
+    is in front. Raises a ValueError that names an argument out of range.
     """
     image = as_rgba8(image)
     check_type("map", map, HarmonicMap, "such as that of a result", InputError)
@@ -62,8 +62,8 @@ def textured_mesh(
 
 
 def _at_knots(image: ArrayLike, mesh: MovingMesh) -> tuple[TexturedMesh, Array]:
-    """The mesh at the first knot, and its positions (n, v, 3) at all."""
-    # By rank: depths leave little room between the other parts' heights.
+    """The mesh at the first knot, and its positions (n, v, 3) at all knots."""
+    # Use ranks as heights, because depths leave little room between the heights of other parts.
     ranks = np.array([np.unique(row, return_inverse=True)[1] for row in mesh.heights])
     relief = replace(mesh, heights=_RELIEF * ranks / np.maximum(ranks.max(axis=1), 1)[:, None])
     z = np.array([relief.heights_at(time) for time in mesh.times])
@@ -78,7 +78,8 @@ def _at_knots(image: ArrayLike, mesh: MovingMesh) -> tuple[TexturedMesh, Array]:
 def mesh_obj(mesh: TexturedMesh, name: str = "shape") -> dict[str, bytes]:
     """A mesh as Wavefront OBJ: ``name.obj``, ``name.mtl`` and ``name-texture.png``, by name.
 
-    They must stay in one folder: the OBJ file refers to the material file, and that to the texture.
+    The files must stay in one folder. The OBJ file refers to the material file, and the material
+    file refers to the texture.
     """
     from trimesh.exchange.obj import export_obj  # noqa: PLC0415
     from trimesh.visual.material import SimpleMaterial  # noqa: PLC0415
@@ -95,7 +96,7 @@ def mesh_obj(mesh: TexturedMesh, name: str = "shape") -> dict[str, bytes]:
 
 
 def mesh_glb(mesh: TexturedMesh, edit: Callable[..., None] | None = None) -> bytes:
-    """A mesh as binary glTF 2.0 (.glb), with its texture; ``edit(buffers, tree)`` adds to it."""
+    """A mesh as binary glTF 2.0 (.glb), with its texture. ``edit(buffers, tree)`` may change it."""
     from trimesh.visual.material import PBRMaterial  # noqa: PLC0415
 
     matt: Any = {"metallicFactor": 0.0, "roughnessFactor": 1.0}
@@ -108,7 +109,7 @@ def mesh_glb(mesh: TexturedMesh, edit: Callable[..., None] | None = None) -> byt
 
 
 def _finish(texture: Array, edit: Callable[..., None] | None, buffers: Any, tree: Any) -> None:
-    """Let glTF's only texture say that it is sRGB, and end at its sides: it would be repeated."""
+    """Mark glTF's only texture as sRGB, and clamp it at its sides. By default it would repeat."""
     name = list(buffers)[tree["images"][0]["bufferView"]]
     data = png(texture)
     buffers[name] = data + bytes(-len(data) % 4)
@@ -132,9 +133,10 @@ def motion_glb(
 ) -> bytes:
     """A motion as binary glTF 2.0: a mesh with morph targets and an animation of their weights.
 
-    A target for every map at which the motion bends, a key at its time, and straight lines between,
-    which are exact: every vertex moves as in the motion. Programs must take that many targets.
-    Arguments are as in `textured_mesh`, one pose per keyframe; the tolerance holds at any time.
+    There is a morph target for every map at which the motion bends, with a key at its time. Between
+    the keys vertices move on straight lines, exactly as in the motion. Programs must support that
+    many targets. Arguments are as in `textured_mesh`, with one pose per keyframe. The tolerance
+    holds at all times.
     """
     report(progress, 0, 2)
     image = as_rgba8(image)
@@ -143,15 +145,15 @@ def motion_glb(
     mesh = MovingMesh.of(motion, poses, n_vertices, tolerance)
     report(progress, 1, 2)
     first, positions = _at_knots(image, mesh)
-    # A loop ends with the map that it began with.
+    # A loop ends with its first map.
     n = len(positions) - (motion.repeat == "loop")
     weights = np.eye(n)[np.arange(len(positions)) % n]
     times = mesh.times - mesh.times[0]
     if motion.repeat == "ping-pong":
         times = np.concatenate([times, 2 * times[-1] - times[-2::-1]])
         weights = np.concatenate([weights, weights[-2::-1]])
-    times = times.astype(np.float32)  # as the file has them
-    last = np.append(np.diff(times) > 0, True)  # of those that single precision cannot tell apart
+    times = times.astype(np.float32)  # the file's precision
+    last = np.append(np.diff(times) > 0, True)  # of times that are equal in single precision
     moved = positions[1:n] - positions[0]
     data = mesh_glb(first, functools.partial(_animate, moved, times[last], weights[last, 1:]))
     report(progress, 2, 2)
@@ -185,5 +187,5 @@ def _trimesh(mesh: TexturedMesh, material: "Material") -> "Trimesh":
     from trimesh.visual import TextureVisuals  # noqa: PLC0415
 
     visual = TextureVisuals(uv=mesh.texture_coordinates, material=material)
-    # Processing would merge vertices and reorder them.
+    # Processing would merge and reorder vertices.
     return Trimesh(mesh.positions, mesh.triangles, visual=visual, process=False)

@@ -1,4 +1,4 @@
-"""A motion with a picture as a file of any kind, chosen by its suffix."""
+"""Export a motion of a picture as a file. The suffix selects the format."""
 
 from collections.abc import Sequence
 from pathlib import Path
@@ -32,11 +32,11 @@ def animate(
     poses: Sequence[Pose] | None = None,
     **settings: Any,
 ) -> tuple[Path, ...]:
-    """Write a motion as the path's suffix says; the settings are those of `motion_files`.
+    """Write a motion in the format of the path's suffix. The settings are those of `motion_files`.
 
-    Returns the written files, none where ``progress`` stopped it. A path without a suffix is a
-    folder, which is made; an InputError where it holds frames that would stay. An OSError where a
-    file cannot be written.
+    Returns the written files; none if ``progress`` stopped the export. A path without a suffix is a
+    folder, which is made. Raises an InputError if the folder contains other frames that would stay,
+    an OSError if a file cannot be written.
     """
     path = Path(path)
     check_type("motion", motion, Motion, _MAKE_ONE, InputError)
@@ -50,7 +50,7 @@ def animate(
 
 
 def _check_place(path: Path, motion: Motion, fps: float) -> None:
-    """Raise an InputError unless the files can be where the path says, and are the only frames."""
+    """Raise an InputError unless the files can be written there and no other frames are there."""
     if not path.parent.is_dir():
         raise InputError(f"{path}: there is no folder {path.parent.absolute()}; make it first")
     if suffix_of(path.name):
@@ -77,22 +77,23 @@ def motion_files(
     loop: bool = True,
     progress: Progress | None = None,
 ) -> dict[str, bytes]:
-    """A motion as files, by name: that of the given name, and what comes with it.
+    """The contents of the files of an exported motion, by name: the named file and its companions.
 
-    The suffix says the format: one of `MOTION_FORMATS`, of which .mp4 and .webm need
-    ``glid-nb[video]``; .sheet.png comes with .sheet.json, .motion.json with .motion.proof.json, as
-    `Motion.save` writes them; without a suffix frames are in a folder.
-    The image is the one that the cage was traced from. The depths of poses, one per keyframe, say
-    which part is in front where the shape overlaps itself.
+    The suffix selects the format, one of `MOTION_FORMATS`. The formats .mp4 and .webm need
+    ``glid-nb[video]``. .sheet.png comes with .sheet.json. .motion.json comes with
+    .motion.proof.json, as written by `Motion.save`. Without a suffix, the files are frames in a
+    folder. The image is the one from which the cage was traced. Where the shape overlaps itself,
+    the depths of the poses, one per keyframe, decide which part is in front.
 
-    Frames have a longer side of ``size`` pixels, 16 to 8192, and even sides; there are at most 100
-    per second, of GIF 50. The background's red, green and blue are 0 to 255; None is transparent,
-    which GIF and MP4 cannot be. With ``loop`` GIF, APNG and page begin again at the end.
-    ``progress`` is called with the numbers of finished and of all frames, or stages where there are
-    no frames; when it returns True the export stops, and there are no files.
+    Frames have a longer side of ``size`` pixels, 16 to 8192, and even sides. There are at most 100
+    frames per second, 50 for GIF. The background's red, green and blue are 0 to 255. None is
+    transparent, which GIF and MP4 do not support. With ``loop``, a GIF, an APNG and a page start
+    again at the end. ``progress`` is called with the number of finished frames and the number of
+    all frames, or stages for formats without frames. If it returns True, the export stops, and the
+    result is empty.
 
-    Raises an InputError for a motion that is not proved throughout, another suffix, a setting that
-    is out of range, or a missing package.
+    Raises an InputError for a motion that is not completely proved, another suffix, a setting out
+    of range, or a missing package.
     """
     suffix, fps = suffix_of(name), frames_per_second
     check_type("motion", motion, Motion, _MAKE_ONE, InputError)

@@ -21,11 +21,11 @@ from glid_nb.imaging.texture import Texture
 from glid_nb.motion import Motion
 from glid_nb.pose import Pose
 
-_VERTICES = 1500  # evenly spread ones, before refinement
+_VERTICES = 1500  # evenly spread vertices before refinement
 
 
 def check_picture(size: tuple[int, int], shown: Motion | HarmonicMap) -> None:
-    """Raise an InputError unless a picture of (w, h) pixels can be the one that is to move."""
+    """Raise an InputError if a picture of (w, h) pixels does not fit the motion or map."""
     if isinstance(shown, Motion):
         if shown.image_size not in (None, size):
             w, h = shown.image_size
@@ -37,15 +37,18 @@ def check_picture(size: tuple[int, int], shown: Motion | HarmonicMap) -> None:
 
 @dataclass(frozen=True, eq=False)
 class MovingMesh:
-    """A triangulated domain, its images at the knots of a motion, heights at the keyframes, and
-    straight lines in between, as in the motion; of a ping-pong the way there only."""
+    """A triangulated domain with its images at the knots of a motion and heights at the keyframes.
+
+    In between, both change linearly, as in the motion. For a ping-pong, only the way forth is
+    stored.
+    """
 
     vertices: Array  # (v, 2), world coordinates
-    triangles: NDArray[np.int32]  # (t, 3), counter-clockwise, those that are low at first before
-    times: Array  # (n,) of the knots, seconds
+    triangles: NDArray[np.int32]  # (t, 3), counter-clockwise, sorted by height at the start
+    times: Array  # (n,) times of the knots, seconds
     images: Array  # (n, v, 2)
-    height_times: Array  # (m,) of the keyframes, and a loop's return
-    heights: Array  # (m, v) then, or one row for all; see `order_of`
+    height_times: Array  # (m,) times of the keyframes, and of a loop's return
+    heights: Array  # (m, v) heights at these times, or one row for all; see `order_of`
 
     @classmethod
     def of(
@@ -55,7 +58,7 @@ class MovingMesh:
         n_vertices: int,
         tolerance: float | None = None,
     ) -> Self:
-        """The mesh that is fine enough for all maps; each keyframe's pose says what is in front."""
+        """A mesh that is fine enough for all maps. Each keyframe's pose gives the heights."""
         check_type("the motion", shown, Motion | HarmonicMap, "give what moves", InputError)
         poses = list(pose) if isinstance(pose, Sequence) else [pose]
         for one in poses:
@@ -89,13 +92,13 @@ class MovingMesh:
         return DeformedMesh(self.vertices, images, self.triangles[order], heights)
 
     def heights_at(self, time: float) -> Array:
-        """(v,) heights at a time of the way there."""
+        """(v,) heights at a time on the way forth."""
         still = len(self.heights) == 1
         return self.heights[0] if still else _between(self.height_times, self.heights, time)
 
 
 def _between(times: Array, values: Array, time: float) -> Array:
-    """Values (n, ...) at times, and on straight lines between, at one time."""
+    """Interpolate values (n, ...), given at times, linearly at one time."""
     i = int(np.clip(np.searchsorted(times, time, side="right") - 1, 0, len(times) - 2))
     share = (time - times[i]) / (times[i + 1] - times[i])
     return (1 - share) * values[i] + share * values[i + 1]
@@ -110,7 +113,7 @@ def frames(
     background: RGB | None,
     progress: Progress | None = None,
 ) -> Frames:
-    """Pictures at even times; all show the same part of the plane, which holds them all."""
+    """Pictures at even times. All show the same part of the plane, which contains all shapes."""
     times = motion.frame_times(fps)
     report(progress, 0, len(times))
     corners = images_under(motion.keyframes, motion.domain.cage.exterior).reshape(-1, 2)

@@ -32,12 +32,12 @@ from glid_nb.pose import Pose
 _VERTICES = 4000
 _TOLERANCE = 0.004  # world units; the picture is 20 long
 _GRID_LINES = 20  # along the longer side
-# Vertices and images are rounded by this share of the shape's size: 1/20 pixel where it has 2000.
+# Vertices and images are rounded to this share of the shape's size: 1/20 pixel of 2000 pixels.
 _STEP = 2.5e-5
-_HEIGHT = 2.0**-16
-_MOST_STEPS = 2**28  # of a coefficient
-_LONGEST_CHAIN = 1024  # vectors that a block of uniforms holds on every device
-# By the verdict on global injectivity.
+_HEIGHT = 2.0**-16  # rounding of heights
+_MOST_STEPS = 2**28  # largest coefficient, in steps
+_LONGEST_CHAIN = 1024  # vectors that fit in a block of uniforms on every device
+# The text for each verdict on global injectivity.
 _OVERLAPS = {
     "yes": "no part lies over another",
     "no": "parts of the shape lie over one another",
@@ -57,12 +57,13 @@ def page_html(
 ) -> str:
     """A page that shows the warped picture, with zoom, pan and colours for the distortion.
 
-    The image is the one that the cage was traced from. A motion is played and scrubbed; a click on
-    a pose leads there along the motion, so that all that is seen is proved; with ``loop`` it begins
-    again at its end. The shaders evaluate the map itself on the vertices of a triangulation, whose
-    straight edges may stray from it by the tolerance, world units, at any time. With its
-    certificate the page states a map's bounds and whether the shape overlaps itself; a motion has
-    its own. The depths of a pose, of a motion one for each keyframe, say which part is in front.
+    The image is the one from which the cage was traced. The page plays and scrubs a motion. A click
+    on a pose moves there along the motion, so that everything shown is proved. With ``loop`` the
+    motion starts again at its end. The shaders evaluate the map itself on the vertices of a
+    triangulation. Its straight edges deviate from the map by at most ``tolerance``, in world units,
+    at all times. With a certificate, the page states the map's bounds and whether the shape
+    overlaps itself. A motion has its own certificate. The depths of a pose, or of one pose per
+    keyframe of a motion, decide which part is in front.
     """
     report(progress, 0, 3)
     checked("loop", bool, loop)
@@ -93,7 +94,7 @@ def page_html(
         "script": bundle("exported"),
         "data": json.dumps(data, allow_nan=False),
     }
-    # One pass, so that inserted text is not searched for placeholders.
+    # Replace in one pass, so that inserted text is not searched for placeholders.
     page = re.sub(r"\{\{(\w+)\}\}", lambda found: parts[found[1]], template("exported"))
     report(progress, 3, 3)
     return page
@@ -102,7 +103,7 @@ def page_html(
 def _shape(mesh: MovingMesh, step: float) -> dict[str, Any]:
     first = mesh.triangles.argmin(axis=1)[:, None]
     corners = np.take_along_axis(mesh.triangles, (first + np.arange(3)) % 3, axis=1)
-    corners = corners[np.lexsort(corners.T[::-1])]  # so that they pack well
+    corners = corners[np.lexsort(corners.T[::-1])]  # sorted triangles compress well
     heights = mesh.heights - mesh.heights.mean()
     return {
         "source": _packed(mesh.vertices, step),
@@ -144,12 +145,13 @@ def _shaders(mesh: MovingMesh, shown: HarmonicMap | Motion, step: float) -> dict
 
 
 def playing(motion: Motion, wire: Callable[[HarmonicMap], bytes]) -> tuple[dict[str, Any], bytes]:
-    """What ``page/js/motion/motion.js`` plays: JSON values, and the float32 arrays of knots.
+    """The data for ``page/js/motion/motion.js``: JSON values, and the float32 arrays of knots.
 
-    ``wire`` writes the array of a map, on which it depends linearly; between two knots all moves on
-    straight lines. ``times`` are the knots', of a ping-pong's way there only, with the easing in
-    them, and ``keyframes`` some of these. ``sigma2``, ``sigma1`` and ``k`` are the bounds on each
-    piece between two knots, None where it is not proved; all is proved before the time ``until``.
+    ``wire`` writes the array of a map and is linear in the map. Between two knots everything moves
+    on straight lines. ``times`` are the times of the knots, with the easing; for a ping-pong, on
+    the way forth only. ``keyframes`` are some of these times. ``sigma2``, ``sigma1`` and ``k`` are
+    the bounds on each piece between two knots, None if it is not proved. Everything before the time
+    ``until`` is proved.
     """
     pieces, certificate = motion.pieces_forth, motion.certificate
     maps = [pieces[0].start_map, *(piece.end_map for piece in pieces)]
@@ -167,7 +169,7 @@ def playing(motion: Motion, wire: Callable[[HarmonicMap], bytes]) -> tuple[dict[
 
 
 def _spread(domain: Domain, points: Array) -> float:
-    """How far images move at most by rounding coefficients: half as much again as seen."""
+    """A limit on how far images move if coefficients are rounded: 1.5 times a random sample."""
     n, holes = domain.n_coefficients, domain.n_holes
     phi, psi = np.random.default_rng(0).uniform(-0.5, 0.5, (2, n, 2)) @ [1, 1j]
     psi[n - holes :] = phi[n - holes :].conj()
@@ -175,8 +177,8 @@ def _spread(domain: Domain, points: Array) -> float:
 
 
 def _ranges(proof: Certificate | MotionCertificate | None) -> dict[int, list[float]]:
-    """By the overlay's number in ``picture.frag`` the colour map's ends: an isometry, and the
-    bound, or a tenth off."""
+    """The colour map's ends for each overlay, by its number in ``picture.frag``: the value of an
+    isometry, and the proved bound, at least a tenth away."""
     if proof is None or not proof.certified:
         return {}
     ends = {
@@ -206,13 +208,13 @@ def _bounds(points: Array) -> list[float]:
 
 
 def _factored(values: Array, step: float, width: int) -> dict[str, Any]:
-    """(n, m) values for `restored` in the page, as sums of few rows; off by a step at most.
+    """(n, m) values for `restored` in the page, as sums of few rows, with errors of about a step.
 
-    The maps of a motion lie near a space of few dimensions, also where it turns. In a row what
-    belongs together is ``width`` numbers wide.
+    The maps of a motion lie near a space of few dimensions, even if the shape turns. A row consists
+    of groups of ``width`` numbers.
     """
     shares, scale, rows = np.linalg.svd(values, full_matrices=False)
-    missed = np.sqrt(np.cumsum(scale[::-1] ** 2))[::-1]  # by so many rows, in all
+    missed = np.sqrt(np.cumsum(scale[::-1] ** 2))[::-1]  # the total error with i rows
     count = max(np.count_nonzero(missed > step * np.sqrt(len(values))), 1)
     shares, rows = shares[:, :count] * scale[:count], rows[:count]
     sizes = np.maximum(np.abs(shares).max(axis=0), 1e-300)
@@ -225,8 +227,12 @@ def _factored(values: Array, step: float, width: int) -> dict[str, Any]:
 
 
 def _packed(values: Array, step: float) -> dict[str, Any]:
-    """(n, m) values for `unpacked` in the page: whole steps, second differences down the columns,
-    odd ones negative, the least significant bytes of all first; deflated."""
+    """(n, m) values for `unpacked` in the page.
+
+    The values are rounded to whole steps. Second differences down the columns are taken and written
+    as unsigned integers, where odd ones stand for negative numbers. The least significant bytes of
+    all come first, and the bytes are deflated.
+    """
     whole = np.rint(np.asarray(values, dtype=float) / step).astype(np.int64)
     fresh = np.diff(whole, 2, axis=0, prepend=np.zeros((2, whole.shape[1]), np.int64))
     planes = ((fresh << 1) ^ (fresh >> 63)).astype("<u4").reshape(-1, 1).view("u1").T

@@ -1,4 +1,4 @@
-"""The warped picture as a PNG file, and a sequence of them as an animated GIF or PNG."""
+"""Export the warped picture as a PNG file, or a sequence of pictures as an animated GIF or PNG."""
 
 import math
 from collections.abc import Sequence
@@ -26,7 +26,7 @@ Format = Literal["gif", "apng"]
 
 _VERTICES = 3000  # of the mesh of one frame
 _TARGET, _HANDLE = 0.017, 0.008  # radii of the marks, as shares of the longer side
-_SMOOTH = 4  # the marks are drawn this much larger and scaled down
+_SMOOTH = 4  # marks are drawn this many times larger and scaled down
 
 
 def picture_png(
@@ -37,7 +37,7 @@ def picture_png(
     pose: Pose | None = None,
     progress: Progress | None = None,
 ) -> bytes:
-    """Warp a picture through a map, as `glid_nb.render` does; a PNG file with an alpha channel."""
+    """Warp a picture through a map, like `glid_nb.render`. A PNG file with an alpha channel."""
     return png(render(image, map, size, view=view, pose=pose, progress=progress))
 
 
@@ -55,16 +55,16 @@ def animation_bytes(
 ) -> bytes:
     """Warp a picture through a sequence of maps, such as those of a drag.
 
-    The image is the one that the maps' cages were traced from. There is one frame per map, whose
-    longer side has ``size`` pixels, at least 16; all of them show the same part of the plane, which
-    holds every one of the deformed shapes. With poses, one per map, their depths say what is in
-    front, and with ``marks`` their targets are drawn as disks, the images of their handles as dots;
-    rings where another part of the shape covers them.
+    The image is the one from which the maps' cages were traced. There is one frame per map, whose
+    longer side has ``size`` pixels, at least 16. All frames show the same part of the plane, which
+    contains all deformed shapes. With poses, one per map, their depths decide which part is in
+    front. With ``marks``, the targets of the poses are drawn as disks and the images of their
+    handles as dots. Handles that another part of the shape covers are rings.
 
-    There are at most 100 frames per second, of a GIF 50. The background's red, green and blue are 0
-    to 255; None is transparent, in an "apng" only. ``there_and_back`` appends the frames in reverse
-    order, so that the loop has no jump. A "gif" is supported everywhere but has 256 colours only,
-    an "apng" keeps them all. Raises an InputError that names an argument out of range.
+    There are at most 100 frames per second, 50 for a GIF. The background's red, green and blue are
+    0 to 255. None is transparent, for an "apng" only. ``there_and_back`` appends the frames in
+    reverse order, so that the loop has no jump. A "gif" is supported everywhere but has only 256
+    colours; an "apng" keeps all colours. Raises an InputError that names an argument out of range.
     """
     for name, given, kind in (("maps", maps, HarmonicMap), ("poses", poses or (), Pose)):
         check_type(name, given, Sequence, "of a motion give motion.resample(20)[1]", InputError)
@@ -79,7 +79,7 @@ def animation_bytes(
     pixels = as_rgba8(image)
     for map in maps:
         check_fits(PixelFrame(pixels.shape[1], pixels.shape[0]), map)
-    # The boundaries suffice to find what holds all the deformed shapes.
+    # The boundaries are enough to find the box around all deformed shapes.
     points = np.concatenate([deformed_loops(map)[0] for map in maps])
     frame = frame_around(points, size)
     texture, frames = Texture.from_image(pixels), []
@@ -99,7 +99,7 @@ def animation_bytes(
 
 
 def frame_around(points: NDArray[np.float64], size: int) -> PixelFrame:
-    """A frame with a longer side of ``size`` that holds (k, 2) points; its sides are even."""
+    """A frame with a longer side of ``size`` and even sides that contains (k, 2) points."""
     extent = np.ptp(points, axis=0)
     width, height = (2 * max(1, math.ceil(side / 2)) for side in size * (extent / extent.max()))
     return PixelFrame(width, height).showing([points.min(axis=0), points.max(axis=0)], MARGIN)
@@ -112,7 +112,8 @@ def on_background(pixels: NDArray[np.uint8], background: RGB) -> Image.Image:
 
 
 def _marks(pose: Pose, map: HarmonicMap, frame: PixelFrame, hidden: Array) -> Image.Image:
-    """Disks at the targets, dots at the images of the handles, lines between; rings if hidden."""
+    """Draw disks at the targets, dots at the handles' images, and lines between them. Hidden
+    handles are rings."""
     layer = Image.new("RGBA", (frame.width * _SMOOTH, frame.height * _SMOOTH))
     draw, unit = ImageDraw.Draw(layer), max(layer.size)
     targets = frame.to_pixel(pose.targets) * _SMOOTH

@@ -78,8 +78,8 @@ class BoundedBiharmonicWeights(LinearMethod):
 
 @dataclass(frozen=True)
 class HarmonicWeights(LinearMethod):
-    """Translations blended by weights of which a power of the Laplacian vanishes: 1 harmonic, 2
-    (default) biharmonic, 3 triharmonic; it may fold (libigl)."""
+    """Translations blended by harmonic (power 1), biharmonic (2, the default) or triharmonic (3)
+    weights; it may fold (libigl)."""
 
     name = "harmonic-weights"
     label = "Harmonic weights"

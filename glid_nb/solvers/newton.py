@@ -1,5 +1,7 @@
-"""Our Newton method, the part on the host (paper Algorithm 1). A compiled call runs several
-iterations."""
+"""Our Newton method, the part on the host (paper Algorithm 1).
+
+A compiled call runs several iterations.
+"""
 
 import functools
 from collections.abc import Sequence

@@ -1,4 +1,4 @@
-"""The notebook's user interface: thin views over plain models; the browser is known only here."""
+"""The notebook's user interface: thin views of plain models. Only this layer knows the browser."""
 
 from glid_nb.widgets.canvas import DeformCanvas
 from glid_nb.widgets.editor import Editor

@@ -1,4 +1,4 @@
-"""Painting what should stay as it is: the brush, its strokes, its controls, the painted areas."""
+"""Painting of stiff areas: the brush, its strokes, its controls, the painted areas."""
 
 import functools
 from collections.abc import Callable
@@ -24,7 +24,7 @@ _EDGES = 60  # along the longer side, so that edges bend with the shape
 
 
 class Brush(traitlets.HasTraits):
-    """What the left button paints with; nothing while it has no tool."""
+    """The brush of the left button. Without a tool, the button does not paint."""
 
     tool = traitlets.Enum(("", "stiff", "erase"), "")
     radius = traitlets.Float()  # in world units
@@ -32,13 +32,13 @@ class Brush(traitlets.HasTraits):
 
     @property
     def shown(self) -> dict[str, float]:
-        """What the page draws: radius and strength, 0 for the eraser; empty without a tool."""
+        """Radius and strength for the page, strength 0 for the eraser; empty without a tool."""
         strength = self.strength if self.tool == "stiff" else 0.0
         return {"radius": self.radius, "strength": strength} if self.tool else {}
 
 
 class BrushGestures(PinGestures):
-    """Pins and drags, or paints with a brush."""
+    """Gestures that pin and drag, or paint with a brush."""
 
     def __init__(
         self, deformation: Deformation, fit: Callable[[], None], image: Array | None = None
@@ -65,7 +65,7 @@ class BrushGestures(PinGestures):
             super()._key(event)
 
     def _paint(self, path: Array, unit: float) -> None:
-        """Paint below a path over the canvas, as one step; a line ends where it leaves a limb."""
+        """Paint along a path on the canvas, as one step. A line ends where it leaves a limb."""
         brush, places, model = self.brush, path[:1], self.deformation
         if len(path) > 1 and (line := shapely.LineString(path)).length > unit:
             places = shapely.get_coordinates(line.simplify(unit).segmentize(brush.radius / 2))
@@ -82,7 +82,7 @@ class BrushGestures(PinGestures):
 
 
 class BrushBar(EditControls):
-    """Controls of a brush, shown in place of ``other`` while the brush has a tool."""
+    """Controls of a brush. They replace ``other`` while the brush has a tool."""
 
     def __init__(self, deformation: Deformation, brush: Brush, other: ipywidgets.DOMWidget) -> None:
         look: Any = {"layout": {"width": "210px"}, "style": {"description_width": "68px"}}
@@ -110,7 +110,7 @@ class BrushBar(EditControls):
 
 
 def painted_areas(moment: Moment) -> list[Any]:
-    """What is stiff where the shape is now: strengths, and loops of [x, y], each."""
+    """The stiff areas of the deformed shape: for each, its strength and its loops of [x, y]."""
     state = moment.state
     return [
         [strength, [np.round(moment.shown(loop), 3).tolist() for loop in loops]]
@@ -120,7 +120,7 @@ def painted_areas(moment: Moment) -> list[Any]:
 
 @functools.lru_cache(maxsize=2)
 def _outlines(stiffness: Stiffness, cage: Cage) -> list[tuple[float, list[Array]]]:
-    """Strengths, and the loops (n, 2) of the areas at rest; holes run the other way round."""
+    """Strengths and loops (n, 2) of the undeformed areas. Holes have the opposite orientation."""
     outlines = []
     for strength, part in stiffness.within(cage).items():
         fine = shapely.segmentize(shapely.normalize(part), cage.longer_side / _EDGES)

@@ -1,4 +1,4 @@
-"""The deformation canvas: a picture that follows its handles; and the buttons above it."""
+"""The deformation canvas, a picture that follows its handles, and the buttons above it."""
 
 import functools
 import time
@@ -29,47 +29,49 @@ from glid_nb.widgets.pad import answer_during_cells
 from glid_nb.widgets.pane import Pane
 from glid_nb.widgets.scene import Drawing, Range
 
-_INTERVAL = 0.2  # least seconds in a drag between updates of panels, colours and hidden pins
+_INTERVAL = 0.2  # least seconds between updates of panels, colours and hidden pins in a drag
 _TOGGLES = (
     ("show_cage", "Cage", "Draw the cage"),
     ("show_offset_cage", "Offset", "Draw the offset cage, which carries the basis"),
     ("show_panels", "Certificate", "Colour the boundary by its certified margin"),
     ("show_source", "Source", "Show the undeformed shape beside the result"),
 )
-_SOURCE_SHARE = 0.4  # of the width
+_SOURCE_SHARE = 0.4  # share of the width for the undeformed shape
 _LEAST_SIZE, _USUAL_SIZE = 100, (600, 500)  # CSS pixels
 
 
 class DeformCanvas(ClosingWidget, ipywidgets.HBox):
     """A picture that follows its pins.
 
-    A click on the shape adds a pin, a drag moves its target (cyan); the pinned point (black)
-    follows as far as a certified map allows. Right click, long touch and the Menu key show what
-    else can be done; the ``?`` on the canvas has the table of all keys and gestures. All of it can
-    be done by keyboard alone: arrow keys move a cursor, Enter adds or selects a pin there.
+    A click on the shape adds a pin, and a drag moves its target (cyan). The pinned point (black)
+    follows as far as a certified map allows. Right click, long touch and the Menu key show more
+    actions. The ``?`` on the canvas shows a table of all keys and gestures. The keyboard alone is
+    enough: arrow keys move a cursor, and Enter adds or selects a pin there.
 
-    The image is as in `glid_nb.read_image`; ``deformation`` is the model to show, or the domain of
-    a new one. The result is ``width`` by ``height`` CSS pixels, at least 100 each, narrower in an
-    editor with less room; by default 600 by 500, and in an editor as large as there is room. It is
-    drawn on a mesh of ``n_vertices``, at least 3; by default 10,000, or fewer if the page needs
-    longer than 40 ms to draw them. They are computed in the "shader" if that can hold the cage, so
-    that a frame sends a few kB, or in the "kernel"; ``evaluated_in`` decides otherwise.
+    The image is as in `glid_nb.read_image`. ``deformation`` is the model to show, or the domain of
+    a new model. The canvas is ``width`` by ``height`` CSS pixels, at least 100 each; by default 600
+    by 500. In an editor it is narrower if there is less room, and by default as large as there is
+    room. The picture is drawn on a mesh of ``n_vertices``, at least 3; by default 10,000, or fewer
+    if the page needs more than 40 ms to draw them. The "shader" computes their images if it can
+    hold the cage; then a frame sends a few kB. Otherwise the "kernel" does. ``evaluated_in`` sets
+    one of the two.
 
     Raises a TraceError for an unreadable picture, a TypeError or ValueError for another size.
     """
 
     overlay = traitlets.Enum(tuple(OVERLAYS), "texture")
-    """What the shape shows: "texture", "mesh" (with a grid), "sigma1", "sigma2", "k", "energy"."""
+    """The display on the shape: "texture", "mesh" (with a grid), "sigma1", "sigma2", "k" or
+    "energy"."""
     show_cage = traitlets.Bool(False)
     """Whether the cage is drawn."""
     show_offset_cage = traitlets.Bool(False)
     """Whether the offset cage is drawn."""
     show_panels = traitlets.Bool(False)
-    """Whether the boundary's panels are drawn, darker the smaller their certified sigma_2."""
+    """Whether the boundary's panels are drawn, coloured by their certified sigma_2."""
     show_source = traitlets.Bool(False)
     """Whether the undeformed shape with the handles is drawn beside the result."""
     show_onion = traitlets.Bool(False)
-    """Whether the outlines of the poses before and after are drawn."""
+    """Whether the outlines of the previous and the next pose are drawn."""
 
     def __init__(
         self,
@@ -87,15 +89,15 @@ class DeformCanvas(ClosingWidget, ipywidgets.HBox):
         """The picture, (h, w, 4) uint8."""
         owned = isinstance(deformation, Domain)
         self.deformation = model = Deformation(deformation) if owned else deformation
-        """The model that this is a view of."""
+        """The model of this view."""
         self._mesh: dict[str, Any] = {"n_vertices": n_vertices, "evaluated_in": evaluated_in}
         self.pane = self._pane(size, interactive=True)
         self.source: Pane | None = None
         self.gestures = BrushGestures(model, self.fit, self.image)
         self.gestures.copy = lambda text: self.pane.stage.send({"copy": text})
         self.brush = self.gestures.brush
-        """What the hand paints stiff areas with."""
-        self._measured: tuple[Domain | None, float] = None, 0.0  # what, and when
+        """The brush for stiff areas."""
+        self._measured: tuple[Domain | None, float] = None, 0.0  # measured domain, and the time
         self._hidden: Any = ()
         self._panels: PanelCertificate | None = None
         super().__init__([self.pane], **kwargs)
@@ -105,8 +107,9 @@ class DeformCanvas(ClosingWidget, ipywidgets.HBox):
         self._resize()
         self.pane.stage.observe(self._resize, ["width", "height"])
         self.pane.stage.observe(self._take_room, ["room"])
-        # Frames come from the solver's thread, events from the page's; both hold the model's lock.
-        # Its next frame acknowledges events and so sets the pace, but not while it is prepared.
+        # Frames come from the solver's thread, events from the page's thread. Both hold the model's
+        # lock. The solver's next frame acknowledges events and so sets the pace, except during the
+        # preparation of the solver.
         with model.locked():
             self.pane.stage.serve(
                 model, self.handle, lambda: (now := model.moment).busy and now.prepared == 1
@@ -125,7 +128,7 @@ class DeformCanvas(ClosingWidget, ipywidgets.HBox):
 
     @property
     def drawn(self) -> bool:
-        """Whether a page has drawn it."""
+        """Whether a page has drawn the canvas."""
         return self.pane.stage.drawn
 
     def fit(self) -> None:
@@ -147,7 +150,7 @@ class DeformCanvas(ClosingWidget, ipywidgets.HBox):
     def _resize(self, _: Any = None) -> None:
         stage, (asked, tall), (width, height) = self.pane.stage, self._asked, self._given
         self.layout.height = f"{stage.height}px"
-        # A hand that drags the corner asks for the sides that it changes.
+        # Dragging the corner fixes the dimension that it changes.
         if stage.width != width:
             asked = stage.width + (0 if self.source is None else self.source.stage.width)
         if stage.height != height:
@@ -184,11 +187,11 @@ class DeformCanvas(ClosingWidget, ipywidgets.HBox):
             self.pane.stage.acknowledge()
 
     def _repr_mimebundle_(self, **kwargs: Any) -> Any:
-        self.deformation.begin()  # before the page has drawn anything
+        self.deformation.begin()  # even before the page draws
         return super()._repr_mimebundle_(**kwargs)
 
     def _draw(self, what: str) -> None:
-        """Draw the model after a change of ``what``; legends move only when it is at rest."""
+        """Draw the model after a change of ``what``. Legends move only if the shape is at rest."""
         with self.deformation.locked():
             if self._closed:
                 return
@@ -228,7 +231,7 @@ class DeformCanvas(ClosingWidget, ipywidgets.HBox):
         }
 
     def show_between(self, map: HarmonicMap | None, order: Order | None = None) -> None:
-        """Draw a map of the motion in place of the pose that is edited; None ends that."""
+        """Draw a map of the motion instead of the edited pose. None shows the pose again."""
         with self.deformation.locked():
             if map is None:
                 self._draw("state")
@@ -237,7 +240,7 @@ class DeformCanvas(ClosingWidget, ipywidgets.HBox):
                 self.pane.show(Drawing(map, order=order, **look))
 
     def _onion(self, state: EditState) -> list[Any]:
-        """Colours and outlines of the poses beside the one that is edited."""
+        """Colours and outlines of the poses before and after the edited one."""
         beside = (state.active - 1, BLUE), (state.active + 1, ORANGE)
         count = len(state.poses)
         around = state.timeline.repeat == "loop" and count > 1
@@ -245,7 +248,8 @@ class DeformCanvas(ClosingWidget, ipywidgets.HBox):
         return [[color, _boundary(maps[i])] for i, color in beside if i in maps]
 
     def _measure(self, moment: Moment) -> Range:
-        """Update panels, hidden pins and the colours' range, now and then; in a drag it grows."""
+        """Update panels and hidden pins if it is time. Returns how to update the colours' range,
+        which only grows during a drag."""
         (domain, then), now = self._measured, time.monotonic()
         state, frame, pose = moment.state, moment.frame, moment.state.pose
         moving = moment.busy or bool(moment.dragged)
@@ -268,11 +272,11 @@ class DeformCanvas(ClosingWidget, ipywidgets.HBox):
     # From the page
 
     def handle(self, events: Sequence[Event]) -> str | None:
-        """Act on pointers and keys, and show why something was refused."""
+        """Act on pointers and keys. Show why an action was refused."""
         stage = self.pane.stage
         stage.notice = self.gestures.handle(events) or ""
         stage.set_trait("cursor", self.gestures.cursor)
-        if events[-1]["type"] not in ("down", "move"):  # nothing is held
+        if events[-1]["type"] not in ("down", "move"):  # no button is pressed
             self.deformation.tell("hand")
         return stage.notice or None
 
@@ -295,7 +299,7 @@ class DeformCanvas(ClosingWidget, ipywidgets.HBox):
 
 @functools.lru_cache(maxsize=4)  # by identity
 def _boundary(map: HarmonicMap) -> list[Any]:
-    """The deformed boundary, rounded to what a screen shows."""
+    """The deformed boundary, rounded to the precision of a screen."""
     return [np.round(loop, 3).tolist() for loop in deformed_loops(map)]
 
 
@@ -309,11 +313,11 @@ def _ring(moment: Moment) -> tuple[float, ...]:
 
 
 class Toolbar(ClosingWidget, ipywidgets.HBox):
-    """Undo, redo, reset, fit, and what the canvas shows."""
+    """Buttons for undo, redo, reset, fit, and the display of the canvas."""
 
     def __init__(self, canvas: DeformCanvas, **kwargs: Any) -> None:
         self.deformation = model = canvas.deformation
-        # Shared: every widget delays the first canvas.
+        # Buttons share layouts, because every widget delays the first canvas.
         narrow, fitting = ipywidgets.Layout(width="34px"), ipywidgets.Layout(width="auto")
         self.undo = button("", "undo", "Undo (Ctrl+Z)", model.undo, narrow)
         self.redo = button("", "repeat", "Redo (Ctrl+Shift+Z)", model.redo, narrow)
@@ -347,7 +351,7 @@ class Toolbar(ClosingWidget, ipywidgets.HBox):
 
 
 def check_size(least: int, n_vertices: Any, **sides: Any) -> tuple[int, int]:
-    """Width and height of a canvas, usual ones for None; these and vertices are checked."""
+    """Check width, height and vertices of a canvas. Returns the size, with defaults for None."""
     if n_vertices is not None:
         check_count("n_vertices", n_vertices, 3, "vertices")
     width, height = (

@@ -1,4 +1,7 @@
-"""The base of our widgets, and closing them: with all they hold, and when their cell runs again."""
+"""The base class of our widgets, and how they close.
+
+Closing a widget closes its parts. A cell that runs again closes its old widgets.
+"""
 
 import functools
 import inspect
@@ -14,24 +17,25 @@ from glid_nb._arguments import check_keywords
 
 P = ParamSpec("P")
 
-_made: dict[str, tuple[str, weakref.WeakSet[Any]]] = {}  # by cell: its last run, what that made
+# For each cell: its last run, and the widgets that this run made.
+_made: dict[str, tuple[str, weakref.WeakSet[Any]]] = {}
 
 
 class ClosingWidget(ipywidgets.Widget):
-    """Refuses unknown keywords, and closes with all that it holds; a widget's first base."""
+    """The first base class of a widget. It refuses unknown keywords and closes all its parts."""
 
-    _endings: tuple[Callable[[], Any], ...] = ()  # what closing ends
-    _closed = False  # whether closing has begun: what draws in another thread asks this first
+    _endings: tuple[Callable[[], Any], ...] = ()  # functions that closing calls
+    _closed = False  # whether closing has begun; other threads check this before they draw
 
     def __new__(cls, *args: Any, **kwargs: Any) -> Any:
-        """Check the keywords, before anything is made."""
+        """Check the keywords before anything is made."""
         own = [name for name in inspect.signature(cls.__init__).parameters if name != "self"]
         traits = [name for name in cls.class_trait_names() if not name.startswith("_")]
         check_keywords(cls.__name__, kwargs, [*own, *traits])
         return super().__new__(cls, *args, **kwargs)
 
     def close(self) -> None:
-        """Remove this and its parts from the page and end its threads; a given model lives on."""
+        """Remove this and its parts from the page, and end its threads. A given model stays."""
         if self.comm is None:  # closed before, or its constructor raised
             return
         self._closed, endings, self._endings = True, self._endings, ()
@@ -44,7 +48,7 @@ class ClosingWidget(ipywidgets.Widget):
 
 
 def close_with_parts(*widgets: ipywidgets.Widget) -> None:
-    """Close widgets and all that only they hold, which ipywidgets would keep, such as layouts."""
+    """Close widgets and their parts, such as layouts, which ipywidgets would keep."""
     for widget in _with_parts(*widgets):
         widget.close()
 
@@ -70,9 +74,9 @@ def _widgets_in(value: Any) -> Iterator[ipywidgets.Widget]:
 
 
 def one_a_cell(make: Callable[P, None]) -> Callable[P, None]:
-    """A constructor that ends by closing what earlier runs of its cell made.
+    """A constructor that finally closes the widgets from earlier runs of its cell.
 
-    Their solvers rest meanwhile; if the constructor raises, they go on.
+    Their solvers are stopped during the constructor. If it raises, they continue.
     """
 
     @functools.wraps(make)
@@ -100,17 +104,17 @@ def one_a_cell(make: Callable[P, None]) -> Callable[P, None]:
 
 
 def _forget(closed: Any) -> None:
-    """Take what is closed out of ``Out`` and ``_12``, which would keep it alive."""
+    """Remove a closed widget from ``Out`` and from names such as ``_12``, which keep it alive."""
     shell = sys.modules["IPython"].get_ipython()
     spaces = [getattr(shell, name, {}) for name in ("user_ns", "user_ns_hidden")]
     for names in (spaces[0].get("_oh", {}), *spaces):
         for name in [n for n, value in names.items() if value is closed]:
-            if str(name).removeprefix("_").isdigit():  # not a name of the user's own
+            if str(name).removeprefix("_").isdigit():  # not a name that the user chose
                 del names[name]
 
 
 def _running_cell() -> tuple[str, str]:
-    """The cell's identity and that of its run; empty where the notebook does not tell them."""
+    """The identities of the cell and of its run; empty if the notebook does not provide them."""
     ipython = sys.modules.get("IPython")
     shell: Any = None if ipython is None else ipython.get_ipython()
     parent = getattr(shell, "get_parent", dict)()

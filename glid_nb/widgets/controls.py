@@ -11,7 +11,7 @@ from glid_nb._errors import InputError
 from glid_nb.session.deformation import Deformation
 from glid_nb.widgets.closing import ClosingWidget
 
-# The style of why something was refused, legible in any theme.
+# The style of texts about refused actions, legible in any theme.
 REFUSED = "color:color-mix(in srgb, #d55e00 75%, var(--jp-ui-font-color1, #222))"
 
 
@@ -23,7 +23,7 @@ def paragraph(text: str, style: str = "") -> str:
 def button(
     label: str, icon: str, tooltip: str, act: Callable[[], object], layout: Any = "auto"
 ) -> ipywidgets.Button:
-    """A button whose click calls ``act``; ``layout`` is its width or a layout that it shares."""
+    """A button whose click calls ``act``. ``layout`` is its width or a shared layout."""
     layout = {"width": layout, "flex": "0 0 auto"} if isinstance(layout, str) else layout
     made = ipywidgets.Button(description=label, icon=icon, tooltip=tooltip, layout=layout)
     made.on_click(lambda _: act())
@@ -36,15 +36,15 @@ def toggle(label: str, icon: str, tooltip: str, layout: Any) -> ipywidgets.Toggl
 
 
 class EditControls(ClosingWidget, ipywidgets.VBox):
-    """Controls of a deformation; a subclass makes them, then calls this constructor."""
+    """Controls of a deformation. A subclass makes them, then calls this constructor."""
 
     def __init__(
         self, deformation: Deformation, children: Sequence[ipywidgets.Widget], **kwargs: Any
     ) -> None:
-        self.deformation = deformation  # the model that this is a view of
+        self.deformation = deformation  # the model of this view
         self.refusal = ipywidgets.HTML().add_class("glid-refusal")
         """Why the last change was refused."""
-        # Whether controls follow the model; per thread, as they may be used in another meanwhile.
+        # Whether controls follow the model. Per thread, because another thread may use them.
         self._following = threading.local()
         super().__init__([*children, self.refusal], **kwargs)
         self._follow()

@@ -56,23 +56,24 @@ _NOT_SAVED = (
 
 
 class Editor(ClosingWidget, ipywidgets.VBox):
-    """Trace a picture, pin points of it, drag them: it follows and never folds over.
+    """Trace a picture, pin points on it, and drag them. The picture follows and never folds over.
 
-    The Trace tab finds the cage, the Deform tab moves it. Where the outline is no more than a
-    guess, as on most photographs, the Trace tab is open at first and says so. All of it can be done
-    in code: `trace`, `add_handle`, `drag`, `solve`, `save`, `load`, `export`.
+    The Trace tab finds the cage, the Deform tab moves it. If the outline is only a guess, as on
+    most photographs, the Trace tab is open at first and says so. Code can do the same: `trace`,
+    `add_handle`, `drag`, `solve`, `save`, `load`, `export`.
 
     The image is as in `glid_nb.read_image`; without one the editor asks for a file. Every change
-    updates the session file ``path``. If it exists, the editor opens it (give the same picture or
-    none). A session that is opened later is updated instead; a picture that is opened later is
-    saved beside it, as is this session if another program changes the file.
+    updates the session file ``path``. If this file exists, the editor opens it (give the same
+    picture or none). If another session is opened later, its file is updated instead. If another
+    picture is opened later, it is saved to a new file beside ``path``. The session also goes to a
+    new file if another program changes its file.
 
-    The canvas is ``width`` by ``height`` CSS pixels, at least 240 each, narrower where there is
-    less room; by default it is as large as there is room. ``n_vertices``, at least 3, are those of
-    the mesh that the picture is drawn on; by default 10,000, or what the page draws within 40 ms.
+    The canvas is ``width`` by ``height`` CSS pixels, at least 240 each, narrower if there is less
+    room. By default it is as large as there is room. ``n_vertices``, at least 3, is the size of the
+    mesh for the picture; by default 10,000, or as many as the page draws within 40 ms.
 
     Raises a TraceError when the picture cannot be read, a DocumentError when the session file
-    cannot, or is of another picture, a TypeError or ValueError for another size.
+    cannot be read or belongs to another picture, a TypeError or ValueError for a wrong size.
 
     >>> import glid_nb as glid
     >>> editor = glid.Editor(glid.samples.image("bar"), n_vertices=500)
@@ -114,17 +115,17 @@ class Editor(ClosingWidget, ipywidgets.VBox):
         self.canvas: DeformCanvas | None = None
         """The canvas of the Deform tab; None while nothing is traced."""
         self._parts: dict[str, Any] = {}
-        # These boxes stay: if the tabs' children changed, the page would select another tab.
+        # Keep these boxes: if the tabs' children changed, the page would select another tab.
         self._trace_box, self._deform_box = ipywidgets.VBox(), ipywidgets.VBox()
         boxes = [self._trace_box, self._deform_box]
         self.tabs = ipywidgets.Tab(boxes, titles=("Trace", "Deform"), selected_index=_DEFORM)
         """The two tabs."""
-        # No height: it covers the page and moves nothing.
+        # Without height, the text covers other parts instead of moving them.
         covering = {"display": "none", "height": "0", "margin": "0", "overflow": "visible"}
         self.unsaved = ipywidgets.HTML(layout=covering)
-        """Why the session file is not up to date; hidden while it is."""
+        """Why the session file is not up to date; hidden if it is."""
         self.kept = KeptOffer(self.model)
-        """Offers what an earlier editor of the picture has kept; hidden without that."""
+        """Offers the kept work of an earlier editor of the picture; hidden if there is none."""
         super().__init__([self.unsaved, self.kept, self.tabs], **kwargs)
         self.add_class("glid-editor")
         self._build()
@@ -134,7 +135,7 @@ class Editor(ClosingWidget, ipywidgets.VBox):
         self._endings = (self._take_down, self.model.close)
 
     def __repr__(self) -> str:
-        """What a notebook shows where it cannot show widgets."""
+        """The text that a notebook shows if it cannot show widgets."""
         if not self.model.has_shape:
             return "Editor(nothing traced yet)"
         state = self.deformation.state
@@ -142,7 +143,7 @@ class Editor(ClosingWidget, ipywidgets.VBox):
         return f"Editor({len(state.poses)} poses, {handles})"
 
     def _repr_mimebundle_(self, **kwargs: Any) -> Any:
-        """The widget, and the picture as it is now for pages where no kernel runs."""
+        """The widget, and the present picture for pages without a kernel."""
         self._displayed = True
         self._begin()  # JAX is imported while the picture is compressed
         bundle, image = super()._repr_mimebundle_(**kwargs), self.model.tracing.image
@@ -158,7 +159,7 @@ class Editor(ClosingWidget, ipywidgets.VBox):
         picture.thumbnail(self._size)
         return png(np.asarray(picture))
 
-    # These parts are made once the canvas is drawn and the model at rest, or when asked for.
+    # These parts are made when the canvas is drawn and the model is at rest, or on first use.
 
     @property
     def tracer(self) -> CageTracer:
@@ -189,7 +190,7 @@ class Editor(ClosingWidget, ipywidgets.VBox):
 
     @property
     def comparison(self) -> MeshMap | None:
-        """What a method on a mesh has come to, uncertified; None for other methods."""
+        """The uncertified map of a method on a mesh; None for other methods."""
         return self.deformation.moment.comparison
 
     @property
@@ -199,7 +200,7 @@ class Editor(ClosingWidget, ipywidgets.VBox):
 
     @property
     def pose(self) -> Pose:
-        """Handles and targets of the pose that is edited."""
+        """Handles and targets of the edited pose."""
         return self.deformation.state.pose
 
     @property
@@ -209,17 +210,17 @@ class Editor(ClosingWidget, ipywidgets.VBox):
 
     @property
     def motion(self) -> Motion:
-        """The motion through all poses, as the timeline has it; they are solved first.
+        """The motion of the timeline through all poses. The poses are solved first.
 
-        Raises MotionError where there is one pose only, or no motion joins two of them, EditError
-        where a pose cannot be solved, as while the solver is paused.
+        Raises a MotionError if there is only one pose or no motion joins two of them, an EditError
+        if a pose cannot be solved, for example while the solver is paused.
         """
-        self.deformation  # noqa: B018 - EditError where there is no shape yet
+        self.deformation  # noqa: B018 - raises an EditError if there is no shape yet
         return self.timeline.animation.motion
 
     @property
     def status(self) -> StatusLine:
-        """What is going on, in words."""
+        """The status of the editor in words."""
         return self.deformation.status
 
     @property
@@ -228,9 +229,10 @@ class Editor(ClosingWidget, ipywidgets.VBox):
         return self.model.document
 
     def trace(self, **options: Any) -> None:
-        """Trace with changed options, fields of `glid_nb.TraceOptions`, and deform what is found.
+        """Trace with changed options (fields of `glid_nb.TraceOptions`), and deform the result.
 
-        Raises TraceError for an unknown option or a value out of its range, EditError once closed.
+        Raises a TraceError for an unknown option or a value out of range, an EditError if the
+        editor is closed.
         """
         if self._closed:
             raise EditError("the editor is closed")
@@ -238,45 +240,48 @@ class Editor(ClosingWidget, ipywidgets.VBox):
         self.model.apply_tracing()
 
     def add_handle(self, point: ArrayLike, to: ArrayLike | None = None) -> int:
-        """Pin a point of the undeformed shape; returns the handle's index."""
+        """Pin a point of the undeformed shape. Returns the handle's index."""
         return self.deformation.add_handle(point, to)
 
     def drag(self, handle: int, to: ArrayLike) -> None:
-        """Drag a handle's target; the shape follows in the background."""
+        """Drag a handle's target. The shape follows in the background."""
         self.deformation.drag(handle, to)
 
     def set_method(self, method: Method | str, **settings: Any) -> None:
-        """Solve by another of `glid_nb.methods`, or its name; those on a mesh are for comparison.
+        """Solve with another method of `glid_nb.methods`, or its name. Methods on a mesh are for
+        comparison only.
 
-        Raises MethodError if it is unknown, cannot minimise the energy, or lacks its package.
+        Raises a MethodError if the method is unknown, cannot minimise the energy, or lacks its
+        package.
         """
         self.deformation.set_method(method, **settings)
 
     def solve(self, timeout: float | None = None) -> bool:
-        """Wait until the shape has come to rest and all poses are solved, after a change of the
-        cage too; whether that is within ``timeout`` seconds."""
+        """Wait until the shape is at rest and all poses are solved, also after a change of the
+        cage. Returns False if that takes longer than ``timeout`` seconds."""
         return self.deformation.solve(timeout)
 
     def export(
         self, path: str | Path, size: tuple[int, int] | None = None, view: View = "source"
     ) -> tuple[Path, ...]:
-        """Export as .png, .obj, .glb, .svg, .html, .py, .proof.json or .glid, a session; as .gif,
-        .apng, .mp4, .webm, .sheet.png, .zip or .motion.json the motion.
+        """Export the pose as .png, .obj, .glb, .svg, .html, .py or .proof.json, or the session as
+        .glid. The suffixes .gif, .apng, .mp4, .webm, .sheet.png, .zip and .motion.json export the
+        motion.
 
         ``size`` and ``view`` of a picture are as in `glid_nb.render`. Returns the written files:
-        ``path``, then those that come with it, such as ``-texture.png`` with a mesh, or
-        ``.map.json`` with a proof (``glid-check x.map.json x.proof.json``). What is exported is
-        solved first. Raises EditError where that cannot be, as while the solver is paused,
-        ExportError for another suffix, or if a file that comes with ``path`` would replace another.
+        ``path``, then additional files, such as ``-texture.png`` of a mesh, or ``.map.json`` of a
+        proof (``glid-check x.map.json x.proof.json``). Exported poses are solved first. Raises an
+        EditError if that is not possible, for example while the solver is paused. Raises an
+        ExportError for another suffix, or if an additional file would replace another file.
         """
         return exporting.export(self.model, path, size, view)
 
     def save(self, path: str | Path) -> None:
-        """Write a session file; its poses are solved first, or opening it solves them."""
+        """Write a session file. Its poses are solved first, or later when the file is opened."""
         self.model.save(path)
 
     def load(self, path: str | Path) -> None:
-        """Go on with a session file."""
+        """Continue with a session file."""
         self.model.load(path)
 
     # The widgets
@@ -296,20 +301,20 @@ class Editor(ClosingWidget, ipywidgets.VBox):
                 self._fill()
 
     def _begin(self) -> None:
-        """Prepare the solver for the shape, once there is one and somebody looks at it."""
+        """Prepare the solver if there is a shape and the editor is displayed."""
         if self._displayed and self.model.has_shape:
             self.deformation.begin()
 
     def _fill(self, *names: str) -> None:
-        """Make these parts, by default all, where they are still missing."""
+        """Make the missing ones among these parts, by default among all parts."""
         with self.model.locked():
             for name in names or self._boxes:
-                if self._closed:  # perhaps since the part before
+                if self._closed:  # perhaps closed since the previous part
                     return
                 self._made(name)
 
     def _part(self, name: str) -> Any:
-        """A part, made if it is missing; a RuntimeError once the editor is closed."""
+        """A part; made if it is missing. Raises a RuntimeError if the editor is closed."""
         if self._closed and name not in self._parts:
             raise RuntimeError("the editor is closed; this part of it was never made")
         return self._made(name)
@@ -325,7 +330,7 @@ class Editor(ClosingWidget, ipywidgets.VBox):
             if name not in self._parts:
                 try:
                     part = self._parts[name] = makers[name]()
-                except Exception as error:  # logged by the kernel, where nobody looks
+                except Exception as error:  # show it, because nobody reads the kernel's log
                     what = paragraph(f"{type(error).__name__}: {error}", REFUSED)
                     self._boxes[name].children = [ipywidgets.HTML(what)]
                     raise
@@ -333,7 +338,7 @@ class Editor(ClosingWidget, ipywidgets.VBox):
             return self._parts[name]
 
     def _bars(self) -> ipywidgets.VBox:
-        """The numbers of the pins, and in their place the brush's while there is one."""
+        """The controls of the pins; the brush's controls replace them while a brush is chosen."""
         assert self.canvas is not None
         pins = PinBar(self.deformation)
         return ipywidgets.VBox([pins, BrushBar(self.deformation, self.canvas.brush, pins)])
@@ -344,12 +349,13 @@ class Editor(ClosingWidget, ipywidgets.VBox):
         self.canvas = canvas = DeformCanvas(image, model, **self._asked)
         self.toolbar = Toolbar(self.canvas)
         self.monitor = monitor = SolverMonitor(model, _SIDE_WIDTH, _PLOTS_HEIGHT)
-        # A first drag has the processor before what other tabs hide, and ends before the numbers.
+        # Make the hidden parts only when the model rests, and the pins' numbers after the first
+        # gesture. So the first drag has the processor for itself.
         monitor.observe(lambda _: self._fill(), ["rested"])
         canvas.brush.observe(lambda _: model.tell("hand"), ["tool"])
         model.observe(lambda what: self._fill("pins") if what == "hand" else None)
         self.timeline = TimelinePanel(self.canvas, self._open_files)
-        # Boxes to be filled: if the children changed, the page would select another tab.
+        # Fill these boxes later: if the tab's children changed, the page would select another tab.
         self._boxes |= {"solver": ipywidgets.VBox(), "files": ipywidgets.VBox()}
         bars = self._boxes["pins"] = ipywidgets.VBox().add_class("glid-bars")
         self._side = ipywidgets.Tab(
@@ -359,7 +365,7 @@ class Editor(ClosingWidget, ipywidgets.VBox):
         )
         self._side.observe(lambda _: self._fill(), ["selected_index"])
         line = self.monitor.line
-        line.layout.height, line.layout.overflow = "44px", "hidden auto"  # however long it is
+        line.layout.height, line.layout.overflow = "44px", "hidden auto"  # for any length of text
         side = ipywidgets.VBox([self._side], layout={"width": f"{_SIDE_WIDTH + 38}px"})
         side.add_class("glid-side")
         left = ipywidgets.VBox([self.toolbar, bars, self.canvas, self.timeline, line])

@@ -1,4 +1,4 @@
-"""Exports of an editor, chosen by the file's suffix; those of its motion in the background."""
+"""Exports of an editor. The file's suffix selects the format. Motions export in the background."""
 
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
@@ -25,15 +25,15 @@ from glid_nb.session.worker import LatestWins, weakly
 from glid_nb.widgets.closing import ClosingWidget
 from glid_nb.widgets.controls import REFUSED, button
 
-_MOST_CHOICES = 10_000  # bytes of those of an export
+_MOST_CHOICES = 10_000  # most bytes of the file with an export's choices
 _NUMBER = {"width": "70px", "flex": "0 0 auto"}
 
-# A name, and what takes the files and says where they are.
+# A name, and a function that takes the files and returns a text about where they are.
 _Task = tuple[str, Callable[[dict[str, bytes]], str]]
 
 
 class OccupiedError(ExportError):
-    """Files that the editor did not write would be replaced; ``plain`` asks whether to."""
+    """An export would replace files that the editor did not write. ``plain`` asks the user."""
 
     def __init__(self, paths: Sequence[Path]) -> None:
         names = ", ".join(str(path.absolute()) for path in paths)
@@ -46,18 +46,18 @@ class OccupiedError(ExportError):
 
 
 def names_of(paths: Sequence[Path]) -> str:
-    """The names of files, as a list in words."""
+    """The names of files as text, such as "a, b and c"."""
     *others, last = (path.name for path in paths)
     return f"{', '.join(others)} and {last}" if others else last
 
 
 def files_of(path: Path) -> tuple[Path, ...]:
-    """The files that `export` writes for this name: itself, then those that come with it."""
+    """The files that `export` writes for this name: itself, then the additional files."""
     return tuple(map(path.with_name, file_names(path.name, FORMATS)))
 
 
 def check_free(model: EditorModel, paths: Sequence[Path], owner: Path) -> None:
-    """Raise `OccupiedError` if files are there that the editor did not write for ``owner``."""
+    """Raise an `OccupiedError` if a file exists that the editor did not write for ``owner``."""
     if strangers := model.own_files.strangers(paths, owner):
         raise OccupiedError(strangers)
 
@@ -65,7 +65,8 @@ def check_free(model: EditorModel, paths: Sequence[Path], owner: Path) -> None:
 def export(
     model: EditorModel, path: str | Path, size: tuple[int, int] | None = None, view: View = "source"
 ) -> tuple[Path, ...]:
-    """Write `exported` files over those of an earlier export; an `OccupiedError` over others."""
+    """Write `exported` files. They may replace files of an earlier export. Raises an
+    `OccupiedError` if additional files would replace others."""
     path = Path(path)
     if path.name.lower().endswith(tuple(MOTION_FORMATS.keys() - FORMATS.keys())):
         motion = motion_of(model.deformation.solved_state())
@@ -73,7 +74,7 @@ def export(
     else:
         files = exported(model, path, size, view)
     (name, data), *others = files.items()
-    # If the file exists, those beside it came with it.
+    # If the named file exists, the additional files belong to it.
     beside = write(model, path, dict(others), replace=path.exists())
     return (*write(model, path, {name: data}, replace=True), *beside)
 
@@ -81,10 +82,10 @@ def export(
 def exported(
     model: EditorModel, path: Path, size: tuple[int, int] | None, view: View
 ) -> dict[str, bytes]:
-    """The contents of `files_of` the path by their names; arguments are as in `Editor.export`.
+    """The contents of the files `files_of(path)`, by name. Arguments are as in `Editor.export`.
 
-    The pose that is edited is solved first, for sessions and scripts all poses; an EditError if a
-    picture, a mesh or a proof would show another map than the pose asks for.
+    The edited pose is solved first; for sessions and scripts, all poses. Raises an EditError if a
+    pose cannot be solved, so that a picture, a mesh or a proof would show another map.
     """
     deformation, suffix = model.deformation, suffix_of(path.name, FORMATS)
     if suffix in (".glid", ".py"):
@@ -123,7 +124,8 @@ def exported(
 def write(
     model: EditorModel, owner: Path, files: Mapping[str, bytes], *, replace: bool
 ) -> list[Path]:
-    """Write files of ``owner`` beside it; an `OccupiedError` if, unasked, they replace others'."""
+    """Write files of ``owner`` beside it. Without ``replace``, raises an `OccupiedError` if they
+    would replace other files."""
     contents = {owner.parent / name: data for name, data in files.items()}
     new = {p: data for p, data in contents.items() if not (p.is_file() and p.read_bytes() == data)}
     if not replace:
@@ -141,7 +143,7 @@ def _motion_files(model: EditorModel, motion: Motion, name: str, **how: Any) -> 
 
 
 def last_export() -> dict[str, Any]:
-    """What `remember_export` wrote last; empty where nothing can be read."""
+    """The choices that `remember_export` wrote last; empty if they cannot be read."""
     try:
         data = read_file(_last_export(), most=_MOST_CHOICES)
         known = parse_json(data, "last-export.json", nan=False)
@@ -151,7 +153,7 @@ def last_export() -> dict[str, Any]:
 
 
 def remember_export(choices: Mapping[str, Any]) -> None:
-    """Keep the choices of an export in the user's data folder; an OSError if that fails."""
+    """Save the choices of an export in the user's data folder. Raises an OSError if that fails."""
     path = _last_export()
     path.parent.mkdir(parents=True, exist_ok=True)
     write_atomically(path, json_text(choices))
@@ -162,7 +164,7 @@ def _last_export() -> Path:
 
 
 class MotionExport(ClosingWidget, ipywidgets.HBox):
-    """Size and rate of a moving picture, and how far it is drawn; ``say(text, style)`` tells."""
+    """Size, frame rate and progress of a motion's export. ``say(text, style)`` shows a message."""
 
     def __init__(
         self, model: EditorModel, animation: Animation, say: Callable[[str, str], None]
@@ -173,7 +175,7 @@ class MotionExport(ClosingWidget, ipywidgets.HBox):
         tip = "Frames per second"
         self.rate = ipywidgets.BoundedFloatText(25, min=1, max=100, tooltip=tip, layout=_NUMBER)
         self.progress = ipywidgets.IntProgress(layout={"width": "auto", "flex": "1 1 40px"})
-        """Frames that are drawn; hidden while nothing is."""
+        """The number of drawn frames; hidden without an export."""
         self._worker: LatestWins[_Task] = LatestWins(weakly(self._draw), self, "export")
         self.cancel = button("Cancel", "stop", "Stop drawing", self._worker.cancel)
         self._running = (self.progress, self.cancel)
@@ -184,7 +186,7 @@ class MotionExport(ClosingWidget, ipywidgets.HBox):
         self._endings = (self._worker.close,)
 
     def start(self, name: str, deliver: Callable[[dict[str, bytes]], str]) -> str:
-        """Draw a file of this name, then deliver what was made; says at once what is done."""
+        """Draw a file in the background, then deliver it. Returns a message at once."""
         self._show(True)
         self._worker.submit((name, deliver))
         return f"Drawing {name}…"
@@ -207,7 +209,7 @@ class MotionExport(ClosingWidget, ipywidgets.HBox):
             files = _motion_files(self._model, motion, name, progress=report, **how)
             stopped = worker.cancelled or not files
             self._say("Stopped; nothing was written." if stopped else deliver(files), "")
-        except (OSError, ValueError) as error:  # refusals for the user; others are bugs
+        except (OSError, ValueError) as error:  # messages for the user; other errors are bugs
             self._say(str(error), REFUSED)
         finally:
             self._show(False)

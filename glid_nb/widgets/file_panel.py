@@ -1,4 +1,4 @@
-"""Open, save, export."""
+"""The panels that open, save and export."""
 
 import contextlib
 import time
@@ -25,8 +25,8 @@ from glid_nb.widgets.controls import REFUSED, button, paragraph
 
 _SUFFIX = ".glid"
 _DOUBLE_CLICK = 0.5  # seconds
-_MOTION = "motion"  # before the suffixes of moving pictures
-_MOVING = {".html": ".motion", ".glb": ".motion", ".zip": ".frames"}  # in names, before these
+_MOTION = "motion"  # prefix of the suffixes of motions in the menu
+_MOVING = {".html": ".motion", ".glb": ".motion", ".zip": ".frames"}  # inserted before these
 _LABEL = {"width": "58px", "flex": "0 0 auto"}
 _WIDE = {"width": "auto", "min_width": "0", "flex": "1 1 auto"}
 _VIEWS = (("Whole shape", "fit"), ("Original frame", "source"))
@@ -39,15 +39,16 @@ _UNSAVED = (
 )
 _KEPT = "Another editor's work on this picture is kept, last changed on {:%d %B at %H:%M}."
 
-_Action = Callable[[bool], str | None]  # what a button does, if it is sure; says what was done
+_Action = Callable[[bool], str | None]  # action(sure) of a button; returns what was done
 
 
 class _UnsavedError(InputError):
-    """Opening a session would discard what is in no file."""
+    """Opening a session would discard unsaved work."""
 
 
 def session_path(text: str) -> Path:
-    """The session file that somebody named, with its suffix; DocumentError for no such name."""
+    """The session file that the user named, with its suffix. Raises a DocumentError for a wrong
+    name."""
     name = text.strip()
     path = Path(name).expanduser()
     if not path.name or name.endswith(("/", "\\")):
@@ -61,17 +62,18 @@ def session_path(text: str) -> Path:
 
 
 def existing_path(text: str) -> Path:
-    """The file that somebody wants to open: any that is there, else as in `session_path`."""
+    """The file that the user wants to open: any existing file, else as in `session_path`."""
     path = Path(text.strip()).expanduser()
     return path if path.is_file() else session_path(text)
 
 
 class Asking:
-    """Buttons that may ask for a second click, which makes them sure; ``message`` says why."""
+    """Buttons that may ask for a second click to confirm. ``message`` says why."""
 
     model: EditorModel
     message: ipywidgets.HTML
-    _asked: tuple[ipywidgets.Button | None, str, float] = None, "", 0.0  # its label, and when
+    # The button that asks, its label, and the time of the first click.
+    _asked: tuple[ipywidgets.Button | None, str, float] = None, "", 0.0
 
     def _button(
         self, label: str, icon: str, tooltip: str, action: _Action, question: str = "Replace?"
@@ -80,7 +82,7 @@ class Asking:
 
         def click() -> None:
             asked, _, at = self._asked
-            # The second half of a double click is no answer.
+            # The second click of a double click is no confirmation.
             sure = asked is made and time.monotonic() - at >= _DOUBLE_CLICK
             self._show()
             try:
@@ -89,7 +91,7 @@ class Asking:
                 self._asked = made, label, time.monotonic()
                 made.description, made.button_style = question, "warning"
                 self._say(error.plain, REFUSED)
-            except (OSError, ValueError) as error:  # refusals for the user; others are bugs
+            except (OSError, ValueError) as error:  # messages for the user; other errors are bugs
                 self._say(str(error), REFUSED)
 
         made = button(label, icon, tooltip, click)
@@ -97,21 +99,21 @@ class Asking:
 
     def _check_saved(self, path: Path, sure: bool) -> None:
         if self.model.unsaved and not sure:
-            open_document(path)  # what cannot be opened needs no answer
+            open_document(path)  # a file that cannot be opened needs no confirmation
             raise _UnsavedError(_UNSAVED)
 
     def _say(self, text: str, style: str = "") -> None:
         self.message.value = paragraph(text, style)
 
     def _show(self, _: Any = None) -> None:
-        """Ask nothing any more."""
+        """Stop asking for a confirmation."""
         (asked, label, _), self._asked = self._asked, (None, "", 0.0)
         if asked is not None:
             asked.description, asked.button_style = label, ""
 
 
 class KeptOffer(Asking, ipywidgets.HBox):
-    """Offers what an earlier editor of the picture has kept; hidden without that."""
+    """Offers the kept work of an earlier editor of the picture; hidden if there is none."""
 
     def __init__(self, model: EditorModel) -> None:
         self.model = model
@@ -120,7 +122,7 @@ class KeptOffer(Asking, ipywidgets.HBox):
             return
         try:
             changed = datetime.fromtimestamp(path.stat().st_mtime)
-        except OSError:  # it has gone since
+        except OSError:  # the file no longer exists
             return
 
         def end(act: Callable[[], None], sure: bool = True) -> None:
@@ -137,7 +139,7 @@ class KeptOffer(Asking, ipywidgets.HBox):
 
 
 class OpenPanel(Asking, ipywidgets.VBox):
-    """Opens a session file by its name, before there is a picture."""
+    """Opens a session file by its name, if there is no picture yet."""
 
     def __init__(self, model: EditorModel) -> None:
         self.path = ipywidgets.Text(placeholder="session.glid", layout={"width": "280px"})
@@ -161,13 +163,13 @@ class Clipboard(anywidget.AnyWidget):
         self.on_msg(self._receive)
 
     def copy(self, text: str, done: Callable[[bool], None]) -> None:
-        """Put text into the clipboard; ``done`` is told, by each page, whether that was allowed."""
+        """Copy text to the clipboard. Each page calls ``done`` with whether that was allowed."""
         self._number += 1
         self._done = done
         self.send({"number": self._number, "text": text})
 
     def download(self, name: str, data: bytes) -> None:
-        """Have the browser save a file."""
+        """Let the browser save a file."""
         self._number += 1
         self.send({"number": self._number, "name": name}, [data])
 
@@ -175,21 +177,22 @@ class Clipboard(anywidget.AnyWidget):
         if (done := self._done) is None or message.get("number") != self._number:
             return
         if copied := bool(message.get("copied")):
-            self._done = None  # other pages that show this may have refused
+            self._done = None  # ignore other pages of this widget, which may have refused
         done(copied)
 
 
 class FilePanel(Asking, ipywidgets.VBox):
-    """Sessions to open and save, and exports; files of others are replaced by a second click."""
+    """Opens and saves sessions, and exports. A second click replaces files that the editor did not
+    write."""
 
     def __init__(self, model: EditorModel, animation: Animation | None = None) -> None:
         self.model, export = model, exporting.MotionExport
         self.motion = None if animation is None else export(model, animation, self._say)
-        """Draws the motion; None without one."""
+        """Exports the motion; None without a motion."""
         session = model.own_files.session or Path(f"{model.name}{_SUFFIX}")
         self.path = ipywidgets.Text(str(session), placeholder="Name.glid", layout=_WIDE)
-        """Where to save, and what to open; relative to the notebook."""
-        self.autosave = ipywidgets.HTML()  # where changes are saved automatically
+        """The session file to save or open, relative to the notebook."""
+        self.autosave = ipywidgets.HTML()  # says where changes are saved automatically
         formats = [(one.label, suffix) for suffix, one in FORMATS.items()]
         if self.motion is not None:
             moving = MOTION_FORMATS.items()
@@ -200,15 +203,15 @@ class FilePanel(Asking, ipywidgets.VBox):
         most, tooltip = MAX_SIDE * width // max(width, height), "Width of the picture in pixels"
         look: Any = {"tooltip": tooltip, "layout": {"width": "76px", "flex": "0 0 auto"}}
         self.width = ipywidgets.BoundedIntText(width, min=1, max=most, **look)
-        """Width of an exported picture in pixels, at first the original's."""
+        """Width of an exported picture in pixels; initially that of the original."""
         self._height = ipywidgets.Label(layout={"flex": "0 0 auto"})
         self.view = ipywidgets.Dropdown(options=_VIEWS, tooltip="What it shows", layout=_WIDE)
-        """What an exported picture shows, as in `glid_nb.render`."""
+        """The view of an exported picture, as in `glid_nb.render`."""
         self._picture = _row("Picture", self.width, self._height, self.view)
         self.code = ipywidgets.Textarea(rows=9, layout={"width": "auto", "display": "none"})
         """The lines of "Copy as Python"."""
         self.clipboard = Clipboard()
-        self.message = ipywidgets.HTML()  # what was done, or why it was not
+        self.message = ipywidgets.HTML()  # what was done, or why it was refused
         self._add_buttons()
         self._moving = _row("Motion", *([] if self.motion is None else [self.motion]))
         super().__init__(
@@ -234,7 +237,7 @@ class FilePanel(Asking, ipywidgets.VBox):
         if self.motion is not None:
             self._remembered |= {"size": self.motion.size, "rate": self.motion.rate}
         for name, value in exporting.last_export().items():
-            with contextlib.suppress(KeyError, traitlets.TraitError):  # no choice here, or no more
+            with contextlib.suppress(KeyError, traitlets.TraitError):  # unknown or no longer valid
                 self._remembered[name].value = value
 
     def _add_buttons(self) -> None:
@@ -249,11 +252,11 @@ class FilePanel(Asking, ipywidgets.VBox):
 
     @property
     def size(self) -> tuple[int, int]:
-        """Width and height of an exported picture, of the original's proportions."""
+        """Width and height of an exported picture, with the original's aspect ratio."""
         return self.width.value, max(1, round(self.width.value * self._aspect))
 
     def follow_autosave(self) -> None:
-        """Show the file that is saved automatically, after it has changed."""
+        """Show the autosave's file after it has changed."""
         self.path.value = str(self.model.autosave_path or self.path.value)
         self._show()
 
@@ -272,13 +275,13 @@ class FilePanel(Asking, ipywidgets.VBox):
         return f"Opened {path.absolute()}"
 
     def show_motion(self) -> None:
-        """Choose an export of the motion, unless one is chosen."""
+        """Select an export of the motion, unless one is selected."""
         if not self._chosen[1] and self.motion is not None:
             self.format.index = len(FORMATS)
 
     @property
     def _chosen(self) -> tuple[Path, bool]:
-        """The file to export, and whether it is of the motion."""
+        """The file to export, and whether it exports the motion."""
         chosen = str(self.format.value)
         moving, suffix = chosen.startswith(_MOTION), chosen.removeprefix(_MOTION)
         suffix = _MOVING.get(suffix, "") * moving + suffix
@@ -308,10 +311,10 @@ class FilePanel(Asking, ipywidgets.VBox):
         return self._made(deliver)
 
     def _made(self, deliver: Callable[[Mapping[str, bytes]], str]) -> str:
-        """Make the files that are chosen, those of a motion in the background, and deliver them."""
+        """Make the chosen files and deliver them. Files of a motion are made in the background."""
         try:
             exporting.remember_export({name: one.value for name, one in self._remembered.items()})
-        except OSError as error:  # the export itself needs no such folder
+        except OSError as error:  # the export itself does not need this folder
             self.model.not_kept(error)
         path, moving = self._chosen
         if moving and self.motion is not None:
@@ -342,7 +345,7 @@ class FilePanel(Asking, ipywidgets.VBox):
         return "These lines make the map." + needed
 
     def _show(self, _: Any = None) -> None:
-        """Update what depends on the model and on other controls, and ask nothing any more."""
+        """Update the controls from the model and each other. Stop asking for a confirmation."""
         super()._show()
         self._picture.layout.display = "flex" if self.format.value == ".png" else "none"
         moving = str(self.format.value).startswith(_MOTION)

@@ -1,4 +1,4 @@
-"""What pointers and keys on a canvas mean; without a browser."""
+"""The meaning of pointers and keys on a canvas, without a browser."""
 
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
@@ -18,24 +18,25 @@ from glid_nb.session.pose_text import pose_text
 Event = Mapping[str, Any]
 Action = Callable[[Event], Any]
 
-OF_A_HAND = ("down", "move", "up", "cancel", "key")  # the types of events of pointers and keys
+OF_A_HAND = ("down", "move", "up", "cancel", "key")  # the types of pointer and key events
 LEFT, RIGHT = 0, 2
-_SLOP, _SLOP_ON_SHAPE = 2.0, 5.0  # pixels that a pressed pointer may move without dragging
+_SLOP, _SLOP_ON_SHAPE = 2.0, 5.0  # a pressed pointer that moves fewer pixels does not drag
 _NUDGE, _NUDGE_SHIFT = 0.1, 0.5  # world units
 _CURSOR, _CURSOR_SHIFT = 6.0, 30.0  # pixels
 ARROWS = {"ArrowLeft": (-1, 0), "ArrowRight": (1, 0), "ArrowUp": (0, 1), "ArrowDown": (0, -1)}
 _DEPTHS = {"PageUp": 1, "]": 1, "PageDown": -1, "[": -1}
 _TURNS = {"<": (np.radians(5), 1.0), ">": (np.radians(-5), 1.0)}  # angle and scale
 _TURNS |= {"+": (0.0, 1.05), "=": (0.0, 1.05), "-": (0.0, 1 / 1.05)}
-_LEAST_SCALE, _LARGEST_SCALE = 0.05, 20.0  # that a hand gives
+_LEAST_SCALE, _LARGEST_SCALE = 0.05, 20.0  # limits of scales set by dragging
 
 
 class Gestures:
     """Turns events of the page into actions on a model.
 
-    An event is a mapping with its ``type``, which ``actions`` has. Those of a hand have the place
-    ``x``, ``y``, the radius ``reach`` that the pointer hits and the size ``unit`` of a CSS pixel,
-    all in the canvas's units, ``button``, ``shift``, ``key`` and ``time`` in ms.
+    An event is a mapping. Its ``type`` is a key of ``actions``. Pointer and key events have the
+    place ``x``, ``y``, the radius ``reach`` around the pointer that counts as a hit, and the size
+    ``unit`` of a CSS pixel, all in the canvas's units. They also have ``button``, ``shift``,
+    ``key`` and ``time`` in ms.
     """
 
     def __init__(self, model: Observed, actions: Mapping[str, Action]) -> None:
@@ -43,9 +44,9 @@ class Gestures:
         self._press: Any = None
 
     def handle(self, events: Iterable[Event]) -> str | None:
-        """Act on events in order; returns why something was refused, or None."""
+        """Act on events in order. Returns why an action was refused, or None."""
         refusal: str | None = None
-        with self._model.locked():  # one change, drawn once
+        with self._model.locked():  # all events together are drawn once
             for event in events:
                 kind = event["type"]
                 if (act := self._actions.get(kind)) is None:
@@ -64,17 +65,19 @@ class Gestures:
 class _PinPress:
     start: Array
     source: Array | None
-    """The point of the undeformed shape below the pointer; None over a handle or beside it."""
+    """The point of the undeformed shape below the pointer; None over a handle or outside the shape.
+    """
     targets: Array | None
-    """Where the dragged targets were when the pointer was at ``start``; None without a handle."""
+    """The dragged targets when the pointer was at ``start``; None without a handle."""
     dragging: bool = False
-    part: str = ""  # of the ring around a handle: "turn" or "scale"
+    part: str = ""  # the pressed part of the ring around a handle: "turn" or "scale"
     turned: tuple[Array, Array] | None = None
     """Angles and scales of the selected handles when the pointer was at ``start``."""
 
 
 class PinGestures(Gestures):
-    """Pins and drags points, below transparent parts of the picture; ``fit()`` shows everything."""
+    """Gestures that pin and drag points, also below transparent parts of the picture. ``fit()``
+    shows everything."""
 
     def __init__(
         self, deformation: Deformation, fit: Callable[[], None], image: Array | None = None
@@ -85,18 +88,20 @@ class PinGestures(Gestures):
         self.deformation, self._image = deformation, image
         self._fit = fit
         self._press: _PinPress | None = None
-        self.copy: Callable[[str], None] = lambda _: None  # puts text into the clipboard
-        self.cursor: list[float] | None = None  # where the keyboard's cursor is
+        self.copy: Callable[[str], None] = lambda _: None  # copies text to the clipboard
+        self.cursor: list[float] | None = None  # the place of the keyboard's cursor
 
     def hit(self, point: Array, reach: float) -> int | None:
-        """The handle whose target, else whose image, is nearest; as in ``canvas/marks.js``."""
+        """The handle with the nearest target within reach, else with the nearest image.
+        ``canvas/marks.js`` uses the same rule."""
         pose = self.deformation.pose
         if not len(pose):
             return None
         hidden = self.deformation.sheets(self._image).hidden(pose.handles)
         for places in (pose.targets, self.deformation.moment.shown(pose.handles)):
             gap = np.linalg.norm(places - point, axis=1)
-            seen = np.where(gap <= reach, gap + hidden * reach / 3, np.inf)  # hidden: farther
+            # Hidden handles count as farther away.
+            seen = np.where(gap <= reach, gap + hidden * reach / 3, np.inf)
             nearest = int(np.argmin(seen))
             if seen[nearest] < np.inf:
                 return nearest
@@ -112,12 +117,12 @@ class PinGestures(Gestures):
         self._press, self.cursor = None, None
         hit = self.hit(point, event["reach"])
         if event["button"] == RIGHT and hit is not None and hit not in model.selection:
-            model.select([hit])  # what the menu is about
+            model.select([hit])  # the menu acts on the selection
         if event["button"] != LEFT:
             return
         if hit is None and (part := event.get("part")) and model.selection:
             turned = turned_now(model.state, model.selection)
-            # A click on the ring's line that turns nothing pins what is below it.
+            # A click on the ring's line without a turn pins the point below it.
             source = self._source(point) if part == "turn" else None
             self._press = _PinPress(point, source, None, part=part, turned=turned)
         elif hit is None:
@@ -152,7 +157,7 @@ class PinGestures(Gestures):
         model.drag_to(press.targets + (point - press.start))
 
     def _drags(self, press: _PinPress) -> bool:
-        """Begin or continue the drag of the selected handles; False where it cannot go on."""
+        """Begin or continue the drag of the selected handles. False if it cannot continue."""
         model = self.deformation
         if not press.dragging and model.selection:
             model.begin_drag(model.selection)
@@ -162,7 +167,7 @@ class PinGestures(Gestures):
         return self._press is not None
 
     def _turn(self, press: _PinPress, point: Array) -> None:
-        """Turn or scale the selected handles as the pointer moves around the last of them."""
+        """Turn or scale the selected handles when the pointer moves around the last of them."""
         model = self.deformation
         if not self._drags(press):
             return
@@ -207,7 +212,7 @@ class PinGestures(Gestures):
         self._pin_at(self._source(place(event)))
 
     def _pin_at(self, source: Array | None) -> Array:
-        """Pin and select a point of the undeformed shape; returns its target, (1, 2)."""
+        """Pin and select a point of the undeformed shape. Returns its target, (1, 2)."""
         if source is None:
             raise EditError("there is no shape here; choose a place on the shape")
         model = self.deformation
@@ -274,10 +279,10 @@ class PinGestures(Gestures):
 
 
 def asked(act: Callable[..., Any], *items: str) -> Action:
-    """An action that passes these items of an event on."""
+    """An action that calls ``act`` with these items of an event."""
     return lambda event: act(*(event[item] for item in items))
 
 
 def place(event: Event) -> Array:
-    """Where an event is, (2,)."""
+    """The place of an event, (2,)."""
     return np.array([event["x"], event["y"]], dtype=float)

@@ -1,4 +1,4 @@
-"""Meshes that pythreejs draws, moved by a map in the shader or in the kernel."""
+"""Meshes drawn by pythreejs. A map moves them in the shader or in the kernel."""
 
 import math
 from collections.abc import Callable
@@ -23,15 +23,15 @@ from glid_nb.widgets.overlays import N_COLORS
 Uniforms = dict[str, dict[str, Any]]
 EvaluatedIn = Literal["shader", "kernel"]
 Evaluation = Callable[[Any], tuple[Array, Array]]
-"""Gives images (v, 2) of a mesh's vertices under a map, and its derivatives (v, 4); float32."""
+"""Returns images (v, 2) of a mesh's vertices under a map, and derivatives (v, 4); float32."""
 
-_LARGEST_SIDE = 2048  # pixels of a texture, which every graphics card can hold
+_LARGEST_SIDE = 2048  # pixels of a texture; every graphics card supports this size
 
-# Lines along curves of the undeformed shape are triangles, with a width in pixels.
+# Lines along curves of the undeformed shape are drawn as triangles with a width in pixels.
 _PIECES_PER_SIDE = 80
 _PANEL_PIECES = 2
 PANEL_VERTICES = 4 * _PANEL_PIECES
-_INSIDE = 0.15  # of its distance to the cage, by which the offset cage is drawn inside the domain
+_INSIDE = 0.15  # of its distance to the cage: the drawn offset cage is moved inwards by this
 Ribbon = tuple[Array, Array, Array]
 """Four vertices for each piece of a curve: (v, 2) points, (t, 3) triangles, and (v, 3) the curve's
 unit direction and the side, -1 or 1."""
@@ -40,11 +40,12 @@ unit direction and the side, -1 or 1."""
 class Layer:
     """A mesh of (v, 2) points in the undeformed shape and (t, 3) triangles, moved by a map.
 
-    A third coordinate of the points is the height that the picture's depth test compares.
+    A third coordinate of the points is the height for the picture's depth test.
 
-    Maps, at first ``map``, are evaluated by the shader if ``mover`` is a `ShaderMap`, else by it.
-    ``shader`` names the files; ``attributes`` are further arrays per vertex, bytes as numbers up
-    to 1. ``uniforms`` have at most one texture, the last: pythreejs binds all to the last name.
+    The first map is ``map``. If ``mover`` is a `ShaderMap`, the shader evaluates maps; otherwise
+    ``mover`` does. ``shader`` names the files. ``attributes`` are further arrays per vertex; bytes
+    are scaled to numbers up to 1. ``uniforms`` have at most one texture, as the last one, because
+    pythreejs binds all textures to the last name.
     """
 
     def __init__(
@@ -65,7 +66,7 @@ class Layer:
         else:
             arrays["image"], arrays["derivatives"] = mover(map)
             self._vertex = vertex_shader(shader, None)
-        self.attributes = {  # what there is per vertex, by name, and the triangles
+        self.attributes = {  # arrays per vertex by name, and the triangles
             name: three.BufferAttribute(values, normalized=values.dtype == np.uint8)
             for name, values in arrays.items()
         }
@@ -74,7 +75,7 @@ class Layer:
         self._uniforms = uniforms
         self._geometry = three.BufferGeometry(attributes=self.attributes)
         self.materials: list[Any] = []  # the materials in drawing order
-        self.meshes: list[Any] = []  # what is drawn, the lowest first
+        self.meshes: list[Any] = []  # the drawn meshes, the lowest first
         self.draw(shader, uniforms, depth=shader == "picture")
         self.material, self.mesh = self.materials[0], self.meshes[0]
 
@@ -96,32 +97,32 @@ class Layer:
             depthWrite=depth,
         )
         self.materials.append(material)
-        # Culling would hide a mesh that leaves its first bounding sphere.
+        # Culling would hide a mesh that leaves its initial bounding sphere.
         self.meshes.append(three.Mesh(self._geometry, material, frustumCulled=False))
 
     def set_attribute(self, name: str, values: Array) -> None:
-        """Give the vertices other values."""
+        """Replace the values of an attribute."""
         if not np.array_equal(self.attributes[name].array, values):
             self.attributes[name].array = values
 
     def stack(self, points: Array, triangles: Array) -> None:
-        """Give the points other heights, and draw the triangles in another order."""
+        """Replace the heights of the points and the drawing order of the triangles."""
         for name, values in _stack(points, triangles).items():
             self.set_attribute(name, values)
 
     def set_uniforms(self, changes: Uniforms) -> None:
-        """Give some uniforms other values."""
+        """Replace the values of some uniforms."""
         self._uniforms = self.material.uniforms = {**self._uniforms, **changes}
 
     def show(self, map: Any) -> None:
-        """Bring the vertex buffers up to date, where the kernel computes them."""
+        """Update the vertex buffers for a map, if the kernel computes them."""
         if self._evaluate is not None and self.mesh.visible and map is not self._map:
             self._map = map
             for name, values in zip(("image", "derivatives"), self._evaluate(map), strict=True):
                 self.set_attribute(name, values)
 
     def close(self) -> None:
-        """Free what the page holds of this layer."""
+        """Free the page's resources of this layer."""
         for part in (*self.attributes.values(), self._geometry, *self.materials, *self.meshes):
             part.close()
 
@@ -133,16 +134,17 @@ def _stack(points: Array, triangles: Array) -> dict[str, Array]:
 
 
 def comparison_layer(map: MeshMap, uniforms: Uniforms, points: Array, triangles: Array) -> Layer:
-    """The picture, by the uniforms of ``picture.frag``, on a mesh that another method moves."""
+    """The picture, with the uniforms of ``picture.frag``, on the mesh of a method on a mesh."""
     layer = Layer("picture", uniforms, _evaluation_on(map.triangulation), map, points, triangles)
-    # Turned-over triangles show their back, and this material draws only backs.
+    # Flipped triangles show their back, and this material draws only backs.
     mark = {"mark": {"value": [*rgb([VERMILION])[0], 0.9]}, "frame": uniforms["frame"]}
     layer.draw("turned_over", mark, "BackSide")
     return layer
 
 
 def _evaluation_on(mesh: Triangulation) -> Evaluation:
-    """Images of the vertices, and ``[f_z, conj(f_zbar)]`` averaged over their triangles by area."""
+    """An evaluation of maps on a mesh: images of the vertices, and ``[f_z, conj(f_zbar)]`` as area
+    means over the triangles of each vertex."""
     operators = MeshOperators(mesh)
     columns = np.repeat(np.arange(len(mesh.triangles)), 3)
     areas = np.repeat(operators.weights, 3)
@@ -159,10 +161,10 @@ def _evaluation_on(mesh: Triangulation) -> Evaluation:
 
 def picture_texture(image: NDArray[np.uint8]) -> Any:
     """A texture of a picture (h, w, 4), premultiplied by alpha."""
-    # Mipmaps need powers of two.
+    # Mipmaps need sides that are powers of two.
     height, width = (min(1 << round(math.log2(n)), _LARGEST_SIDE) for n in image.shape[:2])
     picture = Image.fromarray(image).convert("RGBa").resize((width, height))  # bicubic
-    # A DataTexture begins at the bottom.
+    # The first row of a DataTexture is the bottom.
     data = np.asarray(picture)[::-1].copy()
     kind = {"format": "RGBAFormat", "type": "UnsignedByteType"}
     filters = {"minFilter": "LinearMipMapLinearFilter", "magFilter": "LinearFilter"}
@@ -170,12 +172,12 @@ def picture_texture(image: NDArray[np.uint8]) -> Any:
 
 
 def cage_ribbon(domain: Domain) -> Ribbon:
-    """The cage's loops."""
+    """A ribbon along the cage's loops."""
     return _loops_ribbon(domain.cage.polygon, domain.cage.longer_side)
 
 
 def offset_ribbon(domain: Domain) -> Ribbon:
-    """The offset cage's loops, moved slightly towards the cage."""
+    """A ribbon along the offset cage's loops, moved slightly towards the cage."""
     offset, shape = domain.offset_cage.polygon, domain.cage.polygon
     gap = float(shapely.distance(offset.boundary, shape.boundary))
     inner = shapely.buffer(offset, -_INSIDE * gap, join_style="mitre")
@@ -183,7 +185,7 @@ def offset_ribbon(domain: Domain) -> Ribbon:
 
 
 def panel_ribbon(panels: Panels) -> Ribbon:
-    """The boundary's panels, each with `PANEL_VERTICES`."""
+    """A ribbon along the boundary's panels, with `PANEL_VERTICES` for each."""
     t = np.linspace(0.0, 1.0, _PANEL_PIECES + 1)
     points = panels.start[:, None] + (panels.end - panels.start)[:, None] * t
     return _ribbon(points[:, :-1].ravel(), points[:, 1:].ravel())

@@ -1,4 +1,4 @@
-"""The plots of a solve as a PNG, redrawn quickly."""
+"""The plots of a solve as a PNG that is redrawn quickly."""
 
 from collections.abc import Collection, Mapping, Sequence
 from typing import Any
@@ -14,14 +14,15 @@ from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging.read import png
 from glid_nb.solvers import Iteration
 
-_DPI, _SCALE = 100, 1.5  # pixels of the picture for each of CSS
+_DPI, _SCALE = 100, 1.5  # dots per inch; pixels of the picture per CSS pixel
 
 
 class LivePlots:
-    """Energy beside steps and times of the iterations, the certificate below them.
+    """Plots of the energy, of the steps and times of the iterations beside it, and of the
+    certificate below.
 
-    Artists are drawn onto a stored background, which is redrawn only when an axis changes: a few
-    milliseconds instead of a hundred. Not for several threads at once.
+    Artists are drawn onto a stored background. The background is redrawn only when an axis changes,
+    so drawing takes a few milliseconds instead of a hundred. Not thread-safe.
     """
 
     def __init__(
@@ -41,7 +42,7 @@ class LivePlots:
         self._plots: tuple[Plot, ...] = self._energy, self._step, self._time, self._certificate
         for plot, name in zip(self._plots, places, strict=True):
             plot.entitle(name, *((2.0,) if plot is self._time else ()))
-        # Steps and times share the axis below them.
+        # Steps and times share the horizontal axis below them.
         self._step.axes.set_xlabel("")
         self._step.axes.tick_params(labelbottom=False)
         self._background: Any = None
@@ -55,11 +56,11 @@ class LivePlots:
         solving: bool = False,
         minimum: float = 0.0,
     ) -> bytes:
-        """The plots of these iterations and of this certificate, if there is one, as PNG.
+        """Draw these iterations and this certificate, if there is one. Returns a PNG.
 
-        With a map its sampled sigma_2 is drawn over the certified bound. ``starts`` are the first
-        iterations after targets moved, ``solving`` tells whether the last solve goes on,
-        ``minimum`` is the least isometric energy there is.
+        With a map, its sampled sigma_2 is drawn over the certified bound. ``starts`` are the first
+        iterations after targets moved. ``solving`` says whether the last solve is still running.
+        ``minimum`` is the least possible isometric energy.
         """
         changed = [
             self._energy.update(history, starts=starts, solving=solving, minimum=minimum),

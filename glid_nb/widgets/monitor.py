@@ -18,10 +18,10 @@ from glid_nb.session.worker import LatestWins, weakly
 from glid_nb.widgets.closing import ClosingWidget
 
 _INTERVAL = 0.1  # least number of seconds between two drawings of the plots
-_REST = 1.0  # seconds; where nothing has changed for so long, work that may wait is done
+_REST = 1.0  # seconds without a change before work of low priority is done
 _TONES = {"idle": GREY, "working": BLUE, "good": GREEN, "blocked": ORANGE, "error": VERMILION}
 _RATE_WINDOW = 1.0  # seconds over which frames are counted
-PLOTS = {  # by a plot's name what it shows, and where in the paper that is
+PLOTS = {  # for each plot: what it shows, and the section of the paper
     "Energy": (
         "How far the shape is from undeformed, on a logarithmic axis: the energy's mean along the "
         "boundary above its least value, 2 for the symmetric Dirichlet energy (blue, Section 6), "
@@ -66,10 +66,10 @@ def places(width: int, height: int) -> dict[str, tuple[float, float, float, floa
 class SolverMonitor(ClosingWidget, ipywidgets.VBox):
     """A status line, and plots of a deformation's energy, iterations and certificate.
 
-    The plots, if there are to be any, are ``width`` by ``height`` CSS pixels.
+    The plots are ``width`` by ``height`` CSS pixels. Without ``plots``, there is only the line.
     """
 
-    rested = traitlets.Bool(False)  # whether the model, once begun, has been at rest for a while
+    rested = traitlets.Bool(False)  # whether the model has begun and has been at rest for a while
 
     def __init__(
         self,
@@ -79,18 +79,18 @@ class SolverMonitor(ClosingWidget, ipywidgets.VBox):
         plots: bool = True,
         **kwargs: Any,
     ) -> None:
-        self.deformation = deformation  # the model that this is a view of
+        self.deformation = deformation  # the model of this view
         self.line = ipywidgets.HTML()  # the status line
         empty, size = _placeholder(width, height), {"width": width, "height": height}
         self.image = ipywidgets.Image(value=empty, format="svg+xml", **size)
         """The plots; empty axes until the solver has begun."""
         self.plots = ipywidgets.VBox([_guide(width, height), self.image])
-        """The plots and what explains them."""
+        """The plots and their explanations."""
         self._size, self._with_plots = (width, height), plots
         self._plots = None  # `LivePlots`, once they are drawn
         self._frames: deque[float] = deque()
         self._changed = time.monotonic()
-        how: Any = {"interval": _INTERVAL, "waits": False}  # it may be importing matplotlib
+        how: Any = {"interval": _INTERVAL, "waits": False}  # the thread may be importing matplotlib
         self._worker = LatestWins[None](weakly(self._update), self, "monitor", **how)
         self._drawn: Any = None
         super().__init__([self.line, self.plots] if plots else [self.line], **kwargs)
@@ -106,7 +106,7 @@ class SolverMonitor(ClosingWidget, ipywidgets.VBox):
         return self._status(self.deformation.moment).text
 
     def refresh(self, timeout: float | None = None) -> bool:
-        """Draw what has changed; whether that was done within ``timeout`` seconds."""
+        """Draw all changes. Returns False if that takes longer than ``timeout`` seconds."""
         self._worker.submit(None)
         return self._worker.wait(timeout)
 
@@ -132,16 +132,16 @@ class SolverMonitor(ClosingWidget, ipywidgets.VBox):
         begun, moves = self.deformation.begun, moment.busy or moment.dragged
         now_rests = begun and not moves and time.monotonic() - self._changed > _REST
         self.rested = self.rested or now_rests
-        # The solver comes to rest after its last frame was announced.
+        # The solver reports its last frame before it is at rest, so check again later.
         if moment.busy or (begun and not self.rested):
             self._worker.submit(None)
-        # Neither the first canvas nor the first drag waits for matplotlib.
+        # The first canvas and the first drag must not wait for matplotlib.
         pulled = moment.frame is not None and moment.frame.history and not moment.dragged
         if self._with_plots and (self._plots or self.rested or pulled):
             self._draw(moment)
 
     def _status(self, moment: Moment) -> StatusLine:
-        """The model's status; during a solve with the number of frames per second."""
+        """The model's status, during a solve with the number of frames per second."""
         status = describe(moment)
         while self._frames and self._frames[0] < time.monotonic() - _RATE_WINDOW:
             self._frames.popleft()
@@ -205,7 +205,7 @@ _GUIDE = """<style>
 
 
 def _guide(width: int, height: int) -> ipywidgets.HTML:
-    """Lies over the plots, of this size in CSS pixels, and explains each on hover and by a "?"."""
+    """An overlay for plots of this size in CSS pixels. It explains each on hover and by a "?"."""
 
     def about(name: str, left: float, top: float, wide: float, high: float) -> str:
         text, above = PLOTS[name], 15 if name == "Time" else 28

@@ -1,4 +1,4 @@
-"""What the canvas can show over the picture: names, ranges, colours."""
+"""The overlays of the canvas: names, ranges, colours."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -11,11 +11,11 @@ from glid_nb._jax import jnp
 from glid_nb.energies import Energy, isometry_energy
 from glid_nb.figures.style import COLORS, FULL_MARGIN
 
-# Green, orange, vermilion: visible on white, on black and beside those above.
+# Green, orange, vermilion: visible on white, on black and beside the overlays' colours.
 MARGIN_COLORS = (
     *("#009e73", "#339e59", "#669e40", "#999f26", "#cc9f0d"),
     *("#e49800", "#e08a00", "#dd7b00", "#d96c00", "#d55e00"),
-)  # the certificate's, from a wide margin to none
+)  # the colours of the certificate, from a wide margin to none
 
 N_COLORS = len(COLORS)  # stops of the colour map in the shader
 
@@ -28,19 +28,19 @@ PANEL_LEGEND = {  # the colour bar of the boundary's panels, for the page
 }
 
 _MOST_DIGITS = 22  # of all labels of a colour bar together
-_SHARE = 0.98  # of the boundary, where distortion is largest, lies within a colour map's range
+_SHARE = 0.98  # of the boundary, where distortion is largest, is within a colour map's range
 
 
 @dataclass(frozen=True)
 class Overlay:
     """One way to colour the shape."""
 
-    number: int  # as ``picture.frag`` counts them
-    label: str  # what a menu calls it
+    number: int  # its number in ``picture.frag``
+    label: str  # its name in menus
     values: Callable[[Array, Array], Array] | None = None
-    """The value shown, by ``|f_z|`` and ``|f_zbar|``; None if nothing is computed."""
+    """The shown value as a function of ``|f_z|`` and ``|f_zbar|``; None if nothing is computed."""
     start: float = 0.0  # the value of an isometry
-    ends: tuple[float, ...] = (1.0,)  # where the colour map may end, the narrowest range first
+    ends: tuple[float, ...] = (1.0,)  # possible ends of the colour map, the narrowest range first
 
 
 OVERLAYS: dict[str, Overlay] = {
@@ -53,9 +53,11 @@ OVERLAYS: dict[str, Overlay] = {
     "k": Overlay(4, "Dilatation k", lambda r, g: g / np.maximum(r, 1e-6), ends=(0.1, 0.2, 0.5, 1)),
     "energy": Overlay(5, "Energy density"),
 }
-"""By the name of the trait ``DeformCanvas.overlay``; that of the energy depends on the energy."""
+"""The overlays by the values of ``DeformCanvas.overlay``. That of "energy" depends on the energy.
+"""
 
-_ENERGY_ENDS = (0.1, 0.25, 0.5, 1, 2, 4, 10, 50, 200)  # above an isometry's, in its units
+# Possible ends for energies, above the energy of an isometry and relative to it.
+_ENERGY_ENDS = (0.1, 0.25, 0.5, 1, 2, 4, 10, 50, 200)
 
 
 def _overlay(name: str, energy: Energy) -> Overlay:
@@ -78,20 +80,20 @@ def color_range(
     fzb: Array | None = None,
     least: tuple[float, float] | None = None,
 ) -> tuple[float, float]:
-    """The colour map's ends: the narrowest of a few round ranges, so that colours rarely change
-    their meaning, that holds nearly all values and is no narrower than ``least``."""
+    """The colour map's ends: the narrowest of a few round ranges that contains nearly all values
+    and is not narrower than ``least``. With few ranges, colours rarely change their meaning."""
     overlay = _overlay(name, energy)
     start, ends = overlay.start, overlay.ends
     wanted = 0.0 if least is None else abs(least[1] - start)
     if overlay.values is not None and fz is not None and fzb is not None:
         away = np.abs(overlay.values(np.abs(fz), np.abs(fzb)) - start)
         wanted = max(wanted, float(np.quantile(away, _SHARE)))
-    # ``least`` is one of the steps, up to rounding.
+    # ``least`` is one of the ranges, up to rounding.
     return start, next((end for end in ends if abs(end - start) >= wanted - 1e-9), ends[-1])
 
 
 def legend(name: str, energy: Energy, range_: tuple[float, float]) -> dict[str, Any]:
-    """The colour bar for the page; empty for none."""
+    """The colour bar for the page; empty if the overlay has none."""
     if OVERLAYS[name].number < 2 or (name == "energy" and energy.shader is None):
         return {}
     title, ticks = OVERLAYS[name].label, _ticks(*range_, 5 if name == "energy" else 3)
@@ -100,6 +102,6 @@ def legend(name: str, energy: Energy, range_: tuple[float, float]) -> dict[str, 
 
 
 def _ticks(low: float, high: float, count: int) -> list[str]:
-    """Labels at equal distances, fewer where they would not have room beside each other."""
+    """Labels at equal distances, as many as fit beside each other."""
     texts = [f"{float(f'{value:.3g}'):g}" for value in np.linspace(low, high, count)]
     return texts if len("".join(texts)) <= _MOST_DIGITS else _ticks(low, high, count - 1)

@@ -1,4 +1,4 @@
-"""The kernel's end of a pad: receives the page's events and acknowledges them."""
+"""The kernel's side of a pad: it receives the page's events and acknowledges them."""
 
 from collections.abc import Callable, Sequence
 from typing import Any
@@ -12,7 +12,7 @@ from glid_nb.widgets.closing import ClosingWidget
 
 
 class Pad(ClosingWidget, anywidget.AnyWidget):
-    """A picture on the page that takes pointers and keys: the base of the two canvases.
+    """A picture on the page that receives pointers and keys: the base class of the two canvases.
 
     The page (``page/js/pad``) sends ``{"view": v, "events": [...]}``, one batch at a time. It waits
     for ``{"view": v, "ack": n, "refusal": text or None}`` with the number of the last event, so the
@@ -29,14 +29,14 @@ class Pad(ClosingWidget, anywidget.AnyWidget):
         handle: Callable[[Sequence[dict[str, Any]]], str | None],
         busy: Callable[[], bool] = lambda: False,
     ) -> None:
-        """Have ``handle`` act on events; where then ``busy()``, the caller acknowledges them."""
+        """Let ``handle`` act on events. If ``busy()`` then, the caller acknowledges them later."""
         self._model, self._handle, self._busy = model, handle, busy
         self._waiting: dict[str, tuple[int, str | None]] = {}
         answer_during_cells(self)
         self.on_msg(self._receive)
 
     def acknowledge(self) -> None:
-        """Tell the page's views that their events were handled."""
+        """Acknowledge the handled events to the page's views."""
         with self._model.locked():
             waiting, self._waiting = self._waiting, {}
         for view, (number, refusal) in waiting.items():
@@ -64,7 +64,8 @@ class Pad(ClosingWidget, anywidget.AnyWidget):
 def answer_during_cells(widget: ipywidgets.Widget) -> None:
     """Handle a widget's messages while a cell runs, in the subshell that JupyterLab addresses.
 
-    ipykernel from 7.4 on redirects them to the main loop, where they would wait for the cell.
+    Since version 7.4, ipykernel redirects them to the main loop, where they would wait for the
+    cell.
     """
     comm: Any = widget.comm
     if hasattr(comm, "_reply_subshell_for"):

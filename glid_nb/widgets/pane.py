@@ -1,4 +1,4 @@
-"""One renderer with the pad over it."""
+"""One renderer with a pad over it."""
 
 from typing import Any
 
@@ -16,57 +16,60 @@ from glid_nb.widgets.overlays import PANEL_LEGEND, legend
 from glid_nb.widgets.pad import Pad
 from glid_nb.widgets.scene import N_VERTICES, UNIFORM_VECTORS, Drawing, Scene, renderer
 
-CORNERS = ("bottom right", "bottom left", "top right", "top left")  # the usual place first
+CORNERS = ("bottom right", "bottom left", "top right", "top left")  # the default first
 
-_LEGEND_SIZE = (222, 75)  # CSS pixels, with its distance to the border
+_LEGEND_SIZE = (222, 75)  # CSS pixels, including the distance from the border
 _MARKS = ("targets", "images", "selected", "hidden", "ring")
 _REFERENCE: dict[str, Any] = ipywidgets.widget_serialization
-_SHARES = (0.0, 0.25, 0.5, 0.75)  # of an edge
-_ROOM = 1.12  # what is fitted leaves a border
-# Without a graphics processor a vertex costs tens of microseconds, so the mesh is coarse until the
-# page has said how long it draws; with fewer vertices than these its edges would be visible.
-_DRAWING_TIME, _FEWEST_VERTICES = 40.0, 1500  # ms, vertices
-_FINER = 2.0  # times as many vertices are worth another mesh
+_SHARES = (0.0, 0.25, 0.5, 0.75)  # places on an edge of the outline
+_ROOM = 1.12  # size of the view relative to the fitted shape
+# Without a graphics processor a vertex costs tens of microseconds. So the mesh is coarse until the
+# page has reported its drawing time.
+# _DRAWING_TIME: the wanted drawing time, in ms.
+# _FEWEST_VERTICES: with fewer vertices, edges of the mesh would be visible.
+_DRAWING_TIME, _FEWEST_VERTICES = 40.0, 1500
+_FINER = 2.0  # a new mesh is made for at least this many times as many vertices
 
 
 class Stage(Pad):
-    """Lies over a pythreejs renderer: draws pins, sends events, gives materials coefficients."""
+    """The pad over a pythreejs renderer. It draws pins, sends events and gives coefficients to the
+    materials."""
 
     _script = traitlets.Unicode(bundle("canvas")).tag(sync=True)
     _css = stylesheet("canvas")
 
     width = traitlets.Int(600).tag(sync=True)
-    """Width in CSS pixels; the page changes it when the corner is dragged."""
+    """Width in CSS pixels. The page changes it when the corner is dragged."""
     height = traitlets.Int(500).tag(sync=True)  # height in CSS pixels
     room = traitlets.List(traitlets.Int(), []).tag(sync=True)
-    """Width and height that the editor around it has for the canvas, in CSS pixels, and 1 where it
-    shows nothing else; empty without an editor."""
+    """Width and height that the surrounding editor has for the canvas, in CSS pixels, then 1 if the
+    editor shows nothing else; empty without an editor."""
     view = traitlets.List(traitlets.Float(), [0.0, 0.0, 0.04]).tag(sync=True)
     """Centre (x, y) in world units, and the world units of one CSS pixel."""
     coefficients = traitlets.Bytes(b"").tag(sync=True)
-    """The map, as ``ShaderMap.wire`` writes it; empty where the kernel evaluates."""
+    """The map, as written by ``ShaderMap.wire``; empty if the kernel evaluates."""
     marks = traitlets.Dict({key: [] for key in _MARKS}).tag(sync=True)
     """Targets and images of handles, [x, y]; indices selected, hidden; and `Drawing.ring`."""
     names = traitlets.List(traitlets.Unicode(), []).tag(sync=True)  # the handles', may be empty
     onion = traitlets.List([]).tag(sync=True)  # other poses' colours and loops of [x, y], each
     stiff = traitlets.List([]).tag(sync=True)  # painted areas' strengths and loops of [x, y], each
     brush = traitlets.Dict({}).tag(sync=True)
-    """The brush that the left button paints with: ``radius`` and ``strength``; empty for none."""
+    """The brush of the left button: ``radius`` and ``strength``; empty without a brush."""
     cursor = traitlets.List(default_value=None, allow_none=True).tag(sync=True)
-    """Where the keyboard's cursor is, [x, y]; None while it is not used."""
+    """The place of the keyboard's cursor, [x, y]; None while it is not used."""
     legend = traitlets.Dict({}).tag(sync=True)
     """The overlay's colour bar: ``title``, ``colors`` and ``ticks``; empty for none."""
     panel_legend = traitlets.Dict({}).tag(sync=True)  # the certificate's, below the overlay's
     legend_corner = traitlets.Enum(CORNERS, CORNERS[0]).tag(sync=True)  # where the colour bars are
     notice = traitlets.Unicode("").tag(sync=True)  # why the last action was refused, if it was
     prepared = traitlets.Float(1.0).tag(sync=True)
-    """How much is done, from 0 to 1, of what the first solve of a shape needs."""
-    interactive = traitlets.Bool(True).tag(sync=True)  # whether the pad takes pointers and keys
+    """The finished share, 0 to 1, of the preparation for the first solve of a shape."""
+    interactive = traitlets.Bool(True).tag(sync=True)  # whether the pad reacts to pointers and keys
     uniform_vectors = traitlets.Int(0).tag(sync=True)
-    """How many vectors of uniforms the page's shaders hold; 0 while unknown."""
+    """Number of uniform vectors that the page's shaders support; 0 while unknown."""
     drawing_time = traitlets.Float(0.0).tag(sync=True)
     """Milliseconds that the page needs to draw the renderer once; 0 while unknown."""
-    drawn = traitlets.Bool(False).tag(sync=True)  # whether a page has drawn it
+    drawn = traitlets.Bool(False).tag(sync=True)  # whether a page has drawn the renderer
     renderer = traitlets.Instance(ipywidgets.Widget).tag(sync=True, **_REFERENCE)
     """The pythreejs renderer below."""
     camera = traitlets.Instance(ipywidgets.Widget).tag(sync=True, **_REFERENCE)  # its camera
@@ -74,7 +77,7 @@ class Stage(Pad):
 
 
 class Pane(ClosingWidget, ipywidgets.GridBox):
-    """A picture (h, w, 4) under a map, with marks over it; arguments are as in `DeformCanvas`."""
+    """A picture (h, w, 4) under a map, with marks over it. Arguments are as in `DeformCanvas`."""
 
     def __init__(
         self,
@@ -111,14 +114,15 @@ class Pane(ClosingWidget, ipywidgets.GridBox):
         self._endings = (lambda: self.scene.close(), self._picture[1].close)
 
     def show(self, drawing: Drawing) -> None:
-        """Draw this, in one message if only the map and the marks have changed."""
+        """Show a drawing. If only the map and the marks have changed, this sends one message."""
         self._drawing, old = drawing, self.scene
         if drawing.map.domain is not old.domain:
             self.scene = self._new_scene(self.stage.uniform_vectors)
         self._show(old)
 
     def adapt(self) -> None:
-        """Evaluate in the kernel where the page says that it must; take the mesh it can draw."""
+        """Adapt to the page: evaluate in the kernel if its shaders are too small, and use a mesh
+        that it draws fast enough."""
         stage, scene = self.stage, self.scene
         vectors, time = stage.uniform_vectors, stage.drawing_time
         in_shader = scene.evaluated_in == "shader"
@@ -127,7 +131,7 @@ class Pane(ClosingWidget, ipywidgets.GridBox):
         wanted = max(min(affordable, self._most), self._fewest)
         if overflows or wanted < self._n_vertices or wanted >= _FINER * self._n_vertices:
             self._n_vertices, self._most = wanted, wanted if time else self._most
-            stage.drawing_time = 0.0  # it was the old scene's
+            stage.drawing_time = 0.0  # it belonged to the old scene
             self.scene = self._new_scene(vectors)
             self._show(scene)
 
@@ -140,7 +144,7 @@ class Pane(ClosingWidget, ipywidgets.GridBox):
         with stage.hold_sync():
             stage.materials = scene.materials
             stage.coefficients = self._wire()
-            # Rounded to what a screen can show.
+            # Round to the precision of a screen.
             at = {key: np.round(getattr(drawing, key), 5).tolist() for key in ("targets", "images")}
             chosen = {"selected": list(drawing.selected), "ring": drawing.ring}
             stage.marks = {**at, **chosen, "hidden": np.flatnonzero(drawing.hidden).tolist()}
@@ -150,7 +154,7 @@ class Pane(ClosingWidget, ipywidgets.GridBox):
             old.close()
 
     def place_legend(self) -> None:
-        """Move the colour bars to where they hide least of the shape and the targets."""
+        """Move the colour bars to the corner where they hide least of the shape and targets."""
         n_bars = bool(self.stage.legend) + bool(self.stage.panel_legend)
         if not n_bars:
             return
@@ -160,15 +164,15 @@ class Pane(ClosingWidget, ipywidgets.GridBox):
         self.stage.legend_corner = emptiest_corner(pixels, width, height, n_bars)
 
     def _everything(self) -> Any:
-        """Points of the outline as it is drawn, and the targets."""
+        """Points of the drawn outline, and the targets."""
         loops = self.scene.domain.cage.loops
         # Edges may be longer than a colour bar.
         between = [loop + t * (np.roll(loop, -1, axis=0) - loop) for loop in loops for t in _SHARES]
         outline = (self._drawing.comparison or self._drawing.map)(np.concatenate(between))
         return np.concatenate([outline, np.reshape(self._drawing.targets, (-1, 2))])
 
-    _seen: tuple[float, float]  # world units, across and up, that fit into the view
-    _unit: float  # world units of a CSS pixel, so that they do
+    _seen: tuple[float, float]  # width and height, in world units, that must fit in the view
+    _unit: float  # world units per CSS pixel with which they fit
 
     def fit(self) -> None:
         """Make the whole shape and all targets visible."""
@@ -181,13 +185,13 @@ class Pane(ClosingWidget, ipywidgets.GridBox):
         self.stage.view = [float(x), float(y), self._unit]
 
     def resize(self, width: int, height: int) -> None:
-        """Change the size in CSS pixels; what was seen is still seen."""
+        """Change the size in CSS pixels. The visible part of the plane stays visible."""
         stage = self.stage
         x, y, unit = stage.view
         before = stage.width * unit, stage.height * unit
-        if unit != self._unit:  # a hand has zoomed since
+        if unit != self._unit:  # the user has zoomed since
             self._seen = before
-        # So is what has moved since, out of what was fitted then.
+        # Parts that have moved out of the fitted area stay visible too.
         far = 2 * _ROOM * abs(self._everything() - [x, y]).max(axis=0)
         across, up = np.maximum(self._seen, np.minimum(far, before)).tolist()
         self._unit = max(across / width, up / height)
@@ -195,7 +199,7 @@ class Pane(ClosingWidget, ipywidgets.GridBox):
             stage.width, stage.height, stage.view = width, height, [x, y, self._unit]
 
     def _new_scene(self, uniform_vectors: int) -> Scene:
-        vectors = uniform_vectors or UNIFORM_VECTORS  # 0 while no page has said
+        vectors = uniform_vectors or UNIFORM_VECTORS  # 0 before a page has reported the number
         mesh = self._n_vertices, self._evaluated_in, vectors
         return Scene(*self._picture, self._drawing.map, *mesh)
 
@@ -213,4 +217,4 @@ def emptiest_corner(points: Any, width: int, height: int, bars: int = 1) -> str:
         up = y if "bottom" in corner else height - y
         return int(((across < _LEGEND_SIZE[0]) & (up < bars * _LEGEND_SIZE[1])).sum())
 
-    return min(CORNERS, key=hidden)  # the first of equals
+    return min(CORNERS, key=hidden)  # the first of equally good corners

@@ -11,8 +11,8 @@ from glid_nb.session.deformation import Deformation
 from glid_nb.session.edit_state import EditError
 from glid_nb.widgets.controls import EditControls, button
 
-_NOTHING = Pose([(0, 0)], [(0, 0)])  # what the fields show while nothing is selected
-# What to type, the limits, and whether nothing sets free.
+_NOTHING = Pose([(0, 0)], [(0, 0)])  # shown in the fields while nothing is selected
+# For each field: what to type, the limits, and whether an empty field means free.
 _PLACE = "a coordinate, such as 7.5", -1e9, 1e9, False
 _DEPTH = f"a depth from {-DEEPEST:g} to {DEEPEST:g}", -DEEPEST, DEEPEST, False
 _ANGLE = "an angle in degrees, such as 30", -1e9, 1e9, True
@@ -20,9 +20,10 @@ _SCALE = "a scale from {:g} to {:g}, such as 1.5".format(*SCALES), *SCALES, True
 
 
 class PinBar(EditControls):
-    """The list of pins; the numbers of the one selected last; what to do with all selected.
+    """The list of pins, the numbers of the last selected pin, and buttons for all selected pins.
 
-    Target, angle (degrees), scale, weight and depth; an empty angle or scale is free.
+    The numbers are target, angle (degrees), scale, weight and depth. An empty angle or scale is
+    free.
     """
 
     def __init__(self, deformation: Deformation, **kwargs: Any) -> None:
@@ -45,7 +46,7 @@ class PinBar(EditControls):
         self.name = ipywidgets.Text(placeholder="name", **shown, **late)
 
         def field(name: str, tip: str, width: str, **more: Any) -> ipywidgets.Text:
-            # A text field that has a description shows no tooltip, but that of a span in it.
+            # A text field with a description shows no tooltip, except that of a span inside it.
             said: Any = {"description": f"<span title='{tip}'>{name}</span>", **more, **late}
             return ipywidgets.Text(description_allow_html=True, layout={"width": width}, **said)
 
@@ -121,11 +122,11 @@ class PinBar(EditControls):
 
 
 def _free_or(number: float) -> str:
-    return "" if np.isnan(number) else f"{round(number, 4) + 0.0:.4g}"  # neither -0 nor 3e-14
+    return "" if np.isnan(number) else f"{round(number, 4) + 0.0:.4g}"  # avoids -0 and 3e-14
 
 
 def _number(text: str, wanted: str, least: float, most: float, free: bool) -> float:
-    """The number in a field; NaN for an empty one, or the word "free", where that may be."""
+    """The number in a field. With ``free``, NaN for an empty field or the word "free"."""
     text = text.strip().rstrip("°").replace(",", ".")
     if free and text in ("", "free"):
         return np.nan

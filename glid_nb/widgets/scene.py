@@ -1,4 +1,4 @@
-"""What is drawn of one domain: the picture on its mesh, and lines along the boundary."""
+"""The scene of one domain: the picture on its mesh, and lines along the boundary."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
@@ -21,14 +21,16 @@ from glid_nb.widgets.overlays import MARGIN_COLORS, OVERLAYS, color_range
 
 Range = Literal["keep", "widen", "fit"]
 
-N_VERTICES = 10_000  # vertices of the picture's mesh, by default
+N_VERTICES = 10_000  # default vertices of the picture's mesh
 
 UNIFORM_VECTORS = 1024
-"""Vectors of uniforms that a vertex shader is assumed to hold until the page says otherwise."""
+"""Assumed number of uniform vectors of a vertex shader until the page reports the real number."""
 
 _RANGE_SAMPLES = 256  # of the boundary, where distortion is largest
 _GRID_LINES = 40  # along the longer side
-_HIGHEST, _LEVELS = 4.0, 8  # world units, inside the camera's range; groups of triangles
+# _HIGHEST: the largest height in world units, inside the camera's range.
+# _LEVELS: groups of triangles, by height, that are drawn one after the other.
+_HIGHEST, _LEVELS = 4.0, 8
 _COLUMN = 8.0  # width of a column of triangles in drawing order, in heights of a row
 # Lines along the boundary, the lowest first: shape, colour, opacity, half the width in pixels.
 _LINES = {
@@ -40,31 +42,31 @@ _LINES = {
 
 @dataclass(frozen=True, eq=False)
 class Drawing:
-    """Everything that is seen of a deformation at one moment."""
+    """Everything visible of a deformation at one moment."""
 
     map: HarmonicMap
-    comparison: MeshMap | None = None  # a map of a mesh, drawn in place of the harmonic one
-    targets: Any = ()  # (h, 2) where the handles should go
-    images: Any = ()  # (h, 2) where they are
+    comparison: MeshMap | None = None  # a map of a mesh, drawn instead of the harmonic map
+    targets: Any = ()  # (h, 2) targets of the handles
+    images: Any = ()  # (h, 2) images of the handles
     selected: tuple[int, ...] = ()  # indices of selected handles
     ring: tuple[float, ...] = ()
-    """Angle and scale of the handle that is selected last, and whether each is wanted."""
+    """Angle and scale of the last selected handle, and for each whether it is wanted."""
     hidden: Any = ()  # (h,) whether another part of the shape covers a handle
-    order: Order | None = None  # which part of the shape covers which; by default as without depths
+    order: Order | None = None  # the order of the shape's parts; by default that without depths
     overlay: str = "texture"  # one of `glid_nb.widgets.overlays.OVERLAYS`
-    energy: Energy = field(default_factory=SymmetricDirichlet)  # of the overlay "energy"
-    color_range: Range = "fit"  # whether the colour map's range is kept, only widened, or fitted
+    energy: Energy = field(default_factory=SymmetricDirichlet)  # for the overlay "energy"
+    color_range: Range = "fit"  # whether to keep, only widen or fit the colour map's range
     cage: bool = False
     offset_cage: bool = False
     panels: PanelCertificate | None = None
-    """The boundary's panels and what is certified on each, where they are drawn."""
+    """The boundary's panels with their certified bounds, if they are drawn."""
 
 
 class Scene:
-    """The picture and the lines of one domain, under one map; at first ``map``.
+    """The picture and the lines of one domain, under one map, initially ``map``.
 
-    The picture is `layers.picture_texture`, which its other scenes share; its mesh has about
-    ``n_vertices``. By default the shader computes them if ``uniform_vectors`` suffice.
+    The picture is a `layers.picture_texture` that several scenes may share. Its mesh has about
+    ``n_vertices``. By default the shader computes their images if ``uniform_vectors`` are enough.
     """
 
     def __init__(
@@ -89,9 +91,9 @@ class Scene:
         self._order = order_of(self.domain.cage)
         stacked = _stacked(self._mesh, self._order)
         self.picture = self._layer("picture", self._textured_uniforms(), *stacked)
-        self.lines: dict[str, Layer] = {}  # those of _LINES that have been shown
+        self.lines: dict[str, Layer] = {}  # the lines of _LINES that have been shown
         self.comparison: Layer | None = None
-        self._sources: dict[str, Any] = {}  # what lines and comparison were made of
+        self._sources: dict[str, Any] = {}  # the objects from which lines and comparison were made
         self._replaced: list[Layer] = []
 
     @property
@@ -101,22 +103,22 @@ class Scene:
 
     @property
     def drawn(self) -> tuple[Layer, ...]:
-        """What is drawn, the lowest first: the layers, or the comparison in their place."""
+        """The drawn layers, the lowest first. The comparison replaces all others."""
         return self.layers if self.comparison is None else (self.comparison,)
 
     @property
     def meshes(self) -> list[Any]:
-        """The meshes of what is drawn."""
+        """The meshes of the drawn layers."""
         return [mesh for layer in self.drawn for mesh in layer.meshes]
 
     @property
     def materials(self) -> list[Any]:
-        """The materials of what is drawn."""
+        """The materials of the drawn layers."""
         return [material for layer in self.drawn for material in layer.materials]
 
     def show(self, drawing: Drawing) -> None:
-        """Draw this; the map must be of the scene's domain."""
-        while self._replaced:  # by the drawing before: the page draws others by now
+        """Show a drawing. Its map must belong to the scene's domain."""
+        while self._replaced:  # in the previous drawing; the page no longer draws them
             self._replaced.pop().close()
         self.map = drawing.map
         self._show_order(drawing.order or order_of(self.domain.cage))
@@ -129,11 +131,11 @@ class Scene:
             layer.show(drawing.map)
 
     def heights(self, orders: Sequence[Order]) -> bytes:
-        """The heights of the picture's vertices by each order, float32, one after the other."""
+        """The heights of the picture's vertices for each order, concatenated as float32."""
         return _scaled(orders, self._mesh).astype("<f4").tobytes()
 
     def close(self) -> None:
-        """Free what the page holds."""
+        """Free the page's resources."""
         for layer in {*self.layers, *self.drawn, *self._replaced}:
             layer.close()
 
@@ -184,12 +186,12 @@ class Scene:
     def _line(self, name: str, source: Any) -> Layer:
         ribbon_of, color, opacity, half_width = _LINES[name]
         points, triangles, ribbon = ribbon_of(source)
-        # Panels are coloured by their margins, a byte per vertex, between borders of their colour.
+        # Panels are coloured by their margins, one byte per vertex.
         margin, by_margin = np.zeros(len(points), dtype=np.uint8), 0.0
         if name == "panels":
             share = np.clip(np.nan_to_num(source.sigma2_lower) / FULL_MARGIN, 0.0, 1.0)
             margin = np.repeat(np.rint(255 * (1 - share)).astype(np.uint8), layers.PANEL_VERTICES)
-            by_margin = 1.0  # the page makes it 2 in a motion
+            by_margin = 1.0  # the page sets it to 2 in a motion
         uniforms = _uniforms(
             pixel=0.02,
             half_width=half_width,
@@ -213,7 +215,7 @@ class Scene:
     def _picture_uniforms(self) -> Uniforms:
         xmin, ymin, xmax, ymax = self.frame.bounds
         overlay, energy = self._shown.overlay, self._shown.energy
-        # A user's own energy has no shader expression; the picture is shown instead.
+        # An energy defined by the user has no shader expression, so the picture is shown instead.
         unknown = overlay == "energy" and energy.shader is None
         return _uniforms(
             frame=[xmin, ymin, xmax - xmin, ymax - ymin],
@@ -227,7 +229,7 @@ class Scene:
 
 
 def energy_uniform(energy: Energy) -> list[float]:
-    """The number of an energy and its parameter, as ``energy.glsl`` takes them."""
+    """The number of an energy and its parameter, for ``energy.glsl``."""
     number = list(ENERGIES).index(energy.name) if energy.shader else -1
     return [float(number), float(getattr(energy, "s", 1.0))]
 
@@ -239,8 +241,8 @@ def _uniforms(**values: Any) -> Uniforms:
 def _stacked(mesh: Triangulation, order: Order) -> tuple[Array, Array]:
     """(v, 3) vertices with the order's heights as z, and (t, 3) triangles, the lower ones first.
 
-    The depth test orders them within a level; between levels, what is behind has to be drawn first
-    to be seen through the soft edges of what is in front.
+    Within a level, the depth test orders the triangles. Lower levels must be drawn first, so that
+    they are visible through the soft edges of higher ones.
     """
     (z,) = _scaled([order], mesh)
     triangles = drawing_order(mesh)
@@ -250,13 +252,14 @@ def _stacked(mesh: Triangulation, order: Order) -> tuple[Array, Array]:
 
 
 def _scaled(orders: Sequence[Order], mesh: Triangulation) -> Array:
-    """(n, v) heights of the vertices by each order, within what the camera sees."""
+    """(n, v) heights of the vertices for each order, scaled to the camera's range."""
     z = np.stack([order(mesh.vertices) for order in orders])
     return 2 * _HIGHEST * ((z - z.min()) / (np.ptp(z) or 1.0) - 0.5)
 
 
 def drawing_order(mesh: Triangulation) -> Array:
-    """The triangles row by row within narrow columns, as only the last few vertices are cached."""
+    """The triangles, row by row within narrow columns. A graphics card caches only the last few
+    vertices."""
     rows = np.unique(np.round(mesh.vertices[mesh.n_boundary :, 1], 9))
     if len(rows) < 2:
         return mesh.triangles
@@ -266,7 +269,7 @@ def drawing_order(mesh: Triangulation) -> Array:
 
 
 def renderer(scene: Scene) -> Any:
-    """A pythreejs renderer of a scene; the page sets its camera's frame."""
+    """A pythreejs renderer of a scene. The page sets its camera's frame."""
     camera = three.OrthographicCamera(-10, 10, 10, -10, 0, 10, position=[0, 0, 5])
     drawn = three.Scene(children=scene.meshes, background=None)
     look = {"antialias": True, "alpha": True, "background_opacity": 0, "clearOpacity": 0}

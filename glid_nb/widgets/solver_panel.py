@@ -1,4 +1,4 @@
-"""Controls of the solver."""
+"""The controls of the solver."""
 
 import dataclasses
 from collections.abc import Callable, Mapping
@@ -17,7 +17,7 @@ _WORKS_ON = {"harmonic": "", "mesh": " · mesh", "linear": " · linear"}
 _UNPROVED = " Shown for comparison, without a proof; saved and exported is the last certified map."
 _CUSTOM = CustomEnergy.label, CustomEnergy.name
 _FULL = {"width": "auto"}
-_STEPS = 12  # that are told
+_STEPS = 12  # most single steps that are listed
 _OPTIONS = "p2p_weight", "sampling", "certificate", "hessian", "iterations_per_call", "conformal"
 _LATE = {"continuous_update": False}
 _CONTROLS: dict[type, tuple[Any, dict[str, Any]]] = {
@@ -33,7 +33,7 @@ _SLIDERS: dict[str, tuple[Any, dict[str, Any]]] = {
 
 
 class FieldRows(ipywidgets.GridBox):
-    """Rows of labels and controls; ``on_change(name, value)`` is called by `show`, too."""
+    """Rows of labels and controls. Changes, also by `show`, call ``on_change(name, value)``."""
 
     def __init__(
         self, on_change: Callable[[str, Any], None], controls: Mapping[str, tuple[str, Any]]
@@ -44,7 +44,7 @@ class FieldRows(ipywidgets.GridBox):
         self.build(controls)
 
     def build(self, controls: Mapping[str, tuple[str, Any]]) -> None:
-        """Show these rows: by the field's name a label and a control."""
+        """Show these rows. ``controls`` has a label and a control for each field's name."""
         old = self.children
         self.controls: dict[str, Any] = {name: one for name, (_, one) in controls.items()}
         for name, control in self.controls.items():
@@ -62,7 +62,7 @@ class FieldRows(ipywidgets.GridBox):
 
 
 class SolverPanel(EditControls):
-    """Method, energy, weight of the targets, variants of ours, and buttons of a model's solver."""
+    """Controls of a model's solver: method, energy, options, and buttons."""
 
     def __init__(self, deformation: Deformation, **kwargs: Any) -> None:
         act, model = self._act, deformation
@@ -93,7 +93,7 @@ class SolverPanel(EditControls):
         self.reset = button("Reset", "refresh", "The undeformed shape (0)", model.reset)
         self.clear = button("Clear pins", "eraser", "Remove all pins", model.clear_handles)
         self.steps = ipywidgets.HTML(layout={"height": "96px", "overflow": "hidden auto"})
-        """What single steps did, the last one first; hidden while the solver is not paused."""
+        """Descriptions of single steps, the last one first; hidden unless the solver is paused."""
         shown = [self.pause, self.step, self.reset, self.clear]
         buttons = ipywidgets.HBox(shown, layout={"flex_flow": "row wrap"})
         parts = [method, self.about, self.settings, energy, self.options, buttons, self.steps]
@@ -150,7 +150,7 @@ class SolverPanel(EditControls):
 
 
 def step_in_words(iteration: Iteration) -> str:
-    """What an iteration did: by which Hessian, how far, and which panels had refused more."""
+    """An iteration in words: its Hessian, its step length, and how many panels were split."""
     parts = [f"Iteration {iteration.iteration}"]
     if iteration.hessian_modified is not None:
         parts.append(f"Hessian {'projected' if iteration.hessian_modified else 'exact'}")

@@ -1,4 +1,4 @@
-"""The timeline below the canvas: keyframes, what is proved between them, playing, recording."""
+"""The timeline below the canvas: keyframes, proofs between them, playing, recording."""
 
 import base64
 import io
@@ -22,7 +22,7 @@ from glid_nb.widgets.canvas import DeformCanvas
 from glid_nb.widgets.gestures import Event, Gestures, asked
 from glid_nb.widgets.pad import Pad
 
-_THUMBNAIL, _SMALL = (104, 80), 512  # pixels, drawn from the picture at this size
+_THUMBNAIL, _SMALL = (104, 80), 512  # pixels of a thumbnail, and of the picture it is drawn from
 _COLORS, _VERTICES = 64, 300
 _OF_A_POSE = ("duplicate_pose", "delete_pose", "go_to_pose")
 
@@ -30,33 +30,34 @@ _OF_A_POSE = ("duplicate_pose", "delete_pose", "go_to_pose")
 class TimelinePanel(Pad):
     """The poses of a canvas as keyframes in time, and the motion between them.
 
-    Poses are kept, named, moved along time, duplicated and deleted; the motion is proved in the
-    background, and what is proved is played by the page itself, from the maps at which the motion
-    bends. The strip's height is the certified bound on sigma_2. ``on_export()`` is what the export
-    button does; there is none without it.
+    The user can save, name, move, duplicate and delete poses. The motion is proved in the
+    background. The page plays the proved part by itself, from the maps at which the motion bends.
+    The strip's height is the certified bound on sigma_2. The export button calls ``on_export()``.
+    Without it there is no button.
     """
 
     _script = traitlets.Unicode(bundle("timeline")).tag(sync=True)
     _css = stylesheet("timeline")
 
     stage = traitlets.Unicode("").tag(sync=True)
-    """The identity of the canvas's stage, which the page hands coefficients to."""
+    """The identity of the canvas's stage, to which the page gives coefficients."""
     shown = traitlets.Dict({}).tag(sync=True)
-    """``keyframes`` (``name``, ``time``, ``easing``, ``thumbnail``), which is ``active``, the
-    timeline's ``repeat`` and ``back``, and what is switched on."""
+    """``keyframes`` (``name``, ``time``, ``easing``, ``thumbnail``), the index ``active``, the
+    timeline's ``repeat`` and ``back``, and the states of the switches."""
     motion = traitlets.Dict({"spans": []}).tag(sync=True)
-    """``spans`` from keyframe to keyframe: ``start``, ``end``, ``status``, ``reason``; ``times`` of
-    the knots and ``floats``, their coefficients, as far as proved; ``sigma2`` between them."""
+    """``spans`` from keyframe to keyframe: ``start``, ``end``, ``status``, ``reason``. For the
+    proved part: ``times`` of the knots, ``floats`` (their coefficients), and ``sigma2`` between
+    them."""
     heights = traitlets.Dict({"times": []}).tag(sync=True)
-    """``times`` of the keyframes and ``floats``, the picture's heights then, if poses' depths
-    differ; where the kernel evaluates it sends them with its frames."""
+    """``times`` of the keyframes, and ``floats``, the picture's heights at these times, if the
+    depths of poses differ. If the kernel evaluates, it sends the heights with its frames."""
     thumbnails = traitlets.Dict({}).tag(sync=True)  # pictures as data URIs, by their keys
 
     def __init__(
         self, canvas: DeformCanvas, on_export: Callable[[], None] | None = None, **kwargs: Any
     ) -> None:
         self.canvas, self.on_export = canvas, on_export
-        self.animation = Animation(canvas.deformation)  # what is proved between the poses
+        self.animation = Animation(canvas.deformation)  # proves the motion between the poses
         self._pictures = weakref.WeakKeyDictionary[HarmonicMap, tuple[str, str]]()
         self._latest: dict[str, tuple[str, str]] = {}  # by the poses' names
         self._texture: Texture | None = None
@@ -99,7 +100,8 @@ class TimelinePanel(Pad):
         return refusal
 
     def _show_between(self, time: float | None) -> None:
-        """Have the canvas draw the motion at a time; None or no motion then: the edited pose."""
+        """Let the canvas draw the motion at a time. Without a time, or without a motion at that
+        time, it draws the edited pose."""
         if time is None or (map_ := self.animation.at(time)) is None:
             self.canvas.show_between(None)
         else:
@@ -110,14 +112,14 @@ class TimelinePanel(Pad):
             if self._closed:
                 return
             if what == "motion":
-                # Of a new cage they are shown with its scene, whose materials are new.
+                # Spans of a new cage are shown later, with its scene, whose materials are new.
                 domain = self.canvas.pane.scene.domain
                 spans = [span for span in self.animation.spans if span.map.domain is domain]
                 self.motion = {"spans": [self._span(span) for span in spans]}
             if what in ("state", "recording", "motion"):
                 self._show_state()
             moment = self.canvas.deformation.moment
-            # Drawing needs JAX and the processor, which the first solve has first.
+            # Drawing needs JAX and the processor, and the first solve has priority.
             at_rest = moment.solved and not moment.dragged and self.canvas.drawn
             if what in ("state", "frame") and at_rest:
                 self._worker.submit(moment.state.poses)
@@ -127,7 +129,7 @@ class TimelinePanel(Pad):
     def _show_state(self) -> None:
         state = self.canvas.deformation.state
         timeline = state.timeline
-        # Until a pose that moves has come to rest its last thumbnail stays.
+        # A pose that is being solved keeps its last thumbnail.
         latest = {p.name: self._pictures.get(p.map, self._latest.get(p.name)) for p in state.poses}
         self._latest = {name: picture for name, picture in latest.items() if picture}
         self.thumbnails = dict(self._latest.values())
@@ -159,7 +161,7 @@ class TimelinePanel(Pad):
             self.heights = {"times": times if moves else [], **floats}
 
     def _span(self, span: Span) -> dict[str, Any]:
-        """A span as the page takes it; one of which nothing is proved stays at its keyframe."""
+        """A span as data for the page. If nothing is proved, the shape stays at its keyframe."""
         scene, pieces = self.canvas.pane.scene, span.pieces
         start = span.start, pieces[0].start_map if pieces else span.map
         ends = [(piece.end, piece.end_map) for piece in pieces] or [(span.end, span.map)]

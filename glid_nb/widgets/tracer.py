@@ -20,20 +20,21 @@ from glid_nb.widgets.gestures import Event
 from glid_nb.widgets.pad import Pad
 from glid_nb.widgets.tracer_gestures import REACH_SHARES, TraceGestures
 
-_LONGEST_SIDE = 1600  # of the picture that the page draws; the cage is traced on the original
+_LONGEST_SIDE = 1600  # of the page's picture; the cage is traced on the original
 _LISTED_HOLES = 40
 _BRUSHES = ("foreground", "background")
 _MOST_POINTS = 200  # of a hole's outline
-_AUTOMATIC = ("method", "threshold", "offset", "simplify")  # what a tracing chooses by itself
+_AUTOMATIC = ("method", "threshold", "offset", "simplify")  # options that may be automatic
 
 
 class CageTracer(Pad):
     """Traces a cage around the shape in a picture and edits it by hand.
 
     The widget is a view of a `TracingModel`, which does the work and needs no browser. The image is
-    as in `glid_nb.read_image`; without one the widget asks for a file. ``options`` say how to trace
-    at first; a ``model`` is shown instead of both. The picture's area is ``height`` CSS pixels
-    high, at least 240; None for what the window has. Raises TraceError for an unreadable picture.
+    as in `glid_nb.read_image`; without one the widget asks for a file. ``options`` are the initial
+    options. Give a ``model`` instead of image and options to show that model. The picture's area is
+    ``height`` CSS pixels high, at least 240; None uses the height of the window. Raises a
+    TraceError for an unreadable picture.
 
     >>> import numpy as np
     >>> y, x = np.mgrid[:100, :100] + 0.5
@@ -46,13 +47,13 @@ class CageTracer(Pad):
     _css = stylesheet("tracer")
 
     picture = traitlets.Bytes(b"").tag(sync=True)
-    """The picture that the page draws, PNG or JPEG, at most 1,600 pixels wide or high."""
+    """The page's picture, PNG or JPEG, at most 1,600 pixels wide or high."""
 
     shown = traitlets.Dict().tag(sync=True)
-    """The state that the page shows; see `described`."""
+    """The state shown by the page; see `described`."""
 
     height = traitlets.Int(460, min=240, allow_none=True).tag(sync=True)
-    """Height of the picture's area in CSS pixels, at least 240; None for what the window has."""
+    """Height of the picture's area in CSS pixels, at least 240; None uses the window's height."""
 
     def __init__(
         self,
@@ -66,8 +67,8 @@ class CageTracer(Pad):
         if model is not None and (image is not None or options is not None):
             raise ValueError("give a model, or a picture and options, not both")
         self.tracing_model = model if model is not None else TracingModel(image, options)
-        """The model that this is a view of."""
-        self.gestures = TraceGestures(self.tracing_model)  # what pointers and keys mean here
+        """The model of this view."""
+        self.gestures = TraceGestures(self.tracing_model)  # handles pointers and keys
         self._pushed_image: NDArray[np.uint8] | None = None
         super().__init__(height=height, **kwargs)
         self._push()
@@ -81,17 +82,17 @@ class CageTracer(Pad):
 
     @property
     def options(self) -> TraceOptions:
-        """How the cage is traced, as the controls stand."""
+        """The options of the tracing, as shown by the controls."""
         return self.tracing_model.options
 
     @property
     def tracing(self) -> Tracing | None:
-        """The automatic part of the tracing; None when it fails."""
+        """The automatic part of the tracing; None if it failed."""
         return self.tracing_model.outcome.tracing
 
     @property
     def cage(self) -> Cage | None:
-        """The cage, with the edits by hand; the last valid one; None before there is one."""
+        """The last valid cage, with edits by hand; None before there is one."""
         return self.tracing_model.cage
 
     @property
@@ -100,13 +101,14 @@ class CageTracer(Pad):
         return self.tracing_model.domain
 
     def on_change(self, callback: Callable[[], None]) -> Callable[[], None]:
-        """Call ``callback`` after every change, by hand or by code; the result ends that."""
+        """Call ``callback`` after every change, by hand or by code. Returns a function that ends
+        this."""
         return self.tracing_model.observe(lambda _: callback())
 
     def handle(self, events: Sequence[Event]) -> str | None:
         """Act on pointers and keys."""
         refusal = self.gestures.handle(events)
-        # The model announces its own changes; these are not the model's.
+        # The model announces its own changes. Changes of the tools are not the model's.
         own = _of_hand(self.gestures)
         if own != {name: self.shown[name] for name in own}:
             self._push()
@@ -121,7 +123,7 @@ class CageTracer(Pad):
 
 
 def described(gestures: TraceGestures) -> dict[str, Any]:
-    """The state of a tracing and its tools; points in pixels, rounded to hundredths."""
+    """The state of a tracing and its tools. Points are in pixels, rounded to hundredths."""
     model = gestures.model
     frame, outcome, scribbles = model.frame, model.outcome, model.state.scribbles
     options = {k: v for k, v in vars(model.options).items() if k != "scribbles"}
@@ -158,7 +160,7 @@ def described(gestures: TraceGestures) -> dict[str, Any]:
 
 
 def _of_hand(gestures: TraceGestures) -> dict[str, Any]:
-    """What belongs to the hand rather than to the tracing."""
+    """The state of the tools, which is not part of the tracing."""
     return {
         "tool": gestures.tool,
         "corners": [list(corner) for corner in gestures.corners],
@@ -167,7 +169,7 @@ def _of_hand(gestures: TraceGestures) -> dict[str, Any]:
 
 
 def displayed(image: NDArray[np.uint8] | None) -> bytes:
-    """A picture for the page: PNG, or JPEG when nothing is transparent; empty without one."""
+    """The picture for the page: PNG, or JPEG if nothing is transparent; empty without a picture."""
     if image is None:
         return b""
     picture, buffer = Image.fromarray(image), io.BytesIO()
@@ -178,7 +180,7 @@ def displayed(image: NDArray[np.uint8] | None) -> bytes:
     return buffer.getvalue()
 
 
-@functools.lru_cache(maxsize=256)  # by identity; most changes leave the holes as they are
+@functools.lru_cache(maxsize=256)  # by identity; most changes do not change the holes
 def _hole(hole: Hole) -> dict[str, Any]:
     loop = shapely.get_coordinates(shapely.LinearRing(hole.loop).simplify(0.5))[:-1]
     loop = _rounded(loop[:: math.ceil(len(loop) / _MOST_POINTS)])

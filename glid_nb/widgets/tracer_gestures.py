@@ -1,4 +1,4 @@
-"""What pointers and keys on the tracer mean; without a browser."""
+"""The meaning of pointers and keys on the tracer, without a browser."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
@@ -12,23 +12,24 @@ from glid_nb.session import loop_edits
 from glid_nb.session.tracing import TracingModel
 from glid_nb.widgets.gestures import ARROWS, LEFT, OF_A_HAND, RIGHT, Event, Gestures, asked, place
 
-Vertex = tuple[int, int]  # which loop, and which of its vertices
+Vertex = tuple[int, int]  # index of the loop, and index of the vertex in it
 
-_CLICK = 4.0  # CSS pixels that a click may move
-_DOUBLE, _DOUBLE_SLACK = 380.0, 12.0  # ms between two clicks, CSS pixels
-_BURST = 900.0  # ms without a key that end a burst of nudges
+_CLICK = 4.0  # CSS pixels that the pointer may move during a click
+_DOUBLE, _DOUBLE_SLACK = 380.0, 12.0  # of a double click: most ms and CSS pixels between clicks
+_BURST = 900.0  # a pause of this many ms between keys ends a burst of nudges
 _NUDGE, _NUDGE_SHIFT = 1.0, 10.0  # pixels of the picture
-REACH_SHARES = {"in_hole": 0.6, "edge": 0.8}  # the page has them from here
-"""Shares of the reach: less in a hole, so that the middle of a small one can be clicked."""
+REACH_SHARES = {"in_hole": 0.6, "edge": 0.8}  # the page gets them from here
+"""Shares of the reach. It is smaller in a hole, so that the middle of a small hole can be clicked.
+"""
 _TOOLS = {"v": "edit", "b": "foreground", "n": "background", "i": "color", "c": "component"}
 _TOOLS |= {"p": "polygon", "r": "rectangle"}
-_FREEHAND = 30.0  # CSS pixels; a longer path is no click
+_FREEHAND = 30.0  # CSS pixels; a longer path is drawn freehand, not a click
 _LARGEST_UPLOAD = 64 << 20
 
 
 @dataclass(frozen=True)
 class Found:
-    """What is at a place: a vertex, else whether there is an edge, and the hole around it."""
+    """The objects at a place: a vertex, otherwise whether there is an edge, and the hole around."""
 
     vertex: Vertex | None = None
     edge: bool = False
@@ -37,17 +38,17 @@ class Found:
 
 @dataclass(eq=False)
 class _TracerPress:
-    """A pressed pointer; also the identity of its gesture for the model."""
+    """A pressed pointer. The object also identifies its gesture for the model."""
 
     tool: str
     start: Array
     found: Found
-    offset: Array = field(default_factory=lambda: np.zeros(2))  # from pointer to dragged vertex
+    offset: Array = field(default_factory=lambda: np.zeros(2))  # from pointer to the vertex
     moved: bool = False
 
 
 class TraceGestures(Gestures):
-    """Edits and paints a tracing, also for the panel; places are in pixels of the picture."""
+    """Gestures that edit and paint a tracing, also for the panel. Places are in picture pixels."""
 
     def __init__(self, model: TracingModel) -> None:
         own = (*OF_A_HAND, "tool", "upload", "undo")
@@ -58,8 +59,8 @@ class TraceGestures(Gestures):
         actions["set_options"] = lambda e: model.set_options(e.get("gesture"), **e["changes"])
         super().__init__(model, actions)
         self.model = model
-        self.tool = "edit"  # what the left button does, one of the values of _TOOLS
-        self.corners: tuple[tuple[float, float], ...] = ()  # of a polygon that is being drawn
+        self.tool = "edit"  # the tool of the left button, one of the values of _TOOLS
+        self.corners: tuple[tuple[float, float], ...] = ()  # of an unfinished polygon
         self._selected: tuple[Vertex, ...] = ()
         self._press: _TracerPress | None = None
         self._last_click = (-np.inf, np.zeros(2))
@@ -74,7 +75,7 @@ class TraceGestures(Gestures):
         return tuple((i, j) for i, j in self._selected if i < len(sizes) and j < sizes[i])
 
     def find(self, point: Array, reach: float) -> Found:
-        """What is at a point."""
+        """The objects at a point."""
         holes = self.model.holes
         around = [i for i, hole in enumerate(holes) if loop_edits.contains(hole.loop, point)]
         hole = min(around, key=lambda i: holes[i].area) if around else None
@@ -113,7 +114,7 @@ class TraceGestures(Gestures):
     def _move(self, event: Event) -> None:
         press, point = self._press, place(event)
         if press is None or press.found.vertex is None:
-            return  # the page moves the view, or paints a path
+            return  # the page itself moves the view or paints a path
         press.moved |= np.hypot(*(point - press.start)) > _CLICK * event["unit"]
         if press.moved:
             x, y = point + press.offset
@@ -138,7 +139,8 @@ class TraceGestures(Gestures):
             self._click(press.found, event)
 
     def _corner(self, event: Event) -> None:
-        """Add a corner, or close the polygon: by its first corner, or by a line drawn freehand."""
+        """Add a corner, or close the polygon. A click on its first corner, a double click or a line
+        drawn freehand closes it."""
         path = np.array(event.get("path") or [place(event)])
         far = np.hypot(*(path - path[0]).T).max() > _FREEHAND * event["unit"]
         closed = len(self.corners) > 2 and self._is_near(self.corners[0], path[-1], event)
@@ -207,7 +209,7 @@ class TraceGestures(Gestures):
             self.tool, self.corners = _TOOLS[key.lower()], ()
 
     def _nudge(self, event: Event) -> None:
-        """Move the selected vertex; keys in quick succession are one step of the history."""
+        """Move the selected vertex. Keys in quick succession are one step for undo."""
         if len(self.selected) != 1:
             return
         if event["time"] - self._last_nudge >= _BURST:
@@ -240,7 +242,7 @@ class TraceGestures(Gestures):
             self.model.undo()
 
     def _upload(self, event: Event) -> None:
-        """Take a part of a file: a websocket message has a largest size."""
+        """Receive a part of a file, because websocket messages have a size limit."""
         name, size, start = event["name"], event["size"], event["start"]
         if start == 0:
             self._incoming = name, bytearray()

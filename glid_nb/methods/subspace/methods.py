@@ -176,8 +176,8 @@ class NewtonStaged(SecondOrderMethod):
 
 @dataclass(frozen=True)
 class NewtonEigen(SecondOrderMethod):
-    """Newton's method with a full eigen-factorisation, negative eigenvalues raised to 1e-10 or,
-    with absolute, by their modulus.
+    """Newton's method with a full eigen-factorisation. Negative eigenvalues are replaced by 1e-10
+    or, with absolute, by their modulus.
 
     Newton-Eigen (Section 10), for lengths in twentieths of the cage's longer side. The value 1e-10
     is much smaller than the problem's scale. Along a direction of negative curvature, the step is
