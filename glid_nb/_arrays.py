@@ -36,9 +36,12 @@ def real_array(value: Any) -> NDArray[np.float64]:
 
 
 def number_pairs(value: Any, wanted: str, error: type[Exception]) -> NDArray[np.float64]:
-    """(n, 2) array of numbers, NaN and infinity allowed. Otherwise raises an ``error`` whose
-    message begins with ``wanted``."""
+    """(n, 2) array of numbers, NaN and infinity allowed; also from (n,) complex numbers. Otherwise
+    raises an ``error`` whose message begins with ``wanted``."""
     try:
+        if isinstance(value, list | tuple | np.ndarray) and np.iscomplexobj(value):
+            z = np.asarray(value)
+            value = np.stack([z.real, z.imag], axis=-1) if z.ndim == 1 else value
         pairs = real_array(value)
     except (TypeError, ValueError) as problem:
         raise error(f"{wanted} ({problem})") from problem

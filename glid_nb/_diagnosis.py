@@ -39,13 +39,6 @@ GIVES = {
 }
 """A description of each extra that users install."""
 
-_SERVERS = {
-    "voila": "Voila",
-    "jupyterhub": "JupyterHub",
-    "lab": "JupyterLab",
-    "notebook": "Notebook",
-}
-
 
 def diagnosis() -> dict[str, Any]:
     """The whole diagnosis of `glid-nb doctor`, as values for JSON."""
@@ -183,8 +176,15 @@ def _jax_state() -> dict[str, Any]:
         return {"error": " ".join(str(error).split())}
 
 
+def _exists(path: Path) -> bool:
+    try:
+        return path.exists()
+    except OSError:  # a folder above it is closed to this user
+        return False
+
+
 def _folder(path: Path, variable: str) -> dict[str, Any]:
-    existing = next(part for part in (path, *path.parents) if part.exists())
+    existing = next((part for part in (path, *path.parents) if _exists(part)), path)
     count, size = 0, 0
     for root, _, names in os.walk(path):
         for name in names:

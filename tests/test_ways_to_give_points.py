@@ -53,7 +53,7 @@ def test_a_cage_is_made_of_rings_in_every_common_form(given: Callable[[], Cage])
     [
         (lambda: Cage([RING, RING]), "Hole 1 touches the outline"),
         (lambda: Cage(shapely.Point(1, 2)), "one polygon, not of a Point"),
-        (lambda: Cage(shapely.Polygon()), "one polygon, not of a Polygon"),
+        (lambda: Cage(shapely.Polygon()), "the polygon is empty"),
         (
             lambda: Cage(shapely.MultiPolygon([shapely.box(0, 0, 1, 1), shapely.box(2, 0, 3, 1)])),
             "not of a MultiPolygon of 2 parts; give one part",

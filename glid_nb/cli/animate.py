@@ -9,6 +9,7 @@ folder of frames. .motion.json writes the motion, and its proof for `glid-check`
 """
 
 import argparse
+import sys
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -79,6 +80,10 @@ def _read(chosen: argparse.Namespace) -> tuple[Any, glid_nb.Motion, list[glid_nb
     if chosen.picture is None or chosen.loop not in (None, motion.repeat):
         advice = "name its picture by --picture, and leave out --loop, for it has its own"
         raise InputError(f"{chosen.source} is a saved motion: {advice}")
+    if motion.image_size is None:
+        doubt = f"{chosen.source} does not say how large its picture is"
+        advice = f"make sure that its cage was traced from {chosen.picture}"
+        print(f"glid-nb: {doubt}; {advice}", file=sys.stderr)
     if chosen.seconds is not None:
         times = [_seconds(chosen) / motion.duration * time for time in motion.times]
         motion = glid_nb.Motion(motion.keyframes, times, **motion.settings)

@@ -22,6 +22,7 @@ from PIL import Image
 from glid_nb._arguments import plain
 from glid_nb._errors import InputError
 from glid_nb._files import zipped
+from glid_nb.imaging.bleed import bled
 from glid_nb.imaging.read import png, srgb_chunk
 from glid_nb.motion.settings import checked
 
@@ -78,7 +79,7 @@ def encoded(
         return [_video(frames, fps, suffix, background is None)]
     if suffix == ".sheet.png":
         return _sprite_sheet(frames, fps, name)
-    pictures = [png(picture) for picture in frames.pictures]
+    pictures = [png(bled(picture)) for picture in frames.pictures]
     files = dict(zip(names(frames.count), pictures, strict=True))
     return [zipped(files, stored=files)] if suffix == ".zip" else pictures
 
@@ -162,7 +163,7 @@ def _sprite_sheet(frames: Frames, fps: float, name: str) -> list[bytes]:
     size, found = {"w": width, "h": height}, {}
     for i, (picture, frame) in enumerate(zip(frames.pictures, names(frames.count), strict=True)):
         x, y = i % columns * width, i // columns * height
-        sheet[y : y + height, x : x + width] = picture
+        sheet[y : y + height, x : x + width] = bled(picture)
         found[frame] = {
             **{"frame": {"x": x, "y": y, **size}, "rotated": False, "trimmed": False},
             **{"spriteSourceSize": {"x": 0, "y": 0, **size}, "sourceSize": size},

@@ -16,6 +16,7 @@ from glid_nb.geometry._loops import GeometryError, Loops, loop_name, place, plai
 # Parts of the boundary closer than this share of the cage's size count as touching. It is a few
 # thousand roundings: below it, offsets and normal directions cannot be computed.
 _RESOLUTION = 1e-12
+_CLOSED = 1e-9  # of a loop's size; a last vertex this close to the first repeats it
 _EDGES = 64  # edges that are tested for crossings at a time
 
 
@@ -23,9 +24,10 @@ _EDGES = 64  # edges that are tested for crossings at a time
 class Cage(Rebuilt):
     """A bounded polygon with any number of holes; the boundary P of the certified domain.
 
-    Loops list their vertices in order, in either direction. A last vertex that repeats the first is
-    left out. Instead of a loop, ``exterior`` may be a polygon of shapely or another object with a
-    ``__geo_interface__``, or a list of rings as in GeoJSON, the exterior first.
+    Loops list their vertices in order, in either direction, as pairs or as complex numbers. A last
+    vertex that repeats the first is left out. Instead of a loop, ``exterior`` may be a polygon of
+    shapely or another object with a ``__geo_interface__``, a polygon or feature of GeoJSON, or a
+    list of rings, the exterior first.
 
     The constructor checks what the package relies on: finite coordinates, at least three distinct
     vertices per loop, loops that neither cross nor touch themselves or each other, every hole
@@ -151,28 +153,46 @@ def _rings_of(shape: Any, holes: Any) -> list[Any]:
     """The exterior and the holes of anything that a cage can be made of."""
     if isinstance(shape, Cage):
         raise GeometryError("it is a cage already; use it as it is, or give its exterior and holes")
-    if (geometry := getattr(shape, "__geo_interface__", None)) is not None:
+    holes = () if holes is None else holes
+    holes = [holes] if hasattr(holes, "__geo_interface__") else holes
+    if (geometry := _geo_interface(shape)) is not None:
         rings = _rings_of_geometry(geometry)
     elif _depth(shape) == 3:
         rings = list(shape)
     else:
-        return [shape, *([holes] if _depth(holes) == 2 else holes)]
+        return [shape, *([holes] if _is_loop(holes) else holes)]
     if len(rings) > 1 and len(given := list(holes)):
         both = f"{len(rings) - 1} holes come with the exterior and {len(given)} beside it"
         raise GeometryError(f"{both}; give holes in one of the two ways")
     return [*rings, *holes]
 
 
+def _is_loop(holes: Any) -> bool:
+    """Whether it is one loop of pairs, not a list of loops."""
+    return _depth(holes) == 2 and not np.iscomplexobj(holes[0])
+
+
 def _rings_of_geometry(geometry: Mapping[str, Any]) -> list[Any]:
+    if geometry.get("type") == "Feature":
+        geometry = geometry.get("geometry") or {}
     kind, parts = geometry.get("type"), geometry.get("coordinates", ())
     if kind == "MultiPolygon" and len(parts) == 1:
         kind, parts = "Polygon", parts[0]
     if kind in ("LinearRing", "LineString"):
         kind, parts = "Polygon", [parts]
-    if kind != "Polygon" or len(parts) == 0:
+    if kind == "Polygon" and len(parts) == 0:
+        raise GeometryError("the polygon is empty")
+    if kind != "Polygon":
         count = f" of {len(parts)} parts" if kind == "MultiPolygon" else ""
         raise GeometryError(f"a cage is made of one polygon, not of a {kind}{count}; give one part")
-    return list(parts)
+    return [[point[:2] for point in ring] for ring in parts]  # without z
+
+
+def _geo_interface(shape: Any) -> Mapping[str, Any] | None:
+    """The GeoJSON of a shape, or of a mapping that is GeoJSON itself."""
+    if isinstance(shape, Mapping) and "type" in shape:
+        return shape
+    return getattr(shape, "__geo_interface__", None)
 
 
 def _depth(value: Any) -> int:
@@ -187,11 +207,11 @@ def _depth(value: Any) -> int:
 
 def _checked_vertices(vertices: Any, name: str) -> Array:
     """A float64 copy of (n, 2) finite vertices, n >= 3, without a last one equal to the first."""
-    if (geometry := getattr(vertices, "__geo_interface__", None)) is not None:
+    if (geometry := _geo_interface(vertices)) is not None:
         vertices = _rings_of_geometry(geometry)[0]
     pairs = f"{name}: vertices must be pairs of numbers [[x, y], ...]"
     loop = number_pairs(vertices, pairs, GeometryError)
-    if len(loop) > 3 and (loop[0] == loop[-1]).all():
+    if len(loop) > 3 and np.abs(loop[-1] - loop[0]).max() <= _CLOSED * np.ptp(loop, axis=0).max():
         loop = loop[:-1].copy()
     if len(loop) < 3:
         raise GeometryError(f"{name}: {len(loop)} vertices given, a loop needs at least 3")

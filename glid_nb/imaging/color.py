@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from PIL import Image, ImageCms, ImageOps
 from PIL.PngImagePlugin import PngImageFile
 
-from glid_nb.imaging.decode import RGBA, eight_bit
+from glid_nb.imaging.decode import RGBA, ColorWarning, eight_bit
 
 _ROWS = 256  # converted at a time, to bound the memory
 _SRGB_GAMMA = 1 / 2.2  # the value in the gAMA chunk of an sRGB picture
@@ -41,10 +41,6 @@ _BRADFORD = np.array(
 )
 
 Curve = Callable[[NDArray[np.float64]], NDArray[np.float64]]
-
-
-class ColorWarning(UserWarning):
-    """A file declares a colour space that cannot be used. Its colours are read as sRGB."""
 
 
 def _srgb_curve(value: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -7,6 +7,7 @@ chunk) with pixels that it has scaled. So this module reads PNG and TIFF of more
 import functools
 import io
 import sys
+import warnings
 from typing import Any
 
 import numpy as np
@@ -35,6 +36,10 @@ _ORIENTED = {
     **{2: (1, -1, False), 3: (-1, -1, False), 4: (-1, 1, False), 5: (1, 1, True)},
     **{6: (1, -1, True), 7: (-1, -1, True), 8: (-1, 1, True)},
 }
+
+
+class ColorWarning(UserWarning):
+    """A file declares a colour space that cannot be used. Its colours are read as sRGB."""
 
 
 @functools.cache
@@ -83,13 +88,15 @@ def picture_pixels(picture: Image.Image, data: bytes | None, name: str) -> NDArr
         if raw.endswith(";16B"):
             return _wide_png(picture, data, raw)
         _correct_key(picture, raw)
+    elif data is None:
+        _doubt_key(picture, name)
     if isinstance(picture, TiffImageFile) and picture.mode != "CMYK":
         bits = max(picture.tag_v2.get(_BITS_PER_SAMPLE, (8,)))
         if data is not None and bits > 8:
             return _wide_tiff(picture, data, name)
     picture = ImageOps.exif_transpose(picture)
     if picture.mode == "F" or picture.mode.startswith("I"):
-        return np.asarray(picture)
+        return _with_key(np.asarray(picture), picture.info.get("transparency"))
     # Pillow drops the alpha of La, and makes LAB transparent.
     step = {"La": "LA", "LAB": "RGB", "HSV": "RGB"}.get(picture.mode)
     if step == "LA":
@@ -182,6 +189,29 @@ def _correct_key(picture: Image.Image, raw: str) -> None:
         # With one bit, newer versions of Pillow give the key 255 instead of 1.
         most = (1 << _GREY_BITS[raw]) - 1
         picture.info["transparency"] = (key & most) * (255 // most)
+
+
+def _doubt_key(picture: Image.Image, name: str) -> None:
+    """Correct the transparent colour of a decoded PNG of 16-bit colours, or warn about one that may
+    have had other bits: Pillow does not tell how many bits the file had."""
+    key = picture.info.get("transparency")
+    remedy = "give the file's path, or the picture before it is decoded"
+    if isinstance(key, tuple) and max(key) > 255:
+        picture.info["transparency"] = tuple(value >> 8 for value in key)
+        what = "was decoded to 8 bit, so more colours than one may be transparent"
+        warnings.warn(f"{name} {what}; {remedy}", ColorWarning, stacklevel=2)
+    elif isinstance(key, int) and picture.mode == "L" and key < 16:
+        values = np.flatnonzero(picture.histogram())
+        if key not in values and (values % 17 == 0).all():
+            what = f"has the transparent grey {key}, which no pixel has since it was decoded"
+            warnings.warn(f"{name} {what}; {remedy}", ColorWarning, stacklevel=2)
+
+
+def _with_key(grey: NDArray[Any], key: Any) -> NDArray[Any]:
+    """Grey of 16 bit, with alpha if one grey is transparent."""
+    if not isinstance(key, int) or grey.dtype.kind not in "iu":
+        return grey
+    return np.dstack([grey, np.where(grey == key, 0, 65535)]).astype(np.uint16)
 
 
 def _straight_grey(picture: Image.Image) -> NDArray[np.uint8]:

@@ -14,6 +14,7 @@ from glid_nb.imaging.measure import RGBA, full
 from glid_nb.imaging.options import Color, ForegroundMethod, Point, Scribbles
 from glid_nb.imaging.scribbles import scaled_picture, scribble_score
 
+_SPECKS = 0.02  # of the visible pixels; a smaller share of opaque ones is not the shape
 _LEAST_SHARE = 0.001  # of transparent or opaque pixels; a smaller share is a speck
 _SMOOTHING = 0.001  # automatic smoothing, relative to the longer side
 _LEAST_SMOOTHING = 0.5  # pixels; less smoothing is not worth the time
@@ -116,14 +117,16 @@ def find_foreground(
         what = "the image has no foreground: it is fully transparent"
         raise TraceError(f"{what}; remove its alpha channel if its colours show the shape")
     notes: list[str] = []
-    if method == "auto":
+    if guesses := method == "auto":
         method, why = _choose_method(image, background, background_at, scribbles)
         notes.append(f"foreground by {why}")
     inverted, threshold, spread = bool(invert), 0.5, 0.0
     alpha = image[..., 3] * np.float32(1 / full(image))
     if method == "alpha":
         _check_alpha(alpha)
-        score = alpha
+        # A few opaque specks are not the shape of a picture that is otherwise faint.
+        faint = _usual_maximum(image[..., 3]) / full(image)
+        score = np.minimum(alpha, np.float32(faint)) if guesses and faint <= 0.5 else alpha
     elif method == "scribbles":
         if scribbles is None:
             raise TraceError("the method 'scribbles' needs scribbles")
@@ -193,7 +196,8 @@ def _choose_method(
         return "color", "colour distance, as a background colour was given"
     alpha = image[..., 3]
     # In a faint drawing no pixel is half opaque.
-    middle = (full(image) if alpha.max() > full(image) / 2 else int(alpha.max())) / 2
+    most = _usual_maximum(alpha)
+    middle = (full(image) if most > full(image) / 2 else most) / 2
     if _LEAST_SHARE < np.mean(alpha < middle) < 1 - _LEAST_SHARE:
         return "alpha", "alpha, as part of the image is transparent"
     border = measure.border_color(image)
@@ -203,6 +207,12 @@ def _choose_method(
         "brightness, as the border has no single colour; if this guess is wrong, choose another "
         "method, mark the background's colour, or scribble on foreground and background"
     )
+
+
+def _usual_maximum(alpha: NDArray[np.unsignedinteger]) -> int:
+    """The largest alpha, without specks: at least `_SPECKS` of the visible pixels reach it."""
+    reached = np.bincount(alpha.ravel(), minlength=2)[::-1].cumsum()[::-1]
+    return int(np.flatnonzero(reached[1:] >= _SPECKS * reached[1]).max()) + 1
 
 
 def _background(

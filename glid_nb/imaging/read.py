@@ -81,8 +81,10 @@ def as_rgba(image: ArrayLike) -> RGBA:
     RGBA. Its type is bool, uint8, uint16, or float in [0, 1]. The result is uint8 for bool and
     uint8, and uint16 for the other types. A uint8 or uint16 RGBA array is returned itself. Raises a
     TraceError for an array that is empty, too large or of another shape or type, and for floats
-    that are NaN or outside [0, 1].
+    that are NaN or outside [0, 1]. Masked pixels of a masked array become transparent.
     """
+    if isinstance(image, np.ma.MaskedArray) and np.ma.is_masked(image):
+        return _with_masked_pixels_transparent(image)
     try:
         array: NDArray[Any] = np.asarray(image)
     except ValueError as error:  # rows of different lengths
@@ -111,6 +113,13 @@ def as_rgba(image: ArrayLike) -> RGBA:
     rgba: NDArray[Any] = np.empty((height, width, 4), dtype=array.dtype)
     rgba[..., :3] = array[..., : 3 if channels == 3 else 1]
     rgba[..., 3] = array[..., 1] if channels == 2 else np.iinfo(array.dtype).max
+    return rgba
+
+
+def _with_masked_pixels_transparent(image: np.ma.MaskedArray) -> RGBA:
+    rgba = as_rgba(image.filled(0)).copy()
+    masked = np.ma.getmaskarray(image)
+    rgba[masked if masked.ndim == 2 else masked.any(axis=2), 3] = 0
     return rgba
 
 

@@ -109,6 +109,8 @@ def _values(image: ArrayLike | Texture, fill: float) -> NDArray[Any]:
     if isinstance(image, Texture):
         what = "a Texture has been prepared for interpolation"
         raise RenderError(f'{what}; for interpolation="nearest" give the array itself')
+    if np.ma.is_masked(image):
+        raise RenderError("the image has masked values; replace them first, by image.filled(value)")
     try:
         values: NDArray[Any] = np.asarray(image)
     except ValueError as error:  # rows of different lengths

@@ -1,5 +1,6 @@
 """Likely reasons for handles outside a shape: pixels, swapped axes, rows and columns."""
 
+import numpy as np
 import shapely
 
 from glid_nb._arrays import Array
@@ -7,7 +8,7 @@ from glid_nb.geometry import Cage, places
 
 # _PIXELS: coordinates more than this many times as large as the shape's may be pixels.
 # _NEAR: handles within this share of the shape's longer side are in its coordinates.
-_PIXELS, _NEAR = 1.5, 0.5
+_PIXELS, _NEAR = 1.5, 0.1
 
 
 def beside(cage: Cage, point: Array) -> tuple[str, float]:
@@ -23,7 +24,10 @@ def misplaced(cage: Cage, points: Array) -> str:
     Empty for handles near the cage, unless a simple conversion would bring all inside.
     """
     xmin, ymin, xmax, ymax = cage.bounds
-    spans = f"the shape spans x from {xmin:.4g} to {xmax:.4g} and y from {ymin:.4g} to {ymax:.4g}"
+    far = max(map(abs, cage.bounds)) / cage.longer_side
+    digits = 4 + max(int(np.log10(far)), 0)
+    left, bottom, right, top = (f"{bound:.{digits}g}" for bound in cage.bounds)
+    spans = f"the shape spans x from {left} to {right} and y from {bottom} to {top}"
     world = f"Handles are in world coordinates, x right and y up: {spans}"
     if (points >= 0).all() and points.max() > _PIXELS * max(abs(xmin), xmax, abs(ymin), ymax):
         call = "PixelFrame(width, height).to_world"

@@ -61,6 +61,22 @@ def test_a_folder_that_cannot_be_written_is_named(
     assert "name another one in GLID_NB_CACHE" in err
 
 
+def test_a_folder_inside_one_that_is_closed_is_no_crash(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    closed = tmp_path / "closed"
+
+    def exists(path: Path, **_: object) -> bool:
+        if closed in path.parents:
+            raise PermissionError(13, "Permission denied")
+        return path.is_dir()
+
+    monkeypatch.setattr(Path, "exists", exists)
+    found = _diagnosis._folder(closed / "cache", "GLID_NB_CACHE")
+    assert found["files"] == 0
+    assert found["path"] == str(closed / "cache")
+
+
 def test_a_jax_that_does_not_work_is_told_beside_everything_else(
     run: Run, monkeypatch: pytest.MonkeyPatch
 ) -> None:

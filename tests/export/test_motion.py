@@ -144,6 +144,22 @@ def test_a_sheet_says_where_its_frames_are(drawn: list[np.ndarray]) -> None:
             assert one["sourceSize"] == {"w": w, "h": h}
 
 
+def test_transparent_texels_of_sheets_and_frames_have_the_colours_beside_them() -> None:
+    """Game engines interpolate them with straight alpha."""
+    settings = {**SMALL, "background": None}
+    sheet = motion_files("walk.sheet.png", picture(), motion(), **settings)["walk.sheet.png"]
+    with zipfile.ZipFile(
+        io.BytesIO(motion_files("a.zip", picture(), motion(), **settings)["a.zip"])
+    ) as archive:
+        first = archive.read("frame-000.png")
+    for data in (sheet, first):
+        with Image.open(io.BytesIO(data)) as read:
+            pixels = np.asarray(read)
+        clear = pixels[..., 3] == 0
+        assert clear.any()
+        assert pixels[clear][:, :3].max(axis=1).min() > 0  # black before
+
+
 def test_frames_go_into_a_zip_or_a_folder(drawn: list[np.ndarray], tmp_path: Path) -> None:
     (path,) = animate(tmp_path / "walk.zip", picture(), motion(), **SMALL)
     files = animate(tmp_path / "walk", picture(), motion(), **SMALL)

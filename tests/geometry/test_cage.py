@@ -111,12 +111,6 @@ REFUSED = {
         [[[0.2, 0.2], [0.4, 0.4]]],
         r"^hole 1: 2 vertices given, a loop needs at least 3",
     ),
-    "nearly closing vertex": (
-        [*SQUARE.tolist(), [0, 1e-14]],
-        [],
-        r"^The outline has two points in one place; .* \(exterior loop: the last vertex 4 repeats "
-        r"vertex 0 at \(0, 0\); .*leave the last vertex",
-    ),
     "consecutive repetition": (
         [[0, 0], [1, 0], [1, 0], [0, 1]],
         [],

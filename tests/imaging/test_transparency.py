@@ -10,7 +10,8 @@ import pytest
 import tifffile
 from PIL import Image
 
-from glid_nb.imaging import as_rgba8, read_image, trace
+from glid_nb.imaging import TraceError, as_rgba8, read_image, trace
+from glid_nb.imaging.color import ColorWarning
 
 from .formats import written
 from .pngs import CHANNELS, GREY, GREY_ALPHA, PALETTE, RGB, RGBA, chunk, png_file
@@ -209,3 +210,54 @@ class TestOthers:
     def test_pillows_modes_without_alpha_are_opaque(self, mode: str) -> None:
         image = as_rgba8(read_image(Image.new(mode, (3, 2))))
         assert (image[..., 3] == 255).all()
+
+
+class TestDecoded:
+    """Pictures that Pillow has decoded before they are read."""
+
+    @staticmethod
+    def decoded(depth: int, color_type: int, key: tuple[int, ...]) -> Image.Image:
+        values = samples(depth, color_type)
+        values[4, 5] = key
+        body = struct.pack(f">{len(key)}H", *key)
+        picture = Image.open(io.BytesIO(png_file(values, depth, color_type, chunk(b"tRNS", body))))
+        picture.load()
+        return picture.copy()
+
+    def test_16_bit_grey(self) -> None:
+        image = read_image(self.decoded(16, GREY, (300,)))
+        assert image.dtype == np.uint16
+        assert image[4, 5, 3] == 0
+        assert (image[..., 3] == 65535).sum() == 11 * 13 - (image[..., 3] == 0).sum()
+
+    def test_16_bit_colours_lose_bits_with_a_warning(self) -> None:
+        picture = self.decoded(16, RGB, (300, 40000, 5))
+        with pytest.warns(ColorWarning, match="decoded to 8 bit.*give the file's path"):
+            image = read_image(picture)
+        assert image[4, 5, 3] == 0
+
+    def test_a_grey_of_few_bits_that_no_pixel_has_is_told(self) -> None:
+        picture = Image.fromarray(np.arange(0, 256, 85, dtype=np.uint8)[None].repeat(4, axis=0))
+        picture.info["transparency"] = 1  # of 2 bits
+        with pytest.warns(ColorWarning, match="transparent grey 1, which no pixel has"):
+            read_image(picture)
+
+
+def test_masked_pixels_are_transparent() -> None:
+    grey = np.full((2, 3), 200, np.uint8)
+    image = read_image(np.ma.masked_array(grey, mask=[[1, 0, 0], [0, 0, 0]]))
+    assert image[..., 3].tolist() == [[0, 255, 255], [255, 255, 255]]
+    colours = np.ma.masked_array(np.full((2, 2, 3), 9, np.uint8), mask=np.zeros((2, 2, 3)))
+    colours[0, 1, 2] = np.ma.masked
+    assert read_image(colours)[..., 3].tolist() == [[255, 0], [255, 255]]
+
+
+@pytest.mark.parametrize("spot", [0, 1, 3])
+def test_a_few_opaque_pixels_do_not_hide_a_faint_shape(spot: int) -> None:
+    y, x = np.mgrid[:64, :64]
+    image = np.zeros((64, 64, 4), np.uint8)
+    image[(x - 32) ** 2 + (y - 32) ** 2 < 23**2, 3] = 100
+    image[32 : 32 + spot, 32 : 32 + spot, 3] = 255
+    with pytest.raises(TraceError, match=r"alpha up to 39 %; lower the threshold, to 0\.2"):
+        trace(image)
+    assert trace(image, threshold=0.2).cage.longer_side > 14

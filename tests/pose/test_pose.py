@@ -12,6 +12,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from glid_nb.geometry import Cage, Domain
 from glid_nb.pose import Pose, PoseError
 
 from ..domains import domain
@@ -99,7 +100,7 @@ def test_targets_may_coincide() -> None:
         ({"x": 1}, [[0, 0]], "handles must be a list of"),
         (None, [[0, 0]], "handles"),
         ([[10**400, 0]], [[0, 0]], "handles"),
-        (np.array([1 + 2j]), [[1, 2]], "handles"),
+        (np.array([[1 + 2j]]), [[1, 2]], "handles"),
         ([[], []], [[], []], "handles"),
     ],
     ids=lambda value: str(value)[:24],
@@ -132,3 +133,21 @@ def test_handles_must_lie_in_the_domain() -> None:
         with pytest.raises(PoseError, match=re.escape(f"handle 1 at ({point[0]}, {point[1]})")):
             Pose([inside, point, outside[::-1]], [[0, 0]] * 3).check_inside(d)
     Pose([], []).check_inside(d)
+
+
+def test_one_handle_outside_is_told_where_the_shape_is() -> None:
+    domain = Domain.from_cage(Cage([[-10, -3], [10, -3], [10, 3], [-10, 3]]))
+    with pytest.raises(PoseError, match=r"world coordinates.*x from -10 to 10 and y from -3 to 3"):
+        Pose([[0, 8]], [[0, 0]]).check_inside(domain)
+
+
+def test_the_bounds_of_a_shape_far_away_have_enough_digits() -> None:
+    corners = np.array([[-10, -3], [10, -3], [10, 3], [-10, 3]]) + 1e6
+    with pytest.raises(PoseError, match="x from 999990 to 1000010 and y from 999997 to 1000003"):
+        Pose([[0, 8]], [[0, 0]]).check_inside(Domain.from_cage(Cage(corners)))
+
+
+def test_complex_handles() -> None:
+    pose = Pose([0j, 1 + 2j], np.array([0j, 3 - 1j]))
+    assert pose.handles.tolist() == [[0, 0], [1, 2]]
+    assert pose.targets.tolist() == [[0, 0], [3, -1]]
