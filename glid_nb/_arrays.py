@@ -41,7 +41,7 @@ def number_pairs(value: Any, wanted: str, error: type[Exception]) -> NDArray[np.
     try:
         if isinstance(value, list | tuple | np.ndarray) and np.iscomplexobj(value):
             z = np.asarray(value)
-            value = np.stack([z.real, z.imag], axis=-1) if z.ndim == 1 else value
+            value = np.stack([np.real(z), np.imag(z)], axis=-1) if z.ndim == 1 else value
         pairs = real_array(value)
     except (TypeError, ValueError) as problem:
         raise error(f"{wanted} ({problem})") from problem

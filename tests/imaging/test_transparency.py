@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import struct
+from typing import Any
 
 import numpy as np
 import pytest
@@ -245,9 +246,9 @@ class TestDecoded:
 
 def test_masked_pixels_are_transparent() -> None:
     grey = np.full((2, 3), 200, np.uint8)
-    image = read_image(np.ma.masked_array(grey, mask=[[1, 0, 0], [0, 0, 0]]))
+    image = read_image(np.ma.array(grey, mask=[[1, 0, 0], [0, 0, 0]]))
     assert image[..., 3].tolist() == [[0, 255, 255], [255, 255, 255]]
-    colours = np.ma.masked_array(np.full((2, 2, 3), 9, np.uint8), mask=np.zeros((2, 2, 3)))
+    colours: Any = np.ma.array(np.full((2, 2, 3), 9, np.uint8), mask=np.zeros((2, 2, 3)))
     colours[0, 1, 2] = np.ma.masked
     assert read_image(colours)[..., 3].tolist() == [[255, 0], [255, 255]]
 
