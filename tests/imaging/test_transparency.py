@@ -245,10 +245,11 @@ class TestDecoded:
 
 
 def test_masked_pixels_are_transparent() -> None:
+    masked_array: Any = np.ma.array  # its types know no masks
     grey = np.full((2, 3), 200, np.uint8)
-    image = read_image(np.ma.array(grey, mask=[[1, 0, 0], [0, 0, 0]]))
+    image = read_image(masked_array(grey, mask=[[1, 0, 0], [0, 0, 0]]))
     assert image[..., 3].tolist() == [[0, 255, 255], [255, 255, 255]]
-    colours: Any = np.ma.array(np.full((2, 2, 3), 9, np.uint8), mask=np.zeros((2, 2, 3)))
+    colours = masked_array(np.full((2, 2, 3), 9, np.uint8), mask=np.zeros((2, 2, 3)))
     colours[0, 1, 2] = np.ma.masked
     assert read_image(colours)[..., 3].tolist() == [[255, 0], [255, 255]]
 
