@@ -62,6 +62,8 @@ CHROMIUM_FLAGS = (
 
 # What pages say that is no fault of ours; everything else of the kind "error" fails a test.
 _HARMLESS = (
+    # A server without jupyter-lsp, which JupyterLab asks for.
+    re.compile(r"Failed to load resource.*404.*/lsp/status"),
     # JupyterLab draws a picture's address before it has resolved the attachment.
     re.compile(r"ERR_UNKNOWN_URL_SCHEME.*\(attachment:"),
     # JupyterLab asks for a workspace and settings that a fresh server does not have.

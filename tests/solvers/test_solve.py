@@ -25,6 +25,7 @@ from glid_nb.energies import (
 )
 from glid_nb.geometry import Cage, Domain
 from glid_nb.harmonic import HarmonicMap
+from glid_nb.minima import solve
 from glid_nb.pose import Pose, PoseError
 from glid_nb.solvers import (
     Iteration,
@@ -35,7 +36,6 @@ from glid_nb.solvers import (
     StartError,
     Status,
     newton,
-    solve,
 )
 
 from ..domains import domain
