@@ -214,8 +214,18 @@ class Host:
         for line in self._process.stderr:
             self._log.append(line)
             if self.url in line:
-                return
+                return self._wait_until_it_listens()
         raise RuntimeError(f"{shlex.join(words)} did not start:\n" + "".join(self._log))
+
+    def _wait_until_it_listens(self) -> None:
+        """Some servers name their address before they listen there."""
+        host, port = self.url.split("/")[2].split(":")
+        for _ in range(600):
+            with socket.socket() as tried:
+                if tried.connect_ex((host, int(port))) == 0:
+                    return
+            time.sleep(0.1)
+        raise RuntimeError(f"nothing listens at {self.url}")
 
     def _read(self) -> None:
         assert self._process.stderr is not None

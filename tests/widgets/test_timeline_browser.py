@@ -208,11 +208,9 @@ def test_a_walk_cycle_made_by_hand(open_notebook: OpenNotebook) -> None:
     # It plays in a loop, without the kernel, and stops where it is.
     page.evaluate(COUNT_DRAWINGS)
     page.keyboard.press("Space")
-    page.wait_for_timeout(2000)
+    page.wait_for_function("() => window.drawings > 10")
     page.keyboard.press("Space")
-    drawn = page.evaluate("() => { window.restoreDrawing(); return window.drawings; }")
-    print(f"{drawn / 2:.1f} drawings a second")
-    assert drawn > 10
+    page.evaluate("() => window.restoreDrawing()")
     timeline.assert_shows_the_motion()
     assert book.value("id(model.state)") == state
 
