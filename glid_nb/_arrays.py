@@ -40,7 +40,7 @@ def number_pairs(value: Any, wanted: str, error: type[Exception]) -> NDArray[np.
     raises an ``error`` whose message begins with ``wanted``."""
     try:
         if isinstance(value, list | tuple | np.ndarray) and np.iscomplexobj(value):
-            z = np.asarray(value)
+            z = np.ma.filled(value, np.nan)
             value = np.stack([np.real(z), np.imag(z)], axis=-1) if z.ndim == 1 else value
         pairs = real_array(value)
     except (TypeError, ValueError) as problem:

@@ -176,15 +176,7 @@ def _jax_state() -> dict[str, Any]:
         return {"error": " ".join(str(error).split())}
 
 
-def _exists(path: Path) -> bool:
-    try:
-        return path.exists()
-    except OSError:  # a folder above it is closed to this user
-        return False
-
-
 def _folder(path: Path, variable: str) -> dict[str, Any]:
-    existing = next((part for part in (path, *path.parents) if _exists(part)), path)
     count, size = 0, 0
     for root, _, names in os.walk(path):
         for name in names:
@@ -193,7 +185,8 @@ def _folder(path: Path, variable: str) -> dict[str, Any]:
             except OSError:  # removed meanwhile
                 continue
             count += 1
-    try:  # os.access() is not reliable everywhere
+    try:  # os.access() is not reliable everywhere; a folder closed to this user raises, too
+        existing = next(part for part in (path, *path.parents) if part.exists())
         with tempfile.TemporaryFile(dir=existing):
             writable = True
     except OSError:

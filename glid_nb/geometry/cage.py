@@ -154,7 +154,7 @@ def _rings_of(shape: Any, holes: Any) -> list[Any]:
     if isinstance(shape, Cage):
         raise GeometryError("it is a cage already; use it as it is, or give its exterior and holes")
     holes = () if holes is None else holes
-    holes = [holes] if hasattr(holes, "__geo_interface__") else holes
+    holes = holes if _geo_interface(holes) is None else [holes]
     if (geometry := _geo_interface(shape)) is not None:
         rings = _rings_of_geometry(geometry)
     elif _depth(shape) == 3:

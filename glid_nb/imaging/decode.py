@@ -39,7 +39,8 @@ _ORIENTED = {
 
 
 class ColorWarning(UserWarning):
-    """A file declares a colour space that cannot be used. Its colours are read as sRGB."""
+    """A picture's colours or transparency may be read wrongly: its colour space cannot be used, so
+    sRGB is taken, or Pillow has dropped what tells its transparent colour."""
 
 
 @functools.cache
@@ -88,15 +89,16 @@ def picture_pixels(picture: Image.Image, data: bytes | None, name: str) -> NDArr
         if raw.endswith(";16B"):
             return _wide_png(picture, data, raw)
         _correct_key(picture, raw)
-    elif data is None:
-        _doubt_key(picture, name)
     if isinstance(picture, TiffImageFile) and picture.mode != "CMYK":
         bits = max(picture.tag_v2.get(_BITS_PER_SAMPLE, (8,)))
         if data is not None and bits > 8:
             return _wide_tiff(picture, data, name)
-    picture = ImageOps.exif_transpose(picture)
+    picture = ImageOps.exif_transpose(picture)  # a copy
+    if data is None:
+        _doubt_key(picture, name)
     if picture.mode == "F" or picture.mode.startswith("I"):
-        return _with_key(np.asarray(picture), picture.info.get("transparency"))
+        grey, key = np.asarray(picture), picture.info.get("transparency")
+        return _keyed(grey[..., np.newaxis], key) if isinstance(key, int) else grey
     # Pillow drops the alpha of La, and makes LAB transparent.
     step = {"La": "LA", "LAB": "RGB", "HSV": "RGB"}.get(picture.mode)
     if step == "LA":
@@ -150,8 +152,7 @@ def _wide_png(picture: Image.Image, data: bytes, raw: str) -> NDArray[np.uint16]
     key = picture.info.get("transparency")
     if key is None or array.shape[2] not in (1, 3):
         return array
-    opaque = (array != np.array(key, np.uint16)).any(axis=2)
-    return np.dstack([array, opaque.astype(np.uint16) * np.uint16(65535)])
+    return _keyed(array, key)
 
 
 def _both_bytes(data: bytes, raw: str) -> NDArray[np.uint16]:
@@ -207,11 +208,10 @@ def _doubt_key(picture: Image.Image, name: str) -> None:
             warnings.warn(f"{name} {what}; {remedy}", ColorWarning, stacklevel=2)
 
 
-def _with_key(grey: NDArray[Any], key: Any) -> NDArray[Any]:
-    """Grey of 16 bit, with alpha if one grey is transparent."""
-    if not isinstance(key, int) or grey.dtype.kind not in "iu":
-        return grey
-    return np.dstack([grey, np.where(grey == key, 0, 65535)]).astype(np.uint16)
+def _keyed(array: NDArray[Any], key: int | tuple[int, ...]) -> NDArray[np.uint16]:
+    """(h, w, c) pixels of 16 bit with alpha: transparent where they have the colour ``key``."""
+    opaque = (array != np.array(key, np.uint16)).any(axis=2)
+    return np.dstack([array, opaque * np.uint16(65535)]).astype(np.uint16, copy=False)
 
 
 def _straight_grey(picture: Image.Image) -> NDArray[np.uint8]:

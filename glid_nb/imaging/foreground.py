@@ -117,16 +117,19 @@ def find_foreground(
         what = "the image has no foreground: it is fully transparent"
         raise TraceError(f"{what}; remove its alpha channel if its colours show the shape")
     notes: list[str] = []
-    if guesses := method == "auto":
-        method, why = _choose_method(image, background, background_at, scribbles)
+    most = full(image)
+    if method == "auto":
+        most = _usual_maximum(image[..., 3], most)
+        method, why = _choose_method(image, most, background, background_at, scribbles)
         notes.append(f"foreground by {why}")
     inverted, threshold, spread = bool(invert), 0.5, 0.0
     alpha = image[..., 3] * np.float32(1 / full(image))
     if method == "alpha":
         _check_alpha(alpha)
         # A few opaque specks are not the shape of a picture that is otherwise faint.
-        faint = _usual_maximum(image[..., 3]) / full(image)
-        score = np.minimum(alpha, np.float32(faint)) if guesses and faint <= 0.5 else alpha
+        score = (
+            alpha if most > full(image) / 2 else np.minimum(alpha, np.float32(most / full(image)))
+        )
     elif method == "scribbles":
         if scribbles is None:
             raise TraceError("the method 'scribbles' needs scribbles")
@@ -188,17 +191,19 @@ def _check_alpha(alpha: NDArray[np.float32]) -> None:
 
 
 def _choose_method(
-    image: RGBA, background: Color | None, background_at: Point | None, scribbles: Scribbles | None
+    image: RGBA,
+    most: int,
+    background: Color | None,
+    background_at: Point | None,
+    scribbles: Scribbles | None,
 ) -> tuple[ForegroundMethod, str]:
     if scribbles is not None:
         return "scribbles", "scribbles, which were given"
     if background is not None or background_at is not None:
         return "color", "colour distance, as a background colour was given"
     alpha = image[..., 3]
-    # In a faint drawing no pixel is half opaque.
-    most = _usual_maximum(alpha)
-    middle = (full(image) if most > full(image) / 2 else most) / 2
-    if _LEAST_SHARE < np.mean(alpha < middle) < 1 - _LEAST_SHARE:
+    # Half of what is usual: in a faint drawing hardly a pixel is half opaque.
+    if _LEAST_SHARE < np.mean(alpha < most / 2) < 1 - _LEAST_SHARE:
         return "alpha", "alpha, as part of the image is transparent"
     border = measure.border_color(image)
     if border is not None and border.is_uniform:
@@ -209,8 +214,11 @@ def _choose_method(
     )
 
 
-def _usual_maximum(alpha: NDArray[np.unsignedinteger]) -> int:
-    """The largest alpha, without specks: at least `_SPECKS` of the visible pixels reach it."""
+def _usual_maximum(alpha: NDArray[np.unsignedinteger], opaque: int) -> int:
+    """The largest alpha, without specks: at least `_SPECKS` of the visible pixels reach it. It is
+    ``opaque`` if that many reach more than half of that, as in nearly every picture."""
+    if np.count_nonzero(alpha > opaque / 2) >= _SPECKS * np.count_nonzero(alpha):
+        return opaque
     reached = np.bincount(alpha.ravel(), minlength=2)[::-1].cumsum()[::-1]
     return int(np.flatnonzero(reached[1:] >= _SPECKS * reached[1]).max()) + 1
 
