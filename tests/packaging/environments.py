@@ -23,8 +23,8 @@ class Built(NamedTuple):
 
 
 def run(*command: object, folder: Path, **variables: str) -> str:
-    """What a program prints, in a folder, without variables that lead Python to this checkout."""
-    hidden = {"PYTHONPATH", "PYTHONHOME", "VIRTUAL_ENV", "PYTEST_ADDOPTS"}
+    """What a program prints, in a folder, without variables that lead to files of this checkout."""
+    hidden = {"PYTHONPATH", "PYTHONHOME", "VIRTUAL_ENV", "PYTEST_ADDOPTS", "GLID_NB_CACHE"}
     kept = {name: value for name, value in os.environ.items() if name not in hidden}
     done = subprocess.run(
         [str(word) for word in command],
