@@ -95,63 +95,138 @@ def iterations(
     return lax.while_loop(goes_on, functools.partial(_step, problem, settings), start)
 
 
+class _Trial(NamedTuple):
+    """What one pass through lines 4 to 9 of Algorithm 1 finds."""
+
+    factor: Factor
+    projected: Bool[Array, ""]  # whether the Hessian was projected (21), (25)
+    decrement: Number
+    minimal: Bool[Array, ""]  # whether the step predicts no decrease worth taking
+    outcome: Int[Array, ""]  # RUNNING if a step was certified
+    step: Number
+    point: Point  # the one that the step leads to, else the one that was
+    sigma2_lower: Float[Array, " p"]
+    turning: Float[Array, " p"]
+    refused: Bool[Array, " p"]
+
+
 def _step(problem: SubspaceProblem, settings: Settings, state: State) -> State:
-    """One step of Algorithm 1: the first step of an iteration, or a correction."""
-    point, corrects = state.point, state.corrects
-    # The Hessian and its factor, projected where it is not positive definite.
-    factor, modified = _factorised(problem, settings, state)
+    """One step: the first one of an iteration of Algorithm 1, or a correction."""
+    trial = _tried(problem, settings, state)
+    first = _after_first_step(problem, settings, state, trial)
+    correction = _after_correction(problem, settings, state, trial)
+
+    def chosen(corrected: Array, iterated: Array) -> Array:
+        same = corrected is iterated
+        return iterated if same else jnp.where(state.corrects, corrected, iterated)
+
+    return jax.tree.map(chosen, correction, first)
+
+
+def _tried(problem: SubspaceProblem, settings: Settings, state: State) -> _Trial:
+    """The body of Algorithm 1's loop, with its line numbers."""
+    point = state.point  # line 3: its energy
+    factor, projected = _factorised(problem, settings, state)  # lines 5 and 6
     definite = jnp.isfinite(factor[-1, -1])
-    # The direction.
-    line = _newton_line(problem, point, factor)
-    decrement = jnp.sqrt(jnp.maximum(line.squared_decrement, 0))
-    # Stop on the decrement.
+    line = _newton_line(problem, point, factor)  # lines 4 and 7
+    # Lines 9 and 10, before the search: we stop on the decrement that the direction predicts.
     scale = jnp.maximum(jnp.abs(point.energy), LEAST_ENERGY)
     minimal = line.squared_decrement / 2 <= settings.tolerance * scale
-    # Line search and certificate; a correction does not try shorter steps.
-    found = line_search.search(problem, point, line)
+    found = line_search.search(problem, point, line)  # lines 14 to 17 and 21 to 23
     found = found._replace(acceptable=found.acceptable & definite & ~minimal)
-    once = settings.may_refine | corrects
-    outcome, step, there, panel, refused = line_search.backtrack(problem, point, line, found, once)
-    outcome = jnp.where(minimal, CONVERGED, outcome)
+    once = settings.may_refine | state.corrects  # a correction does not try shorter steps
+    searched = line_search.backtrack(problem, point, line, found, once)  # lines 18 to 20
+    outcome = jnp.where(minimal, CONVERGED, searched.outcome)
     outcome = jnp.where(definite, outcome, INDEFINITE)
-    # Step.
-    stepped = outcome == RUNNING
     there, sigma2_lower, turning = lax.cond(
-        stepped,
-        lambda: (there, panel.sigma2_lower, panel.turning),
+        outcome == RUNNING,
+        lambda: (searched.point, searched.panel.sigma2_lower, searched.panel.turning),
         lambda: (point, state.sigma2_lower, state.turning),
     )
-    i = state.iteration - corrects
-    known = Record(*state.records[i])
+    decrement = jnp.sqrt(jnp.maximum(line.squared_decrement, 0))
+    return _Trial(
+        factor=factor,
+        projected=projected,
+        decrement=decrement,
+        minimal=minimal,
+        outcome=outcome,
+        step=searched.step,
+        point=there,
+        sigma2_lower=sigma2_lower,
+        turning=turning,
+        refused=searched.refused,
+    )
+
+
+def _after_first_step(
+    problem: SubspaceProblem, settings: Settings, state: State, trial: _Trial
+) -> State:
+    """The state after the first step of an iteration. Corrections follow close to the minimum."""
+    there, stepped, i = trial.point, trial.outcome == RUNNING, state.iteration
+    gain = state.point.energy - there.energy
     record = Record(
         energy_iso=there.energy_iso,
         energy_p2p=there.energy_p2p,
-        step=jnp.where(corrects, known.step, step),
-        decrement=jnp.where(corrects, known.decrement, decrement),
-        sigma2_lower=jnp.min(jnp.where(problem.matrices.real, sigma2_lower, jnp.inf)),
-        hessian_modified=jnp.where(corrects, known.hessian_modified, modified),
-        corrections=jnp.where(corrects, known.corrections + 1, 0),
+        step=trial.step,
+        decrement=trial.decrement,
+        sigma2_lower=_least(problem, trial.sigma2_lower),
+        hessian_modified=trial.projected,
+        corrections=0,
     )
-    record = jnp.where(stepped, jnp.stack(record), state.records[i])
-    # A correction that fails ends the iteration only. The solve ends if a later correction predicts
-    # no decrease.
-    ends = corrects & minimal & (known.corrections > 0)
-    outcome = jnp.where(corrects, jnp.where(ends, CONVERGED, RUNNING), outcome)
-    gain = point.energy - there.energy
-    pays = gain < jnp.where(corrects, _CONTRACTION * state.gain, _CLOSE * there.energy)
-    return state._replace(
+    return State(
         point=there,
-        iteration=i + (stepped | corrects),
-        outcome=outcome,
-        decrement=jnp.where(corrects & ~ends, state.decrement, decrement),
-        records=state.records.at[i].set(record),
-        refused=jnp.where(corrects, state.refused, refused),
-        sigma2_lower=sigma2_lower,
-        turning=turning,
-        factor=factor,
-        corrects=stepped & pays & (record[-1] < settings.corrections),
+        start_iso=state.start_iso,
+        start_p2p=state.start_p2p,
+        iteration=i + stepped,
+        outcome=trial.outcome,
+        decrement=trial.decrement,
+        records=_written(state.records, i, record, stepped),
+        refused=trial.refused,
+        sigma2_lower=trial.sigma2_lower,
+        turning=trial.turning,
+        factor=trial.factor,
+        corrects=stepped & (gain < _CLOSE * there.energy) & (settings.corrections > 0),
         gain=gain,
     )
+
+
+def _after_correction(
+    problem: SubspaceProblem, settings: Settings, state: State, trial: _Trial
+) -> State:
+    """The state after a correction. One that fails ends its iteration only; one behind others that
+    predicts no decrease ends the solve."""
+    there, stepped, i = trial.point, trial.outcome == RUNNING, state.iteration - 1
+    gain = state.point.energy - there.energy
+    known = Record(*state.records[i])
+    ends = trial.minimal & (known.corrections > 0)
+    record = known._replace(
+        energy_iso=there.energy_iso,
+        energy_p2p=there.energy_p2p,
+        sigma2_lower=_least(problem, trial.sigma2_lower),
+        corrections=known.corrections + 1,
+    )
+    more = (gain < _CONTRACTION * state.gain) & (record.corrections < settings.corrections)
+    return state._replace(
+        point=there,
+        outcome=jnp.where(ends, CONVERGED, RUNNING),
+        decrement=jnp.where(ends, trial.decrement, state.decrement),
+        records=_written(state.records, i, record, stepped),
+        sigma2_lower=trial.sigma2_lower,
+        turning=trial.turning,
+        factor=trial.factor,
+        corrects=stepped & more,
+        gain=gain,
+    )
+
+
+def _least(problem: SubspaceProblem, sigma2_lower: Float[Array, " p"]) -> Number:
+    """The least bound on the real panels."""
+    return jnp.min(jnp.where(problem.matrices.real, sigma2_lower, jnp.inf))
+
+
+def _written(records: Array, i: Array, record: Record, stepped: Array) -> Array:
+    """The records with row ``i`` replaced if there was a step."""
+    return records.at[i].set(jnp.where(stepped, jnp.stack(record), records[i]))
 
 
 def _factorised(problem: SubspaceProblem, settings: Settings, state: State) -> tuple[Factor, Array]:
