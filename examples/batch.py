@@ -9,7 +9,7 @@ pose = glid.load_pose(glid.samples.pose_path("bar", "gentle"))
 
 shares = np.linspace(0, 1, 16)[:, None, None]
 targets = pose.handles + shares * (pose.targets - pose.handles)  # (16, h, 2)
-results = glid.solve_batch(domain, pose.handles, targets)
+results = glid.solve_batch(domain, [pose.with_targets(one) for one in targets])
 
 for share, result in zip(shares.ravel(), results, strict=True):
     bound = result.certificate.sigma2_lower

@@ -30,7 +30,7 @@ def work(what):
         if what == "solve":
             return glid.solve(domain, pose, options=glid.Options(restarts=0)).status.value
         if what == "batch":
-            return len(glid.solve_batch(domain, pose.handles, [pose.targets]))
+            return len(glid.solve_batch(domain, [pose]))
         if what == "bdhm":
             return glid.solve(domain, pose, "arap", method=glid.methods.BDHM()).status.value
         map = glid.HarmonicMap.identity(domain)

@@ -12,7 +12,6 @@ from queue import SimpleQueue
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from glid_nb._arguments import check_type
 from glid_nb._errors import about
@@ -22,7 +21,7 @@ from glid_nb._runtime import double_precision, single_blas_thread
 from glid_nb.energies import Energy, as_energy
 from glid_nb.geometry import Domain
 from glid_nb.minima import search
-from glid_nb.pose import Pose, PoseError, Stiffness
+from glid_nb.pose import Pose, PoseError
 from glid_nb.solvers import step
 from glid_nb.solvers.discretisation import discretise
 from glid_nb.solvers.line_search import RUNNING
@@ -43,70 +42,78 @@ _MOST_BYTES, _COPIES = 1 << 29, 6
 @double_precision
 def solve_batch(
     domain: Domain,
-    handles: ArrayLike,
-    targets: ArrayLike,
+    poses: Iterable[Pose],
     energy: Energy | str | None = None,
     options: Options | None = None,
+    *,
     devices: Sequence[Any] | None = None,
-    depths: ArrayLike | None = None,
-    angles: ArrayLike | None = None,
-    scales: ArrayLike | None = None,
-    weights: ArrayLike | None = None,
-    stiffness: Any = None,
 ) -> tuple[Result, ...]:
     """Deform one shape into many poses.
 
-    Equals calling :func:`glid_nb.solve` for each row of targets, up to rounding. It is faster with
-    several devices or with one wide device. The results are in the order of the targets, and each
-    has its own proof.
+    Equals calling :func:`glid_nb.solve` for each pose, up to rounding. It is faster with several
+    devices or with one wide device. The results are in the order of the poses, and each has its own
+    proof.
 
-    ``handles`` are (h, 2) points of the domain. ``targets`` (B, h, 2) are their desired images in
-    each of B poses. Depths, angles, scales and weights, (h,), and the stiffness hold for every
-    pose, as in :class:`glid_nb.Pose`. Energy and options are as in :func:`glid_nb.solve`. The
-    default devices are all local ones. On several hosts under ``jax.distributed``, each call uses
-    the devices of its own host, so give every host its share of the poses.
+    ``[pose.with_targets(one) for one in targets]`` makes the poses from targets (B, h, 2). Energy
+    and options are as in :func:`glid_nb.solve`. The default devices are all local ones. On several
+    hosts under ``jax.distributed``, each call uses the devices of its own host, so give every host
+    its share of the poses.
 
-    Raises a TypeError when the domain or the options have the wrong type, or when the devices are
-    not one or more different devices of one platform. Raises a PoseError when a handle lies outside
-    the domain, or when the targets have another shape.
+    Raises a TypeError when the domain, a pose or the options have the wrong type, or when the
+    devices are not one or more different devices of one platform. Raises a PoseError when a handle
+    lies outside the domain.
     """
     check_type("domain", domain, Domain, "make one with Domain.from_cage(cage)")
     check_type("options", options, Options | None, "write Options(p2p_weight=...)")
     energy, options = as_energy(energy), Options() if options is None else options
-    more: dict[str, Any] = {"depths": depths, "angles": angles, "scales": scales}
-    more |= {"weights": weights, "stiffness": Stiffness.of(stiffness)}
-    poses = _poses(handles, targets, more)
-    if not poses:
+    checked = _checked_poses(domain, poses)
+    if not checked:
         return ()
-    poses[0].check_inside(domain)
     devices = _checked_devices(jax.local_devices() if devices is None else devices)
-    given = [Inputs(domain=domain, pose=pose, energy=energy, options=options) for pose in poses]
+    given = [Inputs(domain=domain, pose=pose, energy=energy, options=options) for pose in checked]
     # A CPU gains nothing from lockstep, because every pose then executes every branch. Also, the
     # thread pool of XLA 0.10 sometimes lost tasks of such programs and waited for them forever.
-    # With wanted angles or scales, the poses do not share the rows of the positional energy.
-    alone = devices[0].platform == "cpu" or poses[0].turned.any()
-    count, free = len(devices), SimpleQueue[Any]()
-    groups = [[inputs] for inputs in given] if alone else [given[i::count] for i in range(count)]
+    alone = devices[0].platform == "cpu"
+    groups = [[i] for i in range(len(given))] if alone else lockstep_groups(checked, len(devices))
+    free = SimpleQueue[Any]()
     for device in devices:
         free.put(device)
 
-    def solved(group: list[Inputs]) -> list[Result]:
-        device = free.get()
+    def solved(group: list[int]) -> list[Result]:
+        device, members = free.get(), [given[i] for i in group]
         try:
             with jax.default_device(device):
-                if not alone:
-                    return _in_lockstep(group)
-                return [replace(search.run(Newton(), inputs), factor=None) for inputs in group]
+                if len(members) > 1:
+                    return _in_lockstep(members)
+                return [replace(search.run(Newton(), one), factor=None) for one in members]
         finally:
             free.put(device)
 
     discretise(domain, options.sampling, options.certificate)  # once for all threads
-    pool = ThreadPoolExecutor(count)
+    pool = ThreadPoolExecutor(len(devices))
     try:
-        by_group = list(pool.map(solved, groups))
+        by_group = zip(groups, pool.map(solved, groups), strict=True)
+        found = {i: one for group, made in by_group for i, one in zip(group, made, strict=True)}
     finally:
         pool.shutdown(cancel_futures=True)
-    return tuple(by_group[i % len(groups)][i // len(groups)] for i in range(len(given)))
+    return tuple(found[i] for i in range(len(given)))
+
+
+def lockstep_groups(poses: Sequence[Pose], shares: int) -> list[list[int]]:
+    """Indices of poses that may run in lockstep, each group in so many shares.
+
+    These poses differ in targets only, so they share the rows of the positional energy. A pose with
+    wanted angles or scales shares no rows and stays alone.
+    """
+    groups: list[list[int]] = []
+    for i, pose in enumerate(poses):
+        known = (group for group in groups if poses[group[0]].pins_alike(pose))
+        group = None if pose.turned.any() else next(known, None)
+        if group is None:
+            groups.append([i])
+        else:
+            group.append(i)
+    return [group[k::shares] for group in groups for k in range(min(shares, len(group)))]
 
 
 @double_precision
@@ -126,18 +133,14 @@ def _checked_devices(devices: Any) -> tuple[Any, ...]:
     return given
 
 
-def _poses(handles: ArrayLike, targets: ArrayLike, more: dict[str, Any]) -> list[Pose]:
-    try:
-        rows = np.asarray(targets)
-    except ValueError as error:
-        raise PoseError(f"targets are no array of (poses, handles, 2): {error}") from error
-    if rows.ndim != 3 and rows.size:
-        raise PoseError(f"targets have shape {rows.shape}; expected (poses, handles, 2)")
-    poses = []
-    for i, row in enumerate(rows):
+def _checked_poses(domain: Domain, poses: Any) -> list[Pose]:
+    check_type("poses", poses, Iterable, "give a list of glid_nb.Pose")
+    checked = list(poses)
+    for i, pose in enumerate(checked):
+        check_type(f"poses[{i}]", pose, Pose, "give a list of glid_nb.Pose(handles, targets)")
         with about(f"pose {i}", PoseError):
-            poses.append(Pose(handles, row, **more))
-    return poses
+            pose.check_inside(domain)
+    return checked
 
 
 class _Pose(NewtonDescent):

@@ -37,7 +37,7 @@ def measure(case: Case, plan: Plan) -> Measurement:
             solve(domain, Pose(pose.handles, targets), None, OPTIONS)
 
     def together(count: int) -> None:
-        solve_batch(domain, pose.handles, poses[:count], options=OPTIONS)
+        solve_batch(domain, [pose.with_targets(t) for t in poses[:count]], options=OPTIONS)
 
     alone = min(max(sizes), 64)
     rates = {"one by one": alone / timed(lambda: one_by_one(alone), repeats)["median"]}

@@ -53,7 +53,7 @@ def together(case: Case, count: int) -> dict[str, Any]:
     domain, handles = case.problem.domain, case.problem.pose.handles
     goals = poses_of(case, count)
     began = time.perf_counter()
-    results = solve_batch(domain, handles, goals, options=OPTIONS)
+    results = solve_batch(domain, [Pose(handles, goal) for goal in goals], options=OPTIONS)
     seconds = time.perf_counter() - began
     return {
         "kind": "batch",

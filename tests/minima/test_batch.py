@@ -7,7 +7,7 @@ import os
 import socket
 import subprocess
 import sys
-from collections.abc import Callable
+from typing import Any
 
 import jax
 import numpy as np
@@ -37,7 +37,7 @@ def targets(count: int) -> np.ndarray:
 def test_a_batch_is_the_poses_one_by_one() -> None:
     goals = targets(5)
     depths = np.arange(len(HANDLES))
-    results = solve_batch(domain("ell"), HANDLES, goals, depths=depths)
+    results = solve_batch(domain("ell"), [Pose(HANDLES, goal, depths) for goal in goals])
     assert len(results) == 5
     for goal, result in zip(goals, results, strict=True):
         alone = solve(domain("ell"), Pose(HANDLES, goal))
@@ -67,57 +67,74 @@ def test_poses_in_lockstep_are_the_poses_one_by_one() -> None:
         np.testing.assert_array_equal(result.pose.targets, goal)
 
 
+@pytest.mark.slow
+def test_poses_of_a_batch_may_have_different_handles() -> None:
+    ell, goals = domain("ell"), targets(2)
+    poses = [
+        Pose(HANDLES, goals[0]),
+        Pose(HANDLES[:2], goals[1, :2]),
+        Pose(HANDLES, HANDLES, angles=[0.1, None, None]),
+        Pose(HANDLES, goals[1]),
+    ]
+    assert batch.lockstep_groups(poses, 1) == [[0, 3], [1], [2]]
+    assert batch.lockstep_groups([poses[0]] * 5, 2) == [[0, 2, 4], [1, 3]]
+    for pose, result in zip(poses, solve_batch(ell, poses), strict=True):
+        check_certified(result)
+        assert result.pose is pose
+        assert result.energy == pytest.approx(solve(ell, pose).energy, rel=1e-6)
+
+
 def test_an_empty_batch() -> None:
-    for none in (np.zeros((0, 3, 2)), []):
-        assert solve_batch(domain("ell"), HANDLES, none) == ()
+    assert solve_batch(domain("ell"), []) == ()
 
 
-def test_ragged_targets_are_refused() -> None:
-    with pytest.raises(PoseError, match=r"targets are no array of \(poses, handles, 2\)"):
-        solve_batch(domain("ell"), HANDLES, [[[0, 0]], [[0, 0], [1, 1]]])
+@pytest.mark.parametrize(
+    ("poses", "message"),
+    [
+        (Pose(HANDLES, HANDLES), "poses must be Iterable, not Pose; give a list of glid_nb.Pose"),
+        ([HANDLES], r"poses\[0\] must be Pose, not ndarray"),
+        (3, "poses must be Iterable, not int"),
+    ],
+)
+def test_what_is_no_list_of_poses_is_refused(poses: Any, message: str) -> None:
+    with pytest.raises(TypeError, match=message):
+        solve_batch(domain("ell"), poses)
+
+
+def test_a_pose_outside_is_named() -> None:
+    poses = [Pose(HANDLES, HANDLES), Pose([[50, 0]], [[0, 0]])]
+    with pytest.raises(PoseError, match=r"pose 1: handle 0 at .* lies outside the domain"):
+        solve_batch(domain("ell"), poses)
 
 
 def test_devices_are_different_jax_devices() -> None:
     one = jax.local_devices()[0]
     for devices in ([], ["cpu"], "cpu", [one, one], one, 1):
         with pytest.raises(TypeError, match=r"devices must be one or more of .* each of them once"):
-            solve_batch(domain("ell"), HANDLES, targets(1), devices=devices)
+            solve_batch(domain("ell"), [Pose(HANDLES, HANDLES)], devices=devices)
 
 
 @pytest.mark.slow
 def test_the_iteration_limit_holds_for_each_pose() -> None:
     options = Options(max_iterations=2, corrections=0)
-    results = solve_batch(domain("ell"), HANDLES, targets(3), options=options)
+    poses = [Pose(HANDLES, goal) for goal in targets(3)]
+    results = solve_batch(domain("ell"), poses, options=options)
     assert all(r.status is Status.MAX_ITERATIONS and r.iterations == 2 for r in results)
-
-
-@pytest.mark.parametrize(
-    ("change", "message"),
-    [
-        (lambda t: t[0], r"targets have shape \(3, 2\)"),
-        (lambda t: t[:, :2], "pose 0: there are 3 handles but 2 targets"),
-        (lambda t: np.where(np.arange(2)[:, None, None] == 1, np.nan, t), r"pose 1: targets\[0\]"),
-    ],
-)
-def test_bad_targets_are_refused(change: Callable[[np.ndarray], np.ndarray], message: str) -> None:
-    with pytest.raises(PoseError, match=message):
-        solve_batch(domain("ell"), HANDLES, change(targets(2)))
 
 
 _ON_TWO_DEVICES = """
 import json, sys
 import numpy as np
 import jax
-from glid_nb import Cage, Domain, Options, enable_compilation_cache, solve_batch
+from glid_nb import Cage, Domain, Options, Pose, enable_compilation_cache, solve_batch
 enable_compilation_cache()
 data = json.load(sys.stdin)
 assert len(jax.local_devices()) == 2
 shape = Domain.from_cage(Cage(data["cage"]))
 options = Options(restarts=0)
-both = solve_batch(shape, data["handles"], data["targets"], options=options)
-one = solve_batch(
-    shape, data["handles"], data["targets"], options=options, devices=jax.local_devices()[:1]
-)
+poses = [Pose(data["handles"], targets) for targets in data["targets"]]
+both = solve_batch(shape, poses, options=options)
+one = solve_batch(shape, poses, options=options, devices=jax.local_devices()[:1])
 print(json.dumps([[[r.energy for r in some], [r.certificate.certified for r in some]]
                   for some in (both, one)]))
 """
@@ -156,7 +173,8 @@ glid.enable_compilation_cache()
 shape = glid.Domain.from_cage(glid.Cage(given["exterior"], given["holes"]))
 share = given["targets"][jax.process_index()::jax.process_count()]
 options = glid.Options(restarts=0)
-results = glid.solve_batch(shape, given["handles"], share, options=options)
+poses = [glid.Pose(given["handles"], targets) for targets in share]
+results = glid.solve_batch(shape, poses, options=options)
 print(json.dumps([
     jax.process_count(),
     len(jax.devices()) - len(jax.local_devices()),

@@ -78,7 +78,7 @@ def test_every_result_knows_its_misses() -> None:
     met = solve(box(), square)
     assert met.message == Status.CONVERGED.message
     assert met.misses.max() < 1e-3
-    (result,) = solve_batch(box(), SQUARE, [square.targets], options=light)
+    (result,) = solve_batch(box(), [square], options=light)
     assert "units from its target." in result.message
     exact = solve(box(), square, method=MovingLeastSquares(n_vertices=200))
     assert exact.misses.max() < 1e-12

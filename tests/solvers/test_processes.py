@@ -52,7 +52,7 @@ def made(kind: str) -> Any:
     if kind == "newton":
         return solve(bar(), POSE)
     if kind == "batch":
-        return solve_batch(bar(), POSE.handles, [POSE.targets, OTHER.targets])[1]
+        return solve_batch(bar(), [POSE, OTHER])[1]
     if kind == "refined":
         return refine(made("newton"))
     if kind == "stiff":

@@ -69,8 +69,7 @@ def test_the_proof_of_a_step_is_what_the_compiled_call_has_proved() -> None:
 
 
 def test_a_batch_carries_proofs() -> None:
-    targets = np.stack([POSE.targets, POSE.handles])
-    for result in solve_batch(domain("ring"), POSE.handles, targets):
+    for result in solve_batch(domain("ring"), [POSE, POSE.with_targets(POSE.handles)]):
         check_carries(result)
 
 

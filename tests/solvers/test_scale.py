@@ -99,7 +99,7 @@ def test_a_batch_deforms_alike_at_every_scale() -> None:
     ways = []
     for scale in (1e-5, 1.0):
         domain, pose = posed(scale, 0.0)
-        results = solve_batch(domain, pose.handles, [pose.targets, pose.handles])
+        results = solve_batch(domain, [pose, pose.with_targets(pose.handles)])
         ways.append([seen(result, scale, 0.0) for result in results])
     np.testing.assert_allclose(*ways, rtol=0, atol=1e-9)
 

@@ -184,10 +184,7 @@ def test_a_stiff_head_keeps_its_shape(name: str) -> None:
     np.testing.assert_allclose(stiff.map(HANDLES[name]), stiff.pose.targets, atol=1e-3)
     if name == "ell":  # painting more compiles nothing, a batch does the same
         assert compiled_by_more_paint() == 0
-        (other,) = solve_batch(
-            domain(name), HANDLES[name], stiff.pose.targets[None], None, OPTIONS,
-            stiffness=head(name),
-        )  # fmt: skip
+        (other,) = solve_batch(domain(name), [posed(name, head(name))], options=OPTIONS)
         assert other.energy == pytest.approx(stiff.energy, rel=1e-9)
 
 
