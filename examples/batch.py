@@ -5,7 +5,7 @@ import numpy as np
 import glid_nb as glid
 
 domain = glid.Domain.from_cage(glid.trace(glid.samples.image("bar")).cage)
-pose = glid.load_pose(glid.samples.pose_path("bar", "gentle"))
+pose = glid.io.load_pose(glid.samples.pose_path("bar", "gentle"))
 
 shares = np.linspace(0, 1, 16)[:, None, None]
 targets = pose.handles + shares * (pose.targets - pose.handles)  # (16, h, 2)

@@ -9,7 +9,7 @@ import sys
 import glid_nb as glid
 
 domain = glid.Domain.from_cage(glid.trace(glid.samples.image("bar")).cage)
-pose = glid.load_pose(glid.samples.pose_path("bar", "extreme"))
+pose = glid.io.load_pose(glid.samples.pose_path("bar", "extreme"))
 result = glid.solve(domain, pose)
 
 result.map.save("map.json")

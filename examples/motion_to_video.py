@@ -11,7 +11,7 @@ import glid_nb as glid
 
 image = glid.samples.image("bar")
 domain = glid.Domain.from_cage(glid.trace(image).cage)
-pose = glid.load_pose(glid.samples.pose_path("bar", "gentle"))
+pose = glid.io.load_pose(glid.samples.pose_path("bar", "gentle"))
 keyframes = [glid.HarmonicMap.identity(domain), glid.solve(domain, pose).map]
 
 motion = glid.Motion(keyframes, times=[0, 1.5], repeat="ping-pong")

@@ -11,9 +11,9 @@ def shape_and_area(x, y):
     return (x + y) / area + 4 * (area + 1 / area)
 
 
-energy = glid.CustomEnergy(shape_and_area)
+energy = glid.energies.CustomEnergy(shape_and_area)
 domain = glid.Domain.from_cage(glid.trace(glid.samples.image("bar")).cage)
-pose = glid.load_pose(glid.samples.pose_path("bar", "gentle"))
+pose = glid.io.load_pose(glid.samples.pose_path("bar", "gentle"))
 maps = [glid.solve(domain, pose).map, glid.solve(domain, pose, energy).map]
 
 figure = glid.figures.distortion(maps, titles=["symmetric Dirichlet", "shape and area"])

@@ -18,9 +18,9 @@ from glid_nb import methods
 from glid_nb.methods import Method
 
 
-def hand_above_head() -> glid.Document:
+def hand_above_head() -> glid.io.Document:
     """The gingerbread man of chapter 03: closed formulas fold his arm and head."""
-    start = glid.load_pose(glid.samples.pose_path("gingerbread", "gentle"))
+    start = glid.io.load_pose(glid.samples.pose_path("gingerbread", "gentle"))
     targets = start.handles.copy()
     targets[4] = 0.0, 7.5
     compared = {
@@ -32,7 +32,7 @@ def hand_above_head() -> glid.Document:
     return session("gingerbread", glid.Pose(start.handles, targets), compared)
 
 
-def ends_turned() -> glid.Document:
+def ends_turned() -> glid.io.Document:
     """The bar of chapter 07 from rest: Newton's method with the plain Hessian halts on the way."""
     z = np.array([-6.2 - 1j, -6.2 + 1j, 6.2 - 1j, 6.2 + 1j])
     centre = np.array([-3, -3, 3, 3])
@@ -45,9 +45,9 @@ def ends_turned() -> glid.Document:
     return session("bar", pose, compared, glid.Options(align=False, restarts=0))
 
 
-def limbs_crossed() -> glid.Document:
+def limbs_crossed() -> glid.io.Document:
     """The gecko's outer limbs to the other side: several minima, and folds without a proof."""
-    pose = glid.load_pose(glid.samples.pose_path("gecko", "extreme"))
+    pose = glid.io.load_pose(glid.samples.pose_path("gecko", "extreme"))
     middle = pose.handles.mean(axis=0)
     far = np.argsort(np.linalg.norm(pose.handles - middle, axis=1))[-2:]
     targets = pose.handles.copy()
@@ -68,16 +68,16 @@ def session(
     pose: glid.Pose,
     compared: Mapping[str, Method],
     options: glid.Options | None = None,
-) -> glid.Document:
+) -> glid.io.Document:
     """A document with the pose once for each method; the editor solves a pose when it is shown."""
     image, how = glid.samples.image(sample), options or glid.Options()
     domain = glid.Domain.from_cage(glid.trace(image).cage)
-    rest, energy = glid.HarmonicMap.identity(domain), glid.SymmetricDirichlet()
+    rest, energy = glid.HarmonicMap.identity(domain), glid.energies.SymmetricDirichlet()
     poses = [
-        glid.NamedPose(name, pose, energy, how, rest, method, solution=None)
+        glid.io.NamedPose(name, pose, energy, how, rest, method, solution=None)
         for name, method in compared.items()
     ]
-    return glid.Document(image, domain.cage, domain, glid.TraceOptions(), None, tuple(poses), 0)
+    return glid.io.Document(image, domain.cage, domain, glid.TraceOptions(), None, tuple(poses), 0)
 
 
 def main() -> None:
@@ -87,7 +87,7 @@ def main() -> None:
     folder.mkdir(parents=True, exist_ok=True)
     for name, made in SESSIONS.items():
         path = folder / f"{name}.glid"
-        glid.save_document(made(), path)
+        glid.io.save_document(made(), path)
         print("wrote", path)
 
 

@@ -128,7 +128,8 @@ def pictured(
 def posed(book: LabNotebook, sample: str, pad: int = 0) -> Hand:
     """A hand on the canvas, with a bundled pose's handles where they belong."""
     path = glid_nb.samples.pose_path(sample, "extreme")
-    book.value("None", f"pose = glid.load_pose({str(path)!r})\nmodel.set_pose(pose)\ncanvas.fit()")
+    load = f"pose = glid.io.load_pose({str(path)!r})"
+    book.value("None", f"{load}\nmodel.set_pose(pose)\ncanvas.fit()")
     book.value("None", "model.set_pose(pose.with_targets(pose.handles))")
     return Hand(book, pad)
 

@@ -29,7 +29,7 @@ def walk() -> tuple[glid_nb.Motion, list[glid_nb.Pose]]:
     """Five poses of a step that is repeated, and the motion through them."""
     image = glid_nb.samples.image(SAMPLE)
     domain = glid_nb.Domain.from_cage(glid_nb.trace(image).cage)
-    rest = glid_nb.load_pose(glid_nb.samples.pose_path(SAMPLE, "gentle"))
+    rest = glid_nb.io.load_pose(glid_nb.samples.pose_path(SAMPLE, "gentle"))
     results = []
     for phase in np.arange(5) / 5:
         targets = rest.handles.copy()

@@ -19,11 +19,11 @@ import jax.numpy as jnp
 import numpy as np
 import pytest
 
-from glid_nb import CustomEnergy, HarmonicMap, Options, Pose, methods, solve
+from glid_nb import HarmonicMap, Options, Pose, methods, solve
 from glid_nb._jax import CompiledOnUse
 from glid_nb._programs import Program, can_keep_for
 from glid_nb._runtime import double_precision
-from glid_nb.energies import ENERGIES, as_energy
+from glid_nb.energies import ENERGIES, CustomEnergy, as_energy
 from glid_nb.methods.subspace import descent
 from glid_nb.minima import batch
 from glid_nb.solvers import cholesky, newton, step, subspace

@@ -180,7 +180,7 @@ def test_a_name_that_no_file_can_have(name: str) -> None:
     told = r"\.json' has a character that no file's name can have$"
     with pytest.raises(InputError, match=told):
         write_atomically(name, "")
-    for read in (glid_nb.HarmonicMap.load, glid_nb.load_pose, glid_nb.load_document):
+    for read in (glid_nb.HarmonicMap.load, glid_nb.io.load_pose, glid_nb.io.load_document):
         with pytest.raises(InputError, match=told):
             read(name)
 
@@ -189,6 +189,6 @@ def test_a_name_that_is_too_long() -> None:
     name = 300 * "x"
     with pytest.raises(OSError, match="x cannot be written: File name too long"):
         write_atomically(name, "")
-    for read in (glid_nb.HarmonicMap.load, glid_nb.load_pose, glid_nb.load_document):
+    for read in (glid_nb.HarmonicMap.load, glid_nb.io.load_pose, glid_nb.io.load_document):
         with pytest.raises(OSError, match="x cannot be read: File name too long"):
             read(name)

@@ -34,7 +34,7 @@ editor.close()
 @pytest.mark.slow
 @pytest.mark.parametrize("imported", ["before", "after"])
 def test_an_energy_goes_through_a_users_own_compiled_function(imported: str) -> None:
-    lines = ["import jax", "import glid_nb; Energy = glid_nb.AMIPS"]
+    lines = ["import jax", "import glid_nb; Energy = glid_nb.energies.AMIPS"]
     source = "\n".join(lines if imported == "before" else reversed(lines))
     source += "\nprint(jax.jit(lambda e: e.s + 1)(Energy(s=2.0)))"
     assert run_python(source) == ["3.0"]
@@ -59,7 +59,8 @@ print(done)
 def test_what_waits_does_not_wait_for_a_thread_that_imports_jax() -> None:
     source = """
 import importlib.abc, sys, threading
-from glid_nb import AMIPS, _jax
+from glid_nb import _jax
+from glid_nb.energies import AMIPS
 within, may_go_on, done = threading.Event(), threading.Event(), []
 class Slow(importlib.abc.MetaPathFinder):
     def find_spec(self, name, path, target=None):

@@ -24,7 +24,7 @@ LAYERS = (
     ("figures", "page"),
     ("samples", "export"),
     ("session",),
-    ("widgets",),
+    ("widgets", "io"),
     ("cli", "course"),
     ("__main__",),
 )

@@ -28,7 +28,7 @@ CALLS: list[tuple[str, Callable[[Any], Any]]] = [
     ("cage must be", lambda value: glid.Domain.from_cage(value)),
     ("cage must be", lambda value: glid.Domain(value, SQUARE)),
     ("offset_cage must be", lambda value: glid.Domain(SQUARE, value)),
-    ("result must be", lambda value: glid.build_report(value)),
+    ("result must be", lambda value: glid.io.build_report(value)),
     ("domain must be", lambda value: glid.suggest_pose(value)),
     ("result must be", lambda value: glid.refine(value)),
     ("map must be", lambda value: glid.certify(identity()).belongs_to(value)),
@@ -52,4 +52,4 @@ def test_points_are_pairs(points: Any) -> None:
 def test_integers_beyond_floating_point() -> None:
     square = [[10**400, 0], [4, 0], [4, 2], [0, 2]]
     with pytest.raises(glid.InputError, match=r"cage\[0\] must be finite"):
-        glid.Problem.from_dict({"cage": square, "handles": [[1, 1]], "targets": [[1, 1]]})
+        glid.io.Problem.from_dict({"cage": square, "handles": [[1, 1]], "targets": [[1, 1]]})

@@ -16,7 +16,7 @@ MADE_BY_THE_PACKAGE = {
     f"glid_nb.{name}"
     for name in [
         "Certificate",
-        "GlobalInjectivity",
+        "certificate.GlobalInjectivity",
         "Iteration",
         "Progress",
         "Result",

@@ -61,7 +61,7 @@ def run(chosen: argparse.Namespace) -> None:
 
 def _read(chosen: argparse.Namespace) -> tuple[Any, glid_nb.Motion, list[glid_nb.Pose] | None]:
     if chosen.source.suffix.lower() != ".json":
-        document = glid_nb.load_document(chosen.source)
+        document = glid_nb.io.load_document(chosen.source)
         if (count := len(document.poses)) < 2:
             raise InputFileError(f"{chosen.source} holds {count} poses; a motion needs at least 2")
         if chosen.picture is not None:

@@ -105,7 +105,7 @@ def _pose(
         return glid_nb.suggest_pose(domain), "chosen automatically (give your own with --pose)"
     else:
         path, origin = Path(wanted), wanted
-    pose = glid_nb.load_pose(path)
+    pose = glid_nb.io.load_pose(path)
     with about(path):
         pose.check_inside(domain)
     return pose, origin

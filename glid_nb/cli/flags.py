@@ -60,10 +60,10 @@ def _add_flags(group: Any, settings: Any) -> None:
         group.add_argument(flag, dest=field.name, help=text, **argument)
 
 
-def energy_of(chosen: argparse.Namespace) -> glid_nb.Energy:
+def energy_of(chosen: argparse.Namespace) -> glid_nb.energies.Energy:
     """The chosen energy. Raises an InputError for an unknown name, or for --s with an energy that
     has no s."""
-    energy = glid_nb.energy_by_name(chosen.energy, chosen.s)
+    energy = glid_nb.energies.by_name(chosen.energy, chosen.s)
     if chosen.s is not None and not hasattr(energy, "s"):
         raise glid_nb.InputError(f"--s is the parameter of {_WITH_S}; {energy.name} has none")
     return energy

@@ -126,7 +126,7 @@ def step(doing: str) -> Iterator[Callable[[str], None]]:
 def run_solver(
     domain: glid_nb.Domain,
     pose: glid_nb.Pose,
-    energy: glid_nb.Energy,
+    energy: glid_nb.energies.Energy,
     options: glid_nb.Options,
     start: glid_nb.HarmonicMap | None = None,
     refine: bool = False,
@@ -151,7 +151,7 @@ def run_solver(
         if refine:
             result = glid_nb.refine(result, callback=show)
     with step("proving the result"):
-        return result, glid_nb.build_report(result)
+        return result, glid_nb.io.build_report(result)
 
 
 @contextmanager

@@ -58,7 +58,7 @@ def _solve(
 ) -> None:
     data = read_object(path)
     with about(path):
-        problem = glid_nb.Problem.from_dict(data)
+        problem = glid_nb.io.Problem.from_dict(data)
         if (size := data.get("image_size_px")) is not None:
             size = picture_size(size, "image_size_px")
     energy, options = energy_of(chosen), options_of(chosen)

@@ -103,7 +103,7 @@ def _rebuilt(cls: type[E], parameters: tuple[Any, ...]) -> E:
     return energy
 
 
-def energy_by_name(name: str, s: float | None = None) -> Energy:
+def by_name(name: str, s: float | None = None) -> Energy:
     """The energy called ``name``, such as "iso", "exp", "amips", "mips" or "arap".
 
     ``s``, a positive number, is the parameter of ``exp`` and ``amips`` (default 1); the others
@@ -120,7 +120,7 @@ def energy_by_name(name: str, s: float | None = None) -> Energy:
 def as_energy(energy: Energy | str | None) -> Energy:
     """The energy given as such or by name; the symmetric Dirichlet energy for None."""
     if isinstance(energy, str | None):
-        return energy_by_name(energy or "iso")
+        return by_name(energy or "iso")
     if not isinstance(energy, Energy):
         wanted = f"SymmetricDirichlet(), CustomEnergy(function) or a name: {', '.join(ENERGIES)}"
         raise EnergyError(f"energy is {energy!r}; pass an energy, such as {wanted}")

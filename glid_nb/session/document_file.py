@@ -14,11 +14,11 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
 
-from glid_nb import _json, methods
+from glid_nb import _json, energies, methods
 from glid_nb._errors import InputFileError, about
 from glid_nb._files import read_file, write_atomically, zipped
 from glid_nb.certificate import certificate_of
-from glid_nb.energies import CustomEnergy, energy_by_name
+from glid_nb.energies import CustomEnergy
 from glid_nb.geometry import Domain, as_points
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.harmonic.map import DOMAIN_KEYS, complex_from_pairs
@@ -234,7 +234,7 @@ def _pose_from_dict(index: int, data: Any, domain: Domain, version: int) -> Name
         energy, named = data["energy"], {"name": _json.check_text}
         with about("energy"):
             _json.check_fields(energy, "energy", named, _json.keys("s"))
-            energy = energy_by_name(energy["name"], energy.get("s"))
+            energy = energies.by_name(energy["name"], energy.get("s"))
         method = data.get("method", {"name": Newton.name, "settings": {}})
         with about("method"):
             _json.check_fields(method, "method", {**named, "settings": _json.check_object})

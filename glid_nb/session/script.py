@@ -57,7 +57,7 @@ def _map_lines(pose: NamedPose, exact: bool) -> list[str]:
     if exact:
         phi, psi = pose.map.phi.tolist(), pose.map.psi.tolist()
         return [*posed, f"map = glid.HarmonicMap(domain, {phi}, {psi})"]
-    arguments = ["domain", "pose", _made(pose.energy)]
+    arguments = ["domain", "pose", _made(pose.energy, "glid.energies")]
     if options := _changed(pose.options, pose.method.options):
         arguments.append(f"glid.Options({options})")
     if not isinstance(pose.method, Newton):
@@ -107,7 +107,7 @@ def _is_traced(document: Document) -> bool:
     return cage.equals(document.cage)
 
 
-def _made(value: Any, module: str = "glid") -> str:
+def _made(value: Any, module: str) -> str:
     return f"{module}.{type(value).__name__}({_changed(value)})"
 
 

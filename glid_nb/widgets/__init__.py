@@ -4,7 +4,7 @@ from glid_nb.widgets.canvas import DeformCanvas
 from glid_nb.widgets.editor import Editor
 from glid_nb.widgets.monitor import SolverMonitor
 from glid_nb.widgets.solver_panel import SolverPanel
-from glid_nb.widgets.timeline import TimelinePanel
+from glid_nb.widgets.timeline import TimelinePanel as TimelinePanel
 from glid_nb.widgets.tracer import CageTracer
 
-__all__ = ["CageTracer", "DeformCanvas", "Editor", "SolverMonitor", "SolverPanel", "TimelinePanel"]
+__all__ = ["CageTracer", "DeformCanvas", "Editor", "SolverMonitor", "SolverPanel"]

@@ -7,7 +7,7 @@ from typing import Any, Literal, get_args, get_origin
 import ipywidgets
 
 from glid_nb._arguments import field_kinds
-from glid_nb.energies import ENERGIES, CustomEnergy, Energy, energy_by_name
+from glid_nb.energies import ENERGIES, CustomEnergy, Energy, by_name
 from glid_nb.methods import METHODS
 from glid_nb.session.deformation import Deformation
 from glid_nb.solvers import Iteration, Method, Options
@@ -146,7 +146,7 @@ class SolverPanel(EditControls):
     def _set_energy(self, *_: Any) -> None:
         name, s = self.energy.value, self.s.value
         if name in ENERGIES:
-            self._act(lambda: self.deformation.set_energy(energy_by_name(name, s)))
+            self._act(lambda: self.deformation.set_energy(by_name(name, s)))
 
 
 def step_in_words(iteration: Iteration) -> str:

@@ -24,7 +24,7 @@ import glid_nb
 glid_nb.enable_compilation_cache()
 image = glid_nb.samples.image("gecko")
 domain = glid_nb.Domain.from_cage(glid_nb.trace(image).cage)
-pose = glid_nb.load_pose(glid_nb.samples.pose_path("gecko", "gentle"))
+pose = glid_nb.io.load_pose(glid_nb.samples.pose_path("gecko", "gentle"))
 ready = time.perf_counter()
 result = glid_nb.solve(domain, pose)
 first = time.perf_counter()

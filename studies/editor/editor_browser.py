@@ -27,7 +27,8 @@ from typing import Any
 import numpy as np
 from playwright.sync_api import Browser
 
-from glid_nb import load_pose, samples
+from glid_nb import samples
+from glid_nb.io import load_pose
 from studies.editor.frame_log import N_SAMPLES
 from studies.machine import machine
 from tests.browser import JupyterServer, LabNotebook, launched_chromium, watched_page
@@ -60,10 +61,12 @@ glid.enable_compilation_cache()
 import ipywidgets
 from studies.editor.frame_log import FrameLog, load
 image, domain, pose = load({shape!r})
-canvas = glid.DeformCanvas(image, domain, n_vertices={vertices}, evaluated_in={evaluated_in!r})
+canvas = glid.widgets.DeformCanvas(
+    image, domain, n_vertices={vertices}, evaluated_in={evaluated_in!r}
+)
 model = canvas.deformation
 model.set_pose(pose.with_targets(pose.handles))
-monitor = glid.SolverMonitor(model)
+monitor = glid.widgets.SolverMonitor(model)
 log = FrameLog(canvas)
 ipywidgets.HBox([canvas, monitor])
 """

@@ -18,7 +18,7 @@ N_SAMPLES = 64
 class FrameLog:
     """Notes, from now on, what a canvas sends and what that cost."""
 
-    def __init__(self, canvas: glid.DeformCanvas) -> None:
+    def __init__(self, canvas: glid.widgets.DeformCanvas) -> None:
         self.canvas = canvas
         self.frames: list[dict[str, Any]] = []
         """Of each frame: ``sample`` to recognise it, and the ``targets`` it was solved for."""

@@ -20,7 +20,7 @@ from studies.timing import timed
 
 def main() -> None:
     """Measure and print."""
-    model = glid_nb.TracingModel(picture(2000))
+    model = glid_nb.session.TracingModel(picture(2000))
     hand = TraceGestures(model)
     print("control           median   least, ms")
     for name, move in controls(model).items():
@@ -40,7 +40,7 @@ def picture(side: int) -> np.ndarray:
     return np.asarray(image.resize(size, Image.Resampling.LANCZOS))
 
 
-def controls(model: glid_nb.TracingModel) -> dict[str, Callable[[int], object]]:
+def controls(model: glid_nb.session.TracingModel) -> dict[str, Callable[[int], object]]:
     """One movement of each control; the number makes it another one each time."""
 
     def scribble(i: int) -> None:

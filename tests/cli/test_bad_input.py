@@ -139,7 +139,7 @@ def test_a_pose_of_a_sample_that_does_not_exist(run, tmp_path: Path) -> None:
 
 @pytest.fixture
 def map_data(problem_data: dict[str, Any]) -> dict[str, Any]:
-    return glid_nb.HarmonicMap.identity(glid_nb.Problem.from_dict(problem_data).domain).to_dict()
+    return glid_nb.HarmonicMap.identity(glid_nb.io.Problem.from_dict(problem_data).domain).to_dict()
 
 
 @pytest.mark.parametrize(

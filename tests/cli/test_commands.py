@@ -196,10 +196,12 @@ def test_depths_go_from_the_problem_into_the_map_and_its_picture(
     out, warped = tmp_path / "map.json", tmp_path / "warped.png"
     assert run("solve", problem, "--out", out).code == 0
     assert read(out)["depths"] == [0, 0, -1.5]
-    assert glid_nb.Problem.load(problem).pose.depths.tolist() == [0, 0, -1.5]
+    assert glid_nb.io.Problem.load(problem).pose.depths.tolist() == [0, 0, -1.5]
     assert run("render", picture, out, "--out", warped).code == 0
     expected = glid_nb.render(
-        glid_nb.read_image(picture), glid_nb.HarmonicMap.load(out), pose=glid_nb.load_pose(problem)
+        glid_nb.read_image(picture),
+        glid_nb.HarmonicMap.load(out),
+        pose=glid_nb.io.load_pose(problem),
     )
     with Image.open(warped) as image:
         np.testing.assert_array_equal(np.array(image), expected)

@@ -53,7 +53,7 @@ def work(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("work")
     image, pose = glid.samples.image("bar"), glid.samples.pose_path("bar", "gentle")
     domain = glid.Domain.from_cage(glid.trace(image).cage)
-    result = glid.solve(domain, glid.load_pose(pose))
+    result = glid.solve(domain, glid.io.load_pose(pose))
     identity = glid.HarmonicMap.identity(domain)
     for name in ("my-character.png", "gecko.png"):
         Image.fromarray(image).save(folder / name)
@@ -71,12 +71,12 @@ def work(tmp_path_factory: pytest.TempPathFactory) -> Path:
     np.save(folder / "values.npy", labels / 7)
     result.certificate.save(folder / "proof.json")
     glid.Motion([identity, result.map]).save(folder / "motion.json")
-    how = glid.SymmetricDirichlet(), glid.Options()
-    bent = glid.NamedPose("bent", result.pose, *how, result.map)
-    rest = glid.NamedPose("rest", result.pose.with_targets(result.pose.handles), *how, identity)
+    how = glid.energies.SymmetricDirichlet(), glid.Options()
+    bent = glid.io.NamedPose("bent", result.pose, *how, result.map)
+    rest = glid.io.NamedPose("rest", result.pose.with_targets(result.pose.handles), *how, identity)
     session = domain.cage, domain, glid.TraceOptions(), None, (rest, bent), 0
     for name in ("my-character.glid", "gecko.glid", "session.glid"):
-        glid.save_document(glid.Document(image, *session), folder / name)
+        glid.io.save_document(glid.io.Document(image, *session), folder / name)
     y, x = np.mgrid[:700, :700]
     light = np.where(np.hypot(x - 350, y - 350) < 300, 220, 40).astype(np.uint8)
     Image.fromarray(light).convert("RGB").save(folder / "photograph.jpg")

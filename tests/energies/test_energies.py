@@ -25,7 +25,7 @@ from glid_nb.energies import (
     EnergyError,
     ExponentialSymmetricDirichlet,
     SymmetricDirichlet,
-    energy_by_name,
+    by_name,
 )
 
 # Table 1's second column, in singular values, written independently of the energies.
@@ -255,17 +255,17 @@ def test_energies_are_values() -> None:
 
 def test_energies_by_name() -> None:
     assert list(ENERGIES) == ["iso", "exp", "amips", "mips", "arap"]
-    assert [energy_by_name(name).name for name in ENERGIES] == list(ENERGIES)
-    assert energy_by_name("exp") == ExponentialSymmetricDirichlet(1.0)
-    assert energy_by_name("exp", 3) == ExponentialSymmetricDirichlet(3.0)
-    assert energy_by_name("amips", 0.5) == AMIPS(0.5)
-    assert energy_by_name("iso", 4.0) == SymmetricDirichlet()
+    assert [by_name(name).name for name in ENERGIES] == list(ENERGIES)
+    assert by_name("exp") == ExponentialSymmetricDirichlet(1.0)
+    assert by_name("exp", 3) == ExponentialSymmetricDirichlet(3.0)
+    assert by_name("amips", 0.5) == AMIPS(0.5)
+    assert by_name("iso", 4.0) == SymmetricDirichlet()
 
 
 @pytest.mark.parametrize("name", ["", "ISO", "dirichlet", None, 3])
 def test_unknown_names_are_refused(name: object) -> None:
     with pytest.raises(EnergyError, match=r"unknown energy .*iso, exp, amips, mips, arap"):
-        energy_by_name(name)  # type: ignore[arg-type]
+        by_name(name)  # type: ignore[arg-type]
 
 
 @pytest.mark.parametrize("make", [ExponentialSymmetricDirichlet, AMIPS])

@@ -13,11 +13,12 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from glid_nb import Cage, Domain, Motion, Pose, load_pose, samples, solve, trace
+from glid_nb import Cage, Domain, Motion, Pose, samples, solve, trace
 from glid_nb.certificate import certificate_of, certify
 from glid_nb.certificate.pieces import certify_pieces
 from glid_nb.geometry import as_points, uniform_panels
 from glid_nb.harmonic import HarmonicMap
+from glid_nb.io import load_pose
 from glid_nb.motion import MotionError, bounded, curve
 from glid_nb.motion.boundary import boundary_of
 

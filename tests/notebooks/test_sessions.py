@@ -30,8 +30,8 @@ def test_a_session_opens_and_a_method_in_it_folds_or_halts(
     sessions: dict[str, Any], name: str, tmp_path: Path
 ) -> None:
     path = tmp_path / f"{name}.glid"
-    glid.save_document(sessions[name](), path)
-    document = glid.load_document(path)
+    glid.io.save_document(sessions[name](), path)
+    document = glid.io.load_document(path)
     first, *others = document.poses
     assert first.method.label == glid.methods.Newton().label
     fails = []

@@ -83,7 +83,7 @@ def test_another_method_is_written_with_its_settings(solved: Document, picture: 
     options = replace(pose.options, p2p_weight=2e4, corrections=1)
     by_lbfgs = replace(pose, method=LBFGS(memory=7), options=options)
     code = python_code(replace(solved, poses=(by_lbfgs,)), picture)
-    assert "glid.solve(domain, pose, glid.SymmetricDirichlet(), glid.Options(p2p_w" in code
+    assert "glid.solve(domain, pose, glid.energies.SymmetricDirichlet(), glid.Options(p2p_w" in code
     # Options that do not count for the method are left out.
     assert "glid.Options(p2p_weight=20000.0), method=glid.methods.LBFGS(memory=7))" in code
     on_mesh = replace(pose, method=MovingLeastSquares())
@@ -101,7 +101,10 @@ def test_options_energy_and_edits_are_written() -> None:
     )
     code = python_code(document, "nowhere.png")
     assert "read_image" not in code  # the cage is not what tracing gives
-    assert "glid.AMIPS(s=0.3), glid.Options(p2p_weight=20000.0, iterations_per_call=2)" in code
+    assert (
+        "glid.energies.AMIPS(s=0.3), glid.Options(p2p_weight=20000.0, iterations_per_call=2)"
+        in code
+    )
     scope = run(code)
     np.testing.assert_array_equal(scope["cage"].exterior, document.cage.exterior)
     pose = document.active_pose

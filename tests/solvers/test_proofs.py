@@ -8,14 +8,15 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from glid_nb import load_document, methods, save_document, solve_batch
+from glid_nb import methods, solve_batch
 from glid_nb._json import read_json
 from glid_nb.certificate import certificate_of, certify
 from glid_nb.cli.output import finish
-from glid_nb.energies import SymmetricDirichlet, energy_by_name
+from glid_nb.energies import SymmetricDirichlet, by_name
 from glid_nb.geometry import Cage, Domain
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging import TraceOptions
+from glid_nb.io import load_document, save_document
 from glid_nb.minima import solve
 from glid_nb.pose import Pose
 from glid_nb.session.document import Document, DocumentError, NamedPose
@@ -160,7 +161,7 @@ def test_a_nearly_folded_start_never_converges_at_infinity(gap: float) -> None:
     identity = HarmonicMap.identity(bar).phi
     start = HarmonicMap(bar, identity / 2, identity / 2 * (1 - gap))
     assert certify(start).certified
-    for energy in (SymmetricDirichlet(), energy_by_name("exp", 1.0)):
+    for energy in (SymmetricDirichlet(), by_name("exp", 1.0)):
         options = Options(restarts=0, max_iterations=5)
         result = solve(bar, pose, energy, options, start)
         assert result.proof.certified

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import glid_check
-from glid_nb.energies import energy_by_name
+from glid_nb import energies
 from glid_nb.geometry import Domain
 from glid_nb.minima import solve
 from glid_nb.pose import Pose
@@ -42,7 +42,7 @@ def solved(folder: Path, name: str, key: str, paper: bool) -> tuple[Result, dict
     domain, pose, results = problem(folder, name)
     energy, s = key.split(",s=")
     options = Options.paper(align=True, max_iterations=600) if paper else Options()
-    return solve(domain, pose, energy_by_name(energy, float(s)), options), results[key]
+    return solve(domain, pose, energies.by_name(energy, float(s)), options), results[key]
 
 
 @pytest.mark.parametrize(("name", "key"), PUBLISHED)

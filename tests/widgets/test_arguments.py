@@ -24,10 +24,10 @@ def unsolved() -> Deformation:
 
 MAKERS: dict[str, Callable[..., Any]] = {
     "Editor": lambda **more: glid.Editor(PICTURE, **more),
-    "DeformCanvas": lambda **more: glid.DeformCanvas(PICTURE, unsolved(), **more),
-    "CageTracer": lambda **more: glid.CageTracer(PICTURE, **more),
-    "SolverMonitor": lambda **more: glid.SolverMonitor(unsolved(), **more),
-    "SolverPanel": lambda **more: glid.SolverPanel(unsolved(), **more),
+    "DeformCanvas": lambda **more: glid.widgets.DeformCanvas(PICTURE, unsolved(), **more),
+    "CageTracer": lambda **more: glid.widgets.CageTracer(PICTURE, **more),
+    "SolverMonitor": lambda **more: glid.widgets.SolverMonitor(unsolved(), **more),
+    "SolverPanel": lambda **more: glid.widgets.SolverPanel(unsolved(), **more),
     "TimelinePanel": lambda **more: TimelinePanel(None, **more),  # type: ignore[arg-type]
 }
 
@@ -62,6 +62,6 @@ def test_what_was_probably_meant_is_said(name: str, given: str, meant: str) -> N
 
 
 def test_traits_of_ipywidgets_are_taken() -> None:
-    monitor = glid.SolverMonitor(unsolved(), plots=False, layout={"width": "300px"})
+    monitor = glid.widgets.SolverMonitor(unsolved(), plots=False, layout={"width": "300px"})
     assert monitor.layout.width == "300px"
     monitor.close()

@@ -81,7 +81,7 @@ def test_the_colour_bar_goes_where_it_hides_least() -> None:
 
 @pytest.mark.parametrize("top", [2.134, 54.6, 5510.3, 1.2345e7, 9.87e201])
 def test_the_labels_of_a_colour_bar_do_not_meet(top: float) -> None:
-    ticks = legend("energy", glid.SymmetricDirichlet(), (2.0, top))["ticks"]
+    ticks = legend("energy", glid.energies.SymmetricDirichlet(), (2.0, top))["ticks"]
     assert (float(ticks[0]), float(ticks[-1])) == (2.0, pytest.approx(top, rel=5e-3))
     assert len("".join(ticks)) <= 22  # of 6 pixels, on a bar of 190
     assert len(ticks) == 5 or top > 1e4
@@ -581,7 +581,7 @@ def test_the_panel_and_the_model_show_each_other() -> None:
         assert panel.pause.value
         panel.energy.value = "amips"
         panel.s.value = 0.5
-        assert model.state.current.energy == glid.AMIPS(0.5)
+        assert model.state.current.energy == glid.energies.AMIPS(0.5)
         model.undo()
         model.undo()
         assert panel.energy.value == "iso"

@@ -148,7 +148,7 @@ def test_a_file_of_others_is_replaced_by_a_second_click(panel: FilePanel) -> Non
     assert path.read_bytes() == THEIRS
     assert "Saved" in click(panel, panel.save_button)
     assert panel.save_button.description == "Save"
-    glid.load_document(path)
+    glid.io.load_document(path)
     assert "Saved" in click(panel, panel.save_button)  # now it is this editor's
 
 

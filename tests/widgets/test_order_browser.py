@@ -25,7 +25,7 @@ loop = np.concatenate([np.stack([s * x, 0 * x - 0.8 * s], 1) for s in (1, -1)])
 domain = glid.Domain.from_cage(glid.Cage(loop))
 picture = np.full((200, 400, 4), 255, np.uint8)
 picture[:, :200, 1:3] = picture[:, 200:, :2] = 0
-canvas = glid.DeformCanvas(picture, domain, 500, 400, n_vertices=1500)
+canvas = glid.widgets.DeformCanvas(picture, domain, 500, 400, n_vertices=1500)
 model = canvas.deformation
 canvas
 """

@@ -156,7 +156,7 @@ def test_the_tracer_takes_the_room_that_there_is(open_notebook: OpenNotebook) ->
 
 
 def test_the_hint_hides_no_vertex_of_a_picture_that_fits(open_notebook: OpenNotebook) -> None:
-    book = open_notebook([SETUP, "glid.CageTracer(np.rot90(picture).copy())"])
+    book = open_notebook([SETUP, "glid.widgets.CageTracer(np.rot90(picture).copy())"])
     page = book.page
     stage, hint = page.locator(".glid-stage[data-viewport]"), page.locator(".glid-hint")
     for width, lines in ((1920, 1), (640, 2)):

@@ -32,7 +32,7 @@ box
 OTHER = """
 from glid_nb.widgets import TimelinePanel
 given = {"width": 400, "height": 300, "n_vertices": 400, "evaluated_in": "kernel"}
-other = glid.DeformCanvas(canvas.image, model, **given)
+other = glid.widgets.DeformCanvas(canvas.image, model, **given)
 panel = TimelinePanel(other)
 box.children = [other, panel]
 """

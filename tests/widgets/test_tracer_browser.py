@@ -18,7 +18,7 @@ pytestmark = [pytest.mark.browser, pytest.mark.slow]
 
 CELLS = (
     "import glid_nb\nimport numpy as np",
-    "tracer = glid_nb.CageTracer(glid_nb.samples.image('{name}'))\ntracer",
+    "tracer = glid_nb.widgets.CageTracer(glid_nb.samples.image('{name}'))\ntracer",
 )
 
 
@@ -294,8 +294,8 @@ stop()`}).done;
 def test_two_views_and_code_agree(open_notebook: OpenNotebook) -> None:
     book = open_notebook(
         [
-            "import glid_nb\nimport numpy as np",
-            "tracer = glid_nb.CageTracer(glid_nb.samples.image('teapot'), height=240)\ntracer",
+            "import glid_nb as glid\nimport numpy as np",
+            "tracer = glid.widgets.CageTracer(glid.samples.image('teapot'), height=240)\ntracer",
             "tracer",
         ]
     )

@@ -15,7 +15,7 @@ CANVAS = """
 picture[..., 3] = 255
 angles = 2 * np.pi * np.arange(60) / 60
 disc = glid.Domain.from_cage(glid.Cage(4.5 * np.stack([np.cos(angles), np.sin(angles)], 1)))
-canvas = glid.DeformCanvas(picture, disc, 420, 300, n_vertices=600)
+canvas = glid.widgets.DeformCanvas(picture, disc, 420, 300, n_vertices=600)
 model, before = canvas.deformation, canvas.pane.scene.evaluated_in
 canvas
 """

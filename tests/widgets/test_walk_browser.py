@@ -28,7 +28,7 @@ import glid_nb as glid
 editor = glid.Editor({picture})
 editor
 """
-PINS = glid_nb.load_pose(glid_nb.samples.pose_path("gecko", "gentle")).handles.tolist()
+PINS = glid_nb.io.load_pose(glid_nb.samples.pose_path("gecko", "gentle")).handles.tolist()
 
 
 class Walk:

@@ -1,0 +1,2 @@
+from .deformation import Deformation as Deformation
+from .tracing import TracingModel as TracingModel
