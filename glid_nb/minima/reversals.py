@@ -17,7 +17,8 @@ from glid_nb.harmonic.basis import basis_of
 from glid_nb.minima.stages import targets_at
 from glid_nb.minima.turning import Line, Turning
 from glid_nb.solvers.discretisation import discretise
-from glid_nb.solvers.problem import matrix_at, unknowns_of
+from glid_nb.solvers.positional import matrix_at
+from glid_nb.solvers.problem import unknowns_of
 from glid_nb.solvers.whitening import pulled_back
 
 # So many lines, or groups of lines, are combined: 7 combinations.

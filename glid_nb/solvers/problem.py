@@ -8,7 +8,6 @@ holes' logarithms are tied to ``phi_j``, so their derivatives are added to those
 
 from __future__ import annotations
 
-import functools
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
@@ -18,17 +17,11 @@ from numpy.typing import NDArray
 from glid_nb._jax import AnyArray, Array, Float, jax, jnp, once_loaded
 from glid_nb.energies import Energy
 from glid_nb.geometry import Domain
-from glid_nb.harmonic import Basis, HarmonicMap, Singularities, as_complex, cauchy, rows_of
+from glid_nb.harmonic import Basis, HarmonicMap, Singularities, as_complex, rows_of
 from glid_nb.harmonic.basis import basis_of
 from glid_nb.pose import Pose, rigid_motion
-from glid_nb.solvers.discretisation import Matrices, complex_basis
-
-_HANDLE_BUCKET = 16
-_TURN = 10.0  # weight of f_z at a handle, relative to the weight of the handle's image
-# Larger weights of an image or of f_z would hide the distortion in rounding errors.
-_MOST, _MOST_TURN = 2.5e10, 1e13
-_FARTHEST_TURN = 1.0  # radians between two measurements
-_SAME_DIRECTION = 1e-4  # radians
+from glid_nb.solvers.discretisation import Matrices
+from glid_nb.solvers.positional import Positional, handle_rows
 
 Vector = Float[Array, " 4u"]
 Square = Float[Array, "4u 4u"]
@@ -65,98 +58,11 @@ class SubspaceProblem(NamedTuple):
     costs no accuracy."""
 
 
-class Positional(NamedTuple):
-    """The energy of the handles (Section 6.1, (F.1)), ``1/2 |A y - b|^2`` with weights (20).
-
-    ``A`` is the matrix (F.5), ``b`` the targets (F.8).
-    """
-
-    matrix: Float[AnyArray, "2h 4c"]  # all rows for the real parts, then for the imaginary
-    aims: Float[AnyArray, " 2h"]
-    weights: Float[AnyArray, " 2h"]  # lambda for a handle, 0 for padding
-
-    def residual(self, coefficients: Float[Array, " 4c"]) -> Float[AnyArray, " 2h"]:
-        return self.matrix @ coefficients - self.aims
-
-    def energy(self, coefficients: Float[Array, " 4c"]) -> Float[Array, ""]:
-        """The sum (F.2)."""
-        return 0.5 * jnp.sum(self.weights * self.residual(coefficients) ** 2)
-
-    def gradient(self, coefficients: Float[Array, " 4c"]) -> Float[AnyArray, " 4c"]:
-        """The gradient (F.7), the sum of (F.4); (G.9) repeats it."""
-        return self.matrix.T @ (self.weights * self.residual(coefficients))
-
-
-def positional_energy(
-    map: HarmonicMap, pose: Pose, weight: float, damping: float = 1.0
-) -> Positional:
-    """The positional energy of a pose, its rows padded to a bucket.
-
-    ``weight`` is the options' ``p2p_weight``, for lengths in the cage's ``unit``.
-
-    Angles and scales add rows for ``f_z`` at their handles. The rows measure ``f_z`` along and
-    across one direction: that of the map's own ``f_z``, turned towards the wanted angle by at most
-    one radian. A scale without an angle constrains ``|f_z|`` only, whose level sets are curved. So
-    the row across gets the weight of this curvature, enlarged by ``damping``.
-    """
-    domain, count, turned = map.domain, len(pose), np.flatnonzero(pose.turned)
-    firm, unit = pose.weights, domain.cage.unit
-    size = _HANDLE_BUCKET * max(1, -(-(count + len(turned)) // _HANDLE_BUCKET))
-    aims, weights = np.zeros((2, size)), np.zeros((2, size))
-    aims[:, :count] = pose.targets.T
-    weights[:, :count] = np.minimum(weight, _MOST / firm) * firm / unit**2
-    matrix = matrix_at(domain, pose.handles.tobytes(), size)
-    if len(turned):
-        basis, pinned = basis_of(domain), slice(count, count + len(turned))
-        d = _basis_at(domain, pose.handles[turned].tobytes(), cauchy.first_derivatives)
-        fz, angles, scales = d @ basis.pad(map.phi), pose.angles[turned], pose.scales[turned]
-        left = np.angle(np.exp(1j * np.nan_to_num(angles - np.angle(fz))))
-        d = d * np.exp(-1j * (np.angle(fz) + left.clip(-_FARTHEST_TURN, _FARTHEST_TURN)))[:, None]
-        strain = 1 - scales / np.abs(fz)
-        bends = np.maximum(damping * strain, (1 - damping) * strain).clip(0, 1)
-        aims[0, pinned] = np.nan_to_num(scales)
-        held = np.stack([~np.isnan(scales), np.where(np.isnan(angles), bends, 1)])
-        weights[:, pinned] = (
-            np.minimum(_TURN * weight, _MOST_TURN / firm[turned]) * firm[turned] * held
-        )
-        matrix = matrix.reshape(2, size, -1).copy()
-        matrix[:, pinned, : 2 * basis.n_columns] = [
-            np.hstack([np.real(d), -np.imag(d)]),
-            np.hstack([np.imag(d), np.real(d)]),
-        ]
-        matrix = matrix.reshape(2 * size, -1)
-    return Positional(matrix, aims.ravel(), weights.ravel())
-
-
-def measured_apart(a: Positional, b: Positional) -> float:
-    """The difference of two measurements of angles and scales, roughly in radians; 0 if small."""
-    gaps, lengths = (np.linalg.norm(m, axis=1) for m in (a.matrix - b.matrix, a.matrix))
-    apart = float((gaps / np.maximum(lengths, 1e-300)).max())
-    alike = apart <= _SAME_DIRECTION and np.allclose(a.weights, b.weights, rtol=0.1, atol=0.1)
-    return 0.0 if alike else apart or _SAME_DIRECTION
-
-
-@functools.lru_cache(maxsize=32)
-def _basis_at(domain: Domain, points: bytes, kernel: Any) -> NDArray[Any]:
-    z = np.frombuffer(points).reshape(-1, 2) @ np.array([1, 1j])
-    return complex_basis(kernel, z, basis_of(domain))
-
-
-@functools.lru_cache(maxsize=32)
-def matrix_at(domain: Domain, handles: bytes, size: int) -> NDArray[Any]:
-    """The matrix (F.5) of the handles, padded to ``size`` rows for the real and imaginary part."""
-    own = _basis_at(domain, handles, cauchy.cauchy_coordinates)
-    rows = np.zeros((size, own.shape[1]), dtype=complex)
-    rows[: len(own)] = own
-    re, minus_im = np.real(rows), -np.imag(rows)
-    return np.block([[re, minus_im, re, minus_im], [-minus_im, re, minus_im, -re]])
-
-
 def aligned(map: HarmonicMap, pose: Pose) -> HarmonicMap:
     """The map followed by the rigid motion that brings its handles closest to their targets."""
     if not len(pose):
         return map
-    rows = _basis_at(map.domain, pose.handles.tobytes(), cauchy.cauchy_coordinates)
+    rows = handle_rows(map.domain, pose.handles.tobytes())
     phi, psi = rows_of(map)
     images = rows @ phi + np.conj(rows @ psi)
     turn, middle, aim = rigid_motion(images, as_complex(pose.targets))

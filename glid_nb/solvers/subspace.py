@@ -15,6 +15,7 @@ from glid_nb.solvers.discretisation import Discretisation, Matrices, discretise
 from glid_nb.solvers.evaluation import Point
 from glid_nb.solvers.loop import Descent, Ending, Reached
 from glid_nb.solvers.method import Inputs, Method, StartError
+from glid_nb.solvers.positional import measured_apart, positional_energy
 from glid_nb.solvers.problem import SubspaceProblem, canonical, map_from, unknowns_of
 from glid_nb.solvers.result import Iteration, Result, Status
 from glid_nb.solvers.stiffness import stiff_matrices
@@ -52,7 +53,7 @@ class SubspaceDescent(Descent):
             matrices=self.matrices,
             singularities=basis.singularities,
             unknowns=unknowns_of(basis, options.conformal, whitening),
-            positional=problem.positional_energy(self.start, pose, options.p2p_weight),
+            positional=positional_energy(self.start, pose, options.p2p_weight),
             energy=inputs.energy,
             anchor=problem.anchor_of(basis, self._start_coefficients),
         )
@@ -81,8 +82,8 @@ class SubspaceDescent(Descent):
             return False
         self._damping = KEPT if self._pins == MOST_PINS else self._damping
         weight, damping = inputs.options.p2p_weight, self._damping
-        now = problem.positional_energy(map, inputs.pose, weight, damping)
-        apart = problem.measured_apart(before, now)
+        now = positional_energy(map, inputs.pose, weight, damping)
+        apart = measured_apart(before, now)
         self._damping *= _DAMPING if apart > _FAR and damping != KEPT else 1
         self._pins += 1
         self.problem = self.problem._replace(positional=now)

@@ -12,9 +12,9 @@ from glid_nb.harmonic import HarmonicMap
 from glid_nb.solvers import Result, cholesky, evaluation, line_search
 from glid_nb.solvers.evaluation import Point
 from glid_nb.solvers.hessian import LocalHessian, assemble, local_hessian, positive_part
+from glid_nb.solvers.positional import positional_energy
 from glid_nb.solvers.problem import (
     SubspaceProblem,
-    positional_energy,
     real_coefficients,
     restrict_hessian,
     unknowns_of,

@@ -16,10 +16,10 @@ from glid_nb.harmonic import HarmonicMap, basis_of, cauchy
 from glid_nb.pose import Pose
 from glid_nb.solvers import evaluation
 from glid_nb.solvers.discretisation import discretise
+from glid_nb.solvers.positional import positional_energy
 from glid_nb.solvers.problem import (
     SubspaceProblem,
     anchor_of,
-    positional_energy,
     real_coefficients,
     unknowns_of,
 )

@@ -18,12 +18,12 @@ from glid_nb.geometry import graded_panels
 from glid_nb.harmonic import HarmonicMap, basis_of, cauchy
 from glid_nb.pose import Pose
 from glid_nb.solvers.discretisation import complex_basis
+from glid_nb.solvers.positional import positional_energy
 from glid_nb.solvers.problem import (
     aligned,
     canonical,
     expand,
     map_from,
-    positional_energy,
     real_coefficients,
     unknowns_of,
 )

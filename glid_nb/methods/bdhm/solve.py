@@ -20,7 +20,7 @@ from glid_nb.harmonic import HarmonicMap
 from glid_nb.methods.bdhm import program
 from glid_nb.solvers import Inputs, Iteration, Method, MethodError, Result, Status
 from glid_nb.solvers.loop import Ending, GeneratedDescent, Reached, Steps, follow
-from glid_nb.solvers.problem import measured_apart
+from glid_nb.solvers.positional import measured_apart
 from glid_nb.solvers.subspace import KEPT, MOST_PINS
 
 _PROOF = 0.4  # the share of the margin that the proof may use
