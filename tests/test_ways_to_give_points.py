@@ -74,7 +74,7 @@ def test_masked_points_are_missing_points() -> None:
     with pytest.raises(PoseError, match=r"handles\[1\] is \(nan, 0\)"):
         Pose(masked, [[0, 0], [1, 1]])
     angles = np.ma.array([0.5, 9e9], mask=[False, True])
-    assert Pose(RING[:2], RING[:2], angles=angles).turned.tolist() == [True, False]
+    assert Pose(RING[:2], RING[:2], angles=angles).oriented.tolist() == [True, False]
     assert WITH_HOLE.contains(masked).tolist() == [True, False]
     map = HarmonicMap.identity(Domain.from_cage(Cage(RING)))
     for points in (masked, np.ma.array([1 + 1j], mask=[True])):

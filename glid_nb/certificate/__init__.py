@@ -6,6 +6,6 @@ from glid_nb.certificate.certify import CertificateKind as CertificateKind
 from glid_nb.certificate.hermite import Hermite
 from glid_nb.certificate.injectivity import GlobalInjectivity, global_injectivity
 from glid_nb.certificate.panels import EndValues, PanelBounds, PanelProof
-from glid_nb.certificate.paper import BDHM, Lipschitz, fz_vanishes
+from glid_nb.certificate.paper import BDHMLipschitz, Lipschitz, fz_vanishes
 from glid_nb.certificate.pieces import PieceCertificate as PieceCertificate
 from glid_nb.certificate.pieces import certify_step as certify_step

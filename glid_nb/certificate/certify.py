@@ -16,14 +16,14 @@ from glid_nb._files import write_atomically
 from glid_nb.certificate import rounding
 from glid_nb.certificate.hermite import Hermite
 from glid_nb.certificate.panels import EndValues, PanelBounds, check_tiling, modulus, split
-from glid_nb.certificate.paper import BDHM, Lipschitz, beside, jumps, turning, windings
+from glid_nb.certificate.paper import BDHMLipschitz, Lipschitz, beside, jumps, turning, windings
 from glid_nb.certificate.proof import FORMAT, FORMAT_VERSION, dyadic_panels, exact_text
 from glid_nb.geometry import Panels, graded_panels, place
 from glid_nb.harmonic import HarmonicMap, Singularities, cauchy, run_on
 
 CertificateKind = Literal["hermite", "lipschitz", "bdhm"]
 
-PROOFS = {"hermite": Hermite, "lipschitz": Lipschitz, "bdhm": BDHM}
+PROOFS = {"hermite": Hermite, "lipschitz": Lipschitz, "bdhm": BDHMLipschitz}
 
 _MAX_ROUNDS = 40
 _MAX_PANELS = 400_000
@@ -145,7 +145,7 @@ def certify(
     kind: CertificateKind = "hermite",
     panels: Panels | None = None,
     *,
-    refine: bool = True,
+    split: bool = True,
     tightness: float = 0.02,
 ) -> Certificate:
     """Prove a map locally injective and bound its distortion (Theorem 4.2), or say what fails.
@@ -155,7 +155,7 @@ def certify(
     mappings (Figure 7).
 
     ``panels`` are the pieces of the boundary to start from, by default graded ones. They must tile
-    the boundary of the map's cage, else a GeometryError is raised. With ``refine`` a panel is split
+    the boundary of the map's cage, else a GeometryError is raised. With ``split`` a panel is split
     if its proof fails, or if its bounds are further than the relative ``tightness`` from values
     that the map attains. The paper does not split panels.
     """
@@ -171,12 +171,12 @@ def certify(
         check_tiling(panels, map.domain.cage)
     panels = graded_panels(map.domain) if panels is None else panels
     known: Known = evaluate(panels.start, panels.end)
-    if refine:
-        panels, known = refined(panels, known, evaluate, tightness)
+    if split:
+        panels, known = split_panels(panels, known, evaluate, tightness)
     return _conclude(map, panels, known, kind)
 
 
-def refined(
+def split_panels(
     panels: Panels, known: Known, evaluate: Callable[..., Known], tightness: float
 ) -> tuple[Panels, Known]:
     """Halve panels until the proof succeeds, then until bounds are tight, or while it helps."""

@@ -168,7 +168,7 @@ def fz_vanishes(turning: PerPanel) -> Bool[Array, ""]:
     return abs(turning.sum()) > 1
 
 
-class BDHM(NamedTuple):
+class BDHMLipschitz(NamedTuple):
     """The proof by the larger constants of bounded distortion harmonic mappings (Figure 7).
 
     On a segment, ``|f_z'| <= sum_j L_j |phi_j|`` with ``L_j = |z_{j+1} - z_{j-1}| / (2 pi

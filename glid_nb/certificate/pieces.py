@@ -21,7 +21,7 @@ from glid_nb.certificate.certify import (
     Known,
     certificate_of,
     end_values,
-    refined,
+    split_panels,
 )
 from glid_nb.certificate.hermite import Hermite
 from glid_nb.certificate.panels import EndValues
@@ -121,7 +121,7 @@ def _prove(first: HarmonicMap, last: HarmonicMap, values: _Values, size: Array) 
         evaluate, panels = _evaluated([a, b], size), graded_panels(a.domain)
         values = evaluate(panels.start, panels.end) if values is None else values
         along = _bounds(values)
-        panels, known = refined(
+        panels, known = split_panels(
             panels,
             along,
             lambda start, end, evaluate=evaluate: _bounds(evaluate(start, end)),

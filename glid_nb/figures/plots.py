@@ -147,12 +147,12 @@ class _OverIterations(Plot):
 
 
 class EnergyPlot(_OverIterations):
-    """Energy after each iteration, on a logarithmic axis: the total and the isometric part above
+    """Energy after each iteration, on a logarithmic axis: the total and the distortion above
     their minimum, and the targets' part."""
 
     _looks: ClassVar = {
         "energy_p2p": {"color": ORANGE, "label": "targets", "linewidth": 2.4},
-        "energy_iso": {"color": SKY, "label": "isometric", "linewidth": 2.4},
+        "energy_distortion": {"color": SKY, "label": "distortion", "linewidth": 2.4},
         "energy": {"color": INK, "label": "total", "linewidth": 0.8},
     }
     _dotted = -1
@@ -171,13 +171,13 @@ class EnergyPlot(_OverIterations):
         solving: bool = False,
         minimum: float = 0.0,
     ) -> None:
-        """Show iterations. ``minimum`` is the isometric energy of the undeformed shape."""
+        """Show iterations. ``minimum`` is the energy of the undeformed shape."""
         rows = _rows(history, *self._looks)
         above, least = rows[1:], _AT_MINIMUM * max(1.0, minimum)
         above[1:] = np.maximum(above[1:] - minimum, least)
         # Use only the lines for the limits. The peaks after moved targets would flatten the lines.
-        _, isometric, total = self._join(rows[0], above, starts, solving)
-        finite, total = (v[v < _LOG_ENDS[-9]] for v in (np.append(isometric, total), total))
+        _, distortion, total = self._join(rows[0], above, starts, solving)
+        finite, total = (v[v < _LOG_ENDS[-9]] for v in (np.append(distortion, total), total))
         low, high = (float(finite.min()), float(finite.max())) if len(finite) else (0.11, 0.9)
         low = max(low, least, *(_BELOW_LAST * total[-1:]))
         high = max(high, low)

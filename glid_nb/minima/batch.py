@@ -107,8 +107,8 @@ def lockstep_groups(poses: Sequence[Pose], shares: int) -> list[list[int]]:
     """
     groups: list[list[int]] = []
     for i, pose in enumerate(poses):
-        known = (group for group in groups if poses[group[0]].pins_alike(pose))
-        group = None if pose.turned.any() else next(known, None)
+        known = (group for group in groups if poses[group[0]].same_constraints(pose))
+        group = None if pose.oriented.any() else next(known, None)
         if group is None:
             groups.append([i])
         else:

@@ -4,7 +4,7 @@ import functools
 from dataclasses import replace
 
 from glid_nb.energies import isometry_energy
-from glid_nb.minima.turning import Turning, turning_of
+from glid_nb.minima.handle_turns import HandleTurns, handle_turns
 from glid_nb.solvers.method import Inputs
 from glid_nb.solvers.result import Result, Status
 
@@ -36,18 +36,18 @@ class Known:
         self.isometry = isometry_energy(inputs.energy)
         self.high = is_above(first, HIGH_ENERGY)
         self.hopeless = is_above(first, HIGHEST_ENERGY)
-        self.better: Turning | None = None
+        self.better: HandleTurns | None = None
         """How the best map turns lines, once one with other turns than the first is the best."""
 
     @functools.cached_property
-    def turning(self) -> Turning:
+    def turns(self) -> HandleTurns:
         """How the first map turns lines."""
-        return turning_of(self.first.map, self.inputs.pose)
+        return handle_turns(self.first.map, self.inputs.pose)
 
     @property
-    def turnings(self) -> list[Turning]:
+    def all_turns(self) -> list[HandleTurns]:
         """Of the first map and, if that is known, of a better one with other turns."""
-        return [self.turning] if self.better is None else [self.turning, self.better]
+        return [self.turns] if self.better is None else [self.turns, self.better]
 
     @property
     def excess(self) -> float:
@@ -62,7 +62,7 @@ class Known:
 
     def add(self, name: str, result: Result) -> None:
         """Keep a result, and as the best one if it is: it must be of the pose that was asked for,
-        not of a stage at which its way was given up."""
+        not of a waypoint at which its way was given up."""
         self.tried.append((name, result))
         ended = result.pose is self.inputs.pose
         if ended and result.energy < self.best.energy * (1 - SAME_ENERGY):

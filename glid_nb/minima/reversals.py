@@ -14,8 +14,8 @@ from glid_nb._arrays import Array
 from glid_nb._runtime import single_blas_thread
 from glid_nb.geometry import Domain, as_points
 from glid_nb.harmonic.basis import basis_of
-from glid_nb.minima.stages import targets_at
-from glid_nb.minima.turning import Line, Turning
+from glid_nb.minima.handle_turns import HandleTurns, Line
+from glid_nb.minima.waypoints import targets_at
 from glid_nb.solvers.discretisation import discretise
 from glid_nb.solvers.positional import matrix_at
 from glid_nb.solvers.problem import unknowns_of
@@ -33,26 +33,28 @@ _LEAST_STRAIN = 1e-6
 _SMALL = 1e-6
 
 
-def reversals(turning: Turning, least: float) -> dict[tuple[int, ...], float]:
-    """Children whose lines turn by at least so many radians, alone or together, with what turning
-    them the other way round costs over what the turns as they are cost; the cheapest first."""
-    far = _far(turning, least)
+def reversals(turns: HandleTurns, least: float) -> dict[tuple[int, ...], float]:
+    """Lines that may turn the other way round, alone or together, each named by its child.
+
+    They turn by at least ``least`` radians. The values are costs, relative to that of the turns as
+    they are; the cheapest comes first."""
+    far = _far(turns, least)
     chosen = [sum(c, ()) for n in range(MOST_TURNED) for c in itertools.combinations(far, n + 1)]
-    costs = {lines: cost(turning, lines) / cost(turning) for lines in chosen}
+    costs = {lines: cost(turns, lines) / cost(turns) for lines in chosen}
     return dict(sorted(costs.items(), key=lambda item: item[1]))
 
 
-def cost(turning: Turning, reversed: tuple[int, ...] = ()) -> float:
+def cost(turns: HandleTurns, reversed: tuple[int, ...] = ()) -> float:
     """What the turns would cost if costs grew with their squares, as they do for small turns."""
-    moved = as_points(targets_at(turning, _SMALL, turning.angles(reversed))) - turning.pose.handles
+    moved = as_points(targets_at(turns, _SMALL, turns.angles(reversed))) - turns.pose.handles
     moves = moved.T.ravel() / _SMALL
-    form = _quadratic_form(turning.domain, turning.pose.handles.tobytes())
+    form = _quadratic_form(turns.domain, turns.pose.handles.tobytes())
     return max(float(moves @ form @ moves), _SMALL**2)
 
 
-def _far(turning: Turning, least: float) -> list[tuple[int, ...]]:
+def _far(turns: HandleTurns, least: float) -> list[tuple[int, ...]]:
     """The lines that turn most, or the groups of lines that turn alike."""
-    far = [line for line in turning.lines if abs(line.turn) >= least]
+    far = [line for line in turns.lines if abs(line.turn) >= least]
     alike = _ALIKE if len(far) > MOST_TURNED else 0
     groups = list[tuple[int, ...]]()
     while far:

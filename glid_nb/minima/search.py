@@ -54,8 +54,8 @@ def _search(known: Known, method: Method) -> None:
 def _followed(way: Way, case: Case, known: Known, method: Method) -> Result:
     """The result of a way's last problem, each started from the result of the one before.
 
-    A shape is distorted more the further it turns, so a stage above the way's limit ends it: then
-    the result is that stage's. A way that is stopped before its last problem returns the best
+    A shape is distorted more the further it turns, so a waypoint above the way's limit ends it. The
+    result is then that waypoint's. A way that is stopped before its last problem returns the best
     result so far.
     """
     *before, last = way.problems(known, case)
@@ -72,7 +72,7 @@ def _followed(way: Way, case: Case, known: Known, method: Method) -> Result:
         result = solved(problem.inputs)
         if result.status is Status.STOPPED:
             return replace(known.best, status=Status.STOPPED)
-        excess = result.energy_iso - known.isometry
+        excess = result.energy_distortion - known.isometry
         if limit is not None and excess > limit * problem.time**GROWTH * known.excess:
             return replace(result, **_times(done))
     return replace(solved(last.inputs), **_times(done))

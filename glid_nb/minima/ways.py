@@ -1,9 +1,10 @@
 """The other ways to a minimum, a table: when each is tried, what it solves and when it is given up.
 
 The energy has many local minima. How a map turns the lines between handles
-(:mod:`glid_nb.minima.turning`) mostly decides which one it is near. Most ways therefore lead the
-targets along chosen turns, in stages. The numbers were found on 323 poses (docs/comparisons.md). A
-number without a comment was chosen there by hand, and no measurement of it alone was kept.
+(:mod:`glid_nb.minima.handle_turns`) mostly decides which one it is near. Most ways therefore lead
+the targets along chosen turns, over waypoints. The numbers were found on 323 poses
+(docs/comparisons.md). A number without a comment was chosen there by hand, and no measurement of it
+alone was kept.
 """
 
 from collections.abc import Callable, Iterable, Iterator
@@ -14,6 +15,7 @@ import numpy as np
 
 from glid_nb.energies import MIPS, SymmetricDirichlet
 from glid_nb.harmonic import as_complex
+from glid_nb.minima.handle_turns import HandleTurns, handle_turns
 from glid_nb.minima.known import (
     HIGH_ENERGY,
     HIGHEST_ENERGY,
@@ -23,18 +25,17 @@ from glid_nb.minima.known import (
     is_above,
 )
 from glid_nb.minima.reversals import reversals
-from glid_nb.minima.stages import Stage, stages
-from glid_nb.minima.turning import Turning, turning_of
+from glid_nb.minima.waypoints import Waypoint, waypoints
 from glid_nb.solvers.method import Inputs
 
-# Excess energy grows faster than time ** GROWTH while lines turn. A stage above that, as a share of
-# the best map's excess, would end above it.
+# Excess energy grows faster than time ** GROWTH while lines turn. A waypoint above that, as a share
+# of the best map's excess, would end above it.
 GROWTH = 1.5
-# A stage's iterations. With three instead of six the first one overshoots, so that ways are given
-# up that would end lower: a star at 4.06 instead of 3.83.
-_STAGE_ITERATIONS = 6
+# A waypoint's iterations. With three instead of six the first one overshoots, so that ways are
+# given up that would end lower: a star at 4.06 instead of 3.83.
+_WAYPOINT_ITERATIONS = 6
 _STAGE_TOLERANCE = 1e-3
-# The stages' fractions of lambda. With the usual 1e5 the first Newton steps rush the handles to
+# The waypoints' fractions of lambda. With the usual 1e5 the first Newton steps rush the handles to
 # their targets, whatever that does to the shape.
 _WEIGHTS = (1e-5, 1e-3, 1e-1)
 
@@ -53,7 +54,7 @@ class Case:
 
     place: str = ""
     """For the name: at which handles."""
-    turning: Turning | None = None
+    turns: HandleTurns | None = None
     """The turns along which targets are led; None for the first map's."""
     lines: tuple[int, ...] = ()
     """Children whose lines are led in another manner."""
@@ -62,8 +63,8 @@ class Case:
     doubt: float = 1.0
     """The prediction may be too high by this factor."""
 
-    def led_along(self, known: Known) -> Turning:
-        return known.turning if self.turning is None else self.turning
+    def led_along(self, known: Known) -> HandleTurns:
+        return known.turns if self.turns is None else self.turns
 
 
 def _always(_: Known) -> bool:
@@ -90,7 +91,7 @@ class Way:
     """Try it only if it gains enough should it cost this share of the best map's excess energy, or
     this share of what the case predicts; None: always."""
     limit: float | None = None
-    """Give it up at a stage that costs more than this times ``time ** GROWTH`` of the best map's
+    """Give it up at a waypoint that costs more than this times ``time ** GROWTH`` of the best map's
     excess energy; None: never."""
     enough: float | None = None
     """End the search after it if the best energy is at most this multiple of an isometry's."""
@@ -139,7 +140,7 @@ def _other_turns(known: Known) -> Iterator[Case]:
     After a gain the better map says which lines may turn on from there. What a choice of turns
     costs is the least that any map so far predicts.
     """
-    now = known.turning
+    now = known.turns
     least_costs = dict[tuple[float, ...], float]()
     seen = {now.key()}
     misses = 0
@@ -160,17 +161,17 @@ def _other_turns(known: Known) -> Iterator[Case]:
         best, tried = known.best, len(known.tried)
         if key not in seen:
             place = ", ".join(map(str, lines))
-            yield Case(place=place, turning=now, lines=lines, ratio=ratio, doubt=doubt)
+            yield Case(place=place, turns=now, lines=lines, ratio=ratio, doubt=doubt)
         seen.add(key)
         if known.best is not best:
-            now = known.better = turning_of(known.best.map, known.inputs.pose)
+            now = known.better = handle_turns(known.best.map, known.inputs.pose)
             left = choices()
         elif len(known.tried) > tried:
             misses += 1
 
 
 def _turned_back(known: Known, case: Case) -> list[Problem]:
-    return _led(known, stages(case.led_along(known), case.lines))
+    return _led(known, waypoints(case.led_along(known), case.lines))
 
 
 # Along an arc.
@@ -179,12 +180,12 @@ def _turned_back(known: Known, case: Case) -> list[Problem]:
 def _curled(known: Known) -> list[Case]:
     """Free ends that curl. One that is wound up is led the other way round instead: arcs there
     were tried on 20 more poses, and none of them ended lower."""
-    lines = [line for line in known.turning.lines if line.curled and not line.wound]
+    lines = [line for line in known.turns.lines if line.curled and not line.wound]
     return [Case(place=str(line.child), lines=(line.child,)) for line in lines]
 
 
 def _arc(known: Known, case: Case) -> list[Problem]:
-    return _led(known, stages(known.turning, arc=case.lines[0]))
+    return _led(known, waypoints(known.turns, arc=case.lines[0]))
 
 
 # Without its angles first.
@@ -211,16 +212,16 @@ _HALF_CIRCLE = np.deg2rad(140)
 def _wound_up(known: Known) -> list[Case]:
     """The first map, and the better one with other turns, if they wind ends up. The better map's
     led a giraffe to 2.296 instead of 2.358, and changed none of 482 other poses."""
-    wound = [turning for turning in known.turnings if any(line.wound for line in turning.lines)]
-    return [Case(turning=turning) for turning in wound]
+    wound = [turns for turns in known.all_turns if any(line.wound for line in turns.lines)]
+    return [Case(turns=turns) for turns in wound]
 
 
 def _unwound(known: Known, case: Case) -> list[Problem]:
-    return _led(known, stages(case.led_along(known), unwind=True))
+    return _led(known, waypoints(case.led_along(known), unwind=True))
 
 
 def _turns_far(known: Known) -> bool:
-    return max((abs(line.turn) for line in known.turning.lines), default=0) > _HALF_CIRCLE
+    return max((abs(line.turn) for line in known.turns.lines), default=0) > _HALF_CIRCLE
 
 
 def _may_be_staged(known: Known) -> bool:
@@ -229,7 +230,7 @@ def _may_be_staged(known: Known) -> bool:
 
 
 def _staged(known: Known, _: Case) -> list[Problem]:
-    return _led(known, stages(known.turning))
+    return _led(known, waypoints(known.turns))
 
 
 # From the identity.
@@ -253,7 +254,7 @@ def _frees(known: Known) -> bool:
     bend."""
     if not known.inputs.options.align:
         return False
-    squeezed = any(line.squeezed for line in known.turning.lines)
+    squeezed = any(line.squeezed for line in known.turns.lines)
     return squeezed or known.hopeless or (not _turns_far(known) and _misled(known))
 
 
@@ -277,7 +278,7 @@ def _hopeless_when_aligned(known: Known) -> bool:
 
 
 def _raised(inputs: Inputs) -> list[Problem]:
-    """Lambda raised in stages."""
+    """Lambda raised step by step."""
     weights = [inputs.options.p2p_weight * fraction for fraction in _WEIGHTS]
     loose = [_loosened(inputs, p2p_weight=weight) for weight in weights]
     return [Problem(each) for each in (*loose, inputs)]
@@ -321,8 +322,8 @@ WAYS = (
         cases=_wound_up,
         problems=_unwound,
         cost=0.8,
-        # The held ends may add to what a stage costs. With the ends free, the first map came back:
-        # a frog ends at 8.69 instead of 9.45, a deer at 2.40 instead of 2.46.
+        # The held ends may add to what a waypoint costs. With the ends free, the first map came
+        # back: a frog ends at 8.69 instead of 9.45, a deer at 2.40 instead of 2.46.
         limit=2.0,
     ),
     Way(
@@ -352,17 +353,17 @@ WAYS = (
 """In the order in which they are tried."""
 
 
-def _led(known: Known, along: list[Stage]) -> list[Problem]:
-    """The pose's stages, each solved loosely, then the pose itself."""
+def _led(known: Known, along: list[Waypoint]) -> list[Problem]:
+    """The pose's waypoints, each solved loosely, then the pose itself."""
     loose = _loosened(known.inputs, align=True)
-    led = [Problem(replace(loose, pose=stage.pose), stage.time) for stage in along]
+    led = [Problem(replace(loose, pose=waypoint.pose), waypoint.time) for waypoint in along]
     return [*led, Problem(known.inputs)]
 
 
 def _loosened(inputs: Inputs, **changes: Any) -> Inputs:
-    """A problem of a stage, which need not be solved to its minimum."""
+    """A problem of a waypoint, which need not be solved to its minimum."""
     most = inputs.options.max_iterations
-    few = _STAGE_ITERATIONS if most is None else min(_STAGE_ITERATIONS, most)
+    few = _WAYPOINT_ITERATIONS if most is None else min(_WAYPOINT_ITERATIONS, most)
     return with_options(inputs, max_iterations=few, tolerance=_STAGE_TOLERANCE, **changes)
 
 

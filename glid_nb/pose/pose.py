@@ -114,11 +114,11 @@ class Pose(Rebuilt):
         return replace(self, **{name: getattr(self, name)[kept] for name in PER_HANDLE})
 
     @property
-    def turned(self) -> Array:
+    def oriented(self) -> Array:
         """(h,) bool: the handles with a wanted angle or scale."""
         return ~(np.isnan(self.angles) & np.isnan(self.scales))
 
-    def pins_alike(self, other: Pose) -> bool:
+    def same_constraints(self, other: Pose) -> bool:
         """Whether the other pose is the same, except for targets, depths and names."""
         return self.stiffness == other.stiffness and all(
             np.array_equal(getattr(self, name), getattr(other, name), equal_nan=True)

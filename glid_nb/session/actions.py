@@ -323,7 +323,7 @@ def _with_numbers(state: EditState, indices: Iterable[int], **numbers: ArrayLike
 
 
 def _pinned(state: EditState, pose: Pose) -> EditState:
-    if pose.pins_alike(state.pose):
+    if pose.same_constraints(state.pose):
         return state
     state.current.method.check(state.current.energy, pose)
     return state.changed(pose=pose)

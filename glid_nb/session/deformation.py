@@ -289,7 +289,7 @@ class Deformation(Undoable[EditState], AbstractContextManager["Deformation"]):
             self.dragged = ()
             origin = self.history.origin
             if origin is not None and _asks_alike(origin.present.pose, self.pose):
-                self.history = origin.refined(self.state)  # the drag came back to its start
+                self.history = origin.amended(self.state)  # the drag came back to its start
             self.history = self.history.ended()
             self._go_on()
             self.tell("state")
@@ -310,7 +310,7 @@ class Deformation(Undoable[EditState], AbstractContextManager["Deformation"]):
         """Apply `actions.record` as a part of the last step, which was the drag."""
         with self.locked():
             self._check_open()
-            self._go_to(self.history.refined(actions.record(self.state, first, poses, offsets)))
+            self._go_to(self.history.amended(actions.record(self.state, first, poses, offsets)))
 
     # Undo
 
@@ -486,7 +486,7 @@ class Deformation(Undoable[EditState], AbstractContextManager["Deformation"]):
                 current = self.state.current
                 latest = frame.task.pose.asks_the_same(current)
                 new = replace(current, map=frame.map, solution=frame.solution if latest else None)
-                self.history = self.history.refined(self.state.with_current(new))
+                self.history = self.history.amended(self.state.with_current(new))
             self._frame, self._error = frame, None
             self._go_on(at_rest=frame.solution is not None)
             self.tell("frame", "status")
@@ -560,20 +560,20 @@ class Deformation(Undoable[EditState], AbstractContextManager["Deformation"]):
                 continue
             if not worker.overtaken:
                 solution = Solution(result.status, result.message, result.history, (1,))
-                self._refine(pose, replace(pose, map=result.map, solution=solution))
+                self._amend(pose, replace(pose, map=result.map, solution=solution))
 
-    def _refine(self, pose: NamedPose, solved: NamedPose) -> None:
+    def _amend(self, pose: NamedPose, solved: NamedPose) -> None:
         """Replace a pose that is not edited by its solved version. This is no step for undo."""
         with self.locked():
             state = self.state
             if pose is not state.current and not self._closed:
                 poses = tuple(solved if each is pose else each for each in state.poses)
-                self.history = self.history.refined(replace(state, poses=poses))
+                self.history = self.history.amended(replace(state, poses=poses))
                 self.tell("state")
 
 
 def _asks_alike(a: Pose, b: Pose) -> bool:
-    return np.array_equal(a.targets, b.targets) and a.pins_alike(b)
+    return np.array_equal(a.targets, b.targets) and a.same_constraints(b)
 
 
 def _still_there(chosen: Iterable[int], old: Pose, new: Pose) -> tuple[int, ...]:

@@ -110,7 +110,7 @@ class Frame:
     history: tuple[Iteration, ...]  # the latest iterations of this gesture
     starts: tuple[int, ...]  # numbers of the iterations at which the targets had moved
     solution: Solution | None = None  # None during the solve
-    proof: Certificate | None = None  # the solver's proof for ``map``; None for a mesh
+    certificate: Certificate | None = None  # the solver's, for ``map``; None for a mesh
     mesh: MeshMap | None = None  # the map of a method on a mesh, which may fold
 
 

@@ -124,8 +124,8 @@ class LiveSolver:
         history = (*self._before, *more)[-MOST_ITERATIONS:]
         map = now.map
         mesh, certified = (map, task.pose.map) if isinstance(map, MeshMap) else (None, map)
-        proof = now.certificate if isinstance(now, Progress) else now.proof
-        return Frame(task, certified, history, self._starts, None, proof, mesh)
+        proved = now.certificate if isinstance(now, Progress) else now.step_certificate
+        return Frame(task, certified, history, self._starts, None, proved, mesh)
 
 
 def solve_edited(
@@ -143,7 +143,7 @@ def _carried(last: Result, pose: Pose) -> Result:
     """The last result as a start. If all targets shifted equally after a solve that was blocked or
     stopped, the start is shifted too. Otherwise no step may lower the energy."""
     start, before = last.map, last.pose
-    if last.status.ok or isinstance(start, MeshMap) or not pose.pins_alike(before):
+    if last.status.ok or isinstance(start, MeshMap) or not pose.same_constraints(before):
         return last
     moves, off = pose.targets - before.targets, 1e-12 * np.abs(pose.targets).max(initial=0)
     if not moves.any() or not np.allclose(moves, moves[0], rtol=1e-6, atol=off):

@@ -28,12 +28,12 @@ class History(Generic[S]):
     def step(self, state: S, gesture: Any = None) -> Self:
         """Add ``state``; within the same gesture, replace the present. Clears redo."""
         if gesture is not None and gesture == self.gesture:
-            return self.refined(state)
+            return self.amended(state)
         origin = None if gesture is None else self.ended()
         past = (*self.past, self.present)[-MOST_STEPS:]
         return type(self)(state, past, gesture=gesture, origin=origin)
 
-    def refined(self, state: S) -> Self:
+    def amended(self, state: S) -> Self:
         """Replace the present without a step for undo."""
         return replace(self, present=state)
 

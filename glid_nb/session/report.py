@@ -51,7 +51,7 @@ def build_report(result: Result) -> dict[str, Any]:
         "certified": certificate.certified,
         "proof": certificate.reason,
         "E": result.energy,
-        "E_iso": result.energy_iso,
+        "E_iso": result.energy_distortion,
         "E_p2p": result.energy_p2p,
         "E_start": result.start_energy,
         "energy": energy.name,

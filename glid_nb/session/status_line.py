@@ -75,9 +75,9 @@ def _ended(moment: Moment) -> tuple[Level, str]:
 def _bound(frame: Frame | None) -> str:
     if frame is not None and frame.mesh is not None:
         return f" · {uncertified(frame.mesh)}"
-    if frame is None or frame.proof is None:
+    if frame is None or frame.certificate is None:
         return ""
-    return f" · certified σ₂ ≥ {rounded_down(frame.proof.sigma2_lower)}"
+    return f" · certified σ₂ ≥ {rounded_down(frame.certificate.sigma2_lower)}"
 
 
 def _proof(certificate: Certificate) -> str:

@@ -112,17 +112,17 @@ class Discretisation:
         return m._replace(whitened=jax.device_put(whole))
 
     @property
-    def can_refine(self) -> bool:
+    def can_split(self) -> bool:
         """Whether panels may be split (the paper's uniform sampling is fixed)."""
         return self.sampling == "graded"
 
     def splittable(self, refused: np.ndarray) -> np.ndarray:
         """(p,) bool: the ``refused`` panels that can be halved; none beyond `_MOST_PANELS`."""
         chosen = refused[: len(self.panels)] & self.panels.divisible
-        return chosen & (self.can_refine and len(self.panels) + int(chosen.sum()) <= _MOST_PANELS)
+        return chosen & (self.can_split and len(self.panels) + int(chosen.sum()) <= _MOST_PANELS)
 
     @double_precision
-    def refined(self, chosen: np.ndarray) -> Discretisation:
+    def split(self, chosen: np.ndarray) -> Discretisation:
         """The discretisation with the panels of ``chosen`` (p,) bool cut in half."""
         basis, evaluated = self.basis, functools.partial(_evaluated, self.basis, self.certificate)
         panels, rows = split(self.panels, self._rows(), chosen, evaluated)

@@ -29,7 +29,7 @@ class Point(NamedTuple):
 
     coefficients: Coefficients
     samples: Samples
-    energy_iso: Number
+    energy_distortion: Number
     energy_p2p: Number
     largest: Number
     """The largest :func:`reach` since the samples were last computed from the coefficients.
@@ -37,7 +37,7 @@ class Point(NamedTuple):
 
     @property
     def energy(self) -> Number:
-        return self.energy_iso + self.energy_p2p
+        return self.energy_distortion + self.energy_p2p
 
 
 class Line(NamedTuple):
@@ -69,11 +69,11 @@ def moved(problem: SubspaceProblem, point: Point, line: Line, step: Number) -> P
 def _point(
     problem: SubspaceProblem, coefficients: Coefficients, samples: Samples, largest: Number
 ) -> Point:
-    iso = isometric_energy(samples.values, problem.matrices, problem.energy)
+    iso = energy_distortion(samples.values, problem.matrices, problem.energy)
     return Point(coefficients, samples, iso, problem.positional.energy(coefficients), largest)
 
 
-def isometric_energy(
+def energy_distortion(
     values: Float[Array, "4 *t s"], matrices: Matrices, energy: Energy
 ) -> Float[Array, "*t"]:
     """The isometric energy (12) as the sum (31); infinite if a sample is inverted.

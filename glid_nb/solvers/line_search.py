@@ -69,7 +69,7 @@ def search(problem: SubspaceProblem, point: Point, line: Line) -> Search:
         r = residual + t[:, None] * residual_change
         p2p = 0.5 * jnp.sum(positional.weights * r**2, axis=-1)
         there = values[:, None] + t[:, None] * change[:, None]
-        return evaluation.isometric_energy(there, problem.matrices, problem.energy) + p2p
+        return evaluation.energy_distortion(there, problem.matrices, problem.energy) + p2p
 
     def acceptable(steps: Array, energies: Array) -> Array:
         return energies < total - ARMIJO * steps * line.squared_decrement

@@ -71,10 +71,10 @@ class Descent:
         self.method, self.inputs = method, inputs
         self.history: list[Iteration] = []
 
-    def advance(self, may_refine: bool) -> Advance:
+    def advance(self, may_split: bool) -> Advance:
         """Run some iterations, at most those that are left, and extend the history.
 
-        If a panel refuses a step, the outcome is REFUSED with ``may_refine``. Without it, shorter
+        If a panel refuses a step, the outcome is REFUSED with ``may_split``. Without it, shorter
         steps are tried, and the outcome is BLOCKED if none is certified.
         """
         raise NotImplementedError
@@ -100,7 +100,7 @@ class Descent:
 
     def _course(self, entry: Iteration) -> dict[str, Any]:
         course = {"method": self.method, "initial": self.initial, "history": tuple(self.history)}
-        energies = {"energy_iso": entry.energy_iso, "energy_p2p": entry.energy_p2p}
+        energies = {"energy_distortion": entry.energy_distortion, "energy_p2p": entry.energy_p2p}
         return {**course, **energies, "discretisation": self.discretisation}
 
     def progress(self) -> Progress:
@@ -124,7 +124,7 @@ class Descent:
             compile_time=compile_time,
             solve_time=solve_time,
             factor=self.factor if ending.status is Status.CONVERGED else None,
-            proof=made if harmonic else None,
+            step_certificate=made if harmonic else None,
             **self._course(now.entry),
         )
 
@@ -202,7 +202,7 @@ class GeneratedDescent(Descent):
         self._now = now()
         return replace(self._now.entry, time=seconds)
 
-    def advance(self, may_refine: bool) -> Advance:  # noqa: ARG002
+    def advance(self, may_split: bool) -> Advance:  # noqa: ARG002
         if not self.left:
             return Advance()
         try:

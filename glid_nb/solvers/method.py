@@ -118,9 +118,11 @@ class Method:
         other = "choose Newton's method, L-BFGS or another that moves the certified map"
         if pose.stiffness and not (self.stiffens and self.certified):
             raise MethodError(f"{method} knows no stiff areas; clear them, or {other}")
-        if pose.turned.any() and not self.certified:
+        if pose.oriented.any() and not self.certified:
             cannot = f"{method} cannot hold the angle or the scale of handle"
-            raise MethodError(f"{cannot} {int(pose.turned.argmax())}; leave them free, or {other}")
+            raise MethodError(
+                f"{cannot} {int(pose.oriented.argmax())}; leave them free, or {other}"
+            )
 
     def _import(self, package: str) -> None:
         distribution = _DISTRIBUTIONS.get(package, package)
@@ -136,7 +138,7 @@ class Method:
             raise MethodError(f"{broken}; install it again with: {again}") from error
 
     def proved_start(self, inputs: Inputs) -> Certificate | None:
-        """The given start map with its own proof or a new one; None if no start is given.
+        """The certificate of the given start map, its own or a new one; None if no start is given.
 
         Raises a :class:`MethodError` for a map of a mesh, a :class:`StartError` for a map that
         cannot be proved.
@@ -147,9 +149,9 @@ class Method:
         if not isinstance(map, HarmonicMap):
             cannot = f"the method {self.name!r} cannot start from a map of a mesh"
             raise MethodError(f"{cannot}; give a HarmonicMap, or none")
-        proof = start.proof if isinstance(start, Result) else None
-        if proof is None or not (proof.certified and proof.belongs_to(map)):
-            proof = certificate_of(map)
-        if not proof.certified:
-            raise StartError(f"the map to start from is not certified: {proof.reason}")
-        return proof
+        known = start.step_certificate if isinstance(start, Result) else None
+        if known is None or not (known.certified and known.belongs_to(map)):
+            known = certificate_of(map)
+        if not known.certified:
+            raise StartError(f"the map to start from is not certified: {known.reason}")
+        return known

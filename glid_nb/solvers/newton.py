@@ -131,16 +131,16 @@ class NewtonDescent(SubspaceDescent):
             and start.factor is not None
             and start.discretisation is self.discretisation
             and start.energy_measure == self.problem.energy
-            and start.pose.pins_alike(self.inputs.pose)
+            and start.pose.same_constraints(self.inputs.pose)
             and (theirs.p2p_weight, theirs.conformal) == (mine.p2p_weight, mine.conformal)
         )
 
-    def settings(self, may_refine: bool = True) -> step.Settings:
+    def settings(self, may_split: bool = True) -> step.Settings:
         options = self.inputs.options
         return step.Settings(
             tolerance=max(options.tolerance, _ROUGH * self.treatment.rough),
             iterations=min(options.iterations_per_call, self.left, self._most_at_once()),
-            may_refine=may_refine and self.discretisation.can_refine,
+            may_split=may_split and self.discretisation.can_split,
             ridge=self.treatment.ridge,
             reuse=self.treatment.reuse,
             corrections=options.corrections,
@@ -152,13 +152,13 @@ class NewtonDescent(SubspaceDescent):
         rows, nodes = self.problem.matrices.whitened.shape
         return max(_WORK_PER_CALL // (rows**2 * nodes), 1)
 
-    def advance(self, may_refine: bool) -> Advance:
+    def advance(self, may_split: bool) -> Advance:
         """One compiled call. Without iterations left, it still evaluates the energies."""
         watch = Stopwatch()
         if self.factor is None:
             self.factor = np.zeros(self.problem.p2p_hessian.shape)
             self.treatment = replace(self.treatment, reuse=False)
-        settings = self.settings(may_refine)
+        settings = self.settings(may_split)
         state = step.run(self.problem, self.coefficients, self.factor, settings)
         int(state.outcome)  # waits for the device
         self.factor = state.factor
@@ -173,8 +173,8 @@ class NewtonDescent(SubspaceDescent):
         if taken:
             self.prove(state.sigma2_lower, state.turning)
         if self.initial is None:
-            iso, p2p = float(state.start_iso), float(state.start_p2p)
-            self.initial = Iteration(energy_iso=iso, energy_p2p=p2p)
+            iso, p2p = float(state.start_distortion), float(state.start_p2p)
+            self.initial = Iteration(energy_distortion=iso, energy_p2p=p2p)
         for row in np.asarray(state.records)[:taken].tolist():
             known: dict[str, Any] = dict(zip(step.Record._fields, row, strict=True))
             known["hessian_modified"] = bool(known["hessian_modified"])
@@ -198,12 +198,12 @@ class NewtonDescent(SubspaceDescent):
             return None
         if done.outcome == line_search.CONVERGED:
             now = map_from(self.inputs.domain, self.coefficients)
-            goes_on = self.pin(now) or self.put_back()
+            goes_on = self.measure_turns(now) or self.put_back()
             return None if goes_on else Ending(Status.CONVERGED)
         if done.iterations:
             self.treatment = self.treatment.relaxed()
             # Finer quadrature does not help the projected Hessian.
-            coarse = self.discretisation.can_refine and self.inputs.options.hessian != "projected"
+            coarse = self.discretisation.can_split and self.inputs.options.hessian != "projected"
             if coarse and _is_slow(self.history):
                 self._take_full_hessian()
         if done.outcome == line_search.INDEFINITE:
@@ -250,8 +250,8 @@ class NewtonDescent(SubspaceDescent):
         full = self.treatment.full_since is not None
         return self.discretisation.full(self.matrices) if full else self.matrices
 
-    def pin(self, map: HarmonicMap) -> bool:
-        changes = super().pin(map)
+    def measure_turns(self, map: HarmonicMap) -> bool:
+        changes = super().measure_turns(map)
         self.problem = self.problem._replace(p2p_hessian=_p2p_hessian(self.problem))
         return changes
 

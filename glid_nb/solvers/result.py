@@ -69,7 +69,7 @@ class Status(Enum):
 class Energies:
     """The energy of a map."""
 
-    energy_iso: float
+    energy_distortion: float
     """Isometric part."""
     energy_p2p: float
     """Positional part, ``lambda / 2`` times the sum of squared distances."""
@@ -77,7 +77,7 @@ class Energies:
     @property
     def energy(self) -> float:
         """Total energy, (20)."""
-        return self.energy_iso + self.energy_p2p
+        return self.energy_distortion + self.energy_p2p
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -202,8 +202,8 @@ class Result(Course):
     """All attempts, the first one included; empty if the solve tried no other."""
     refinements: tuple[Refinement, ...] = ()
     """All bases of :func:`glid_nb.refine`, the first one included; empty without it."""
-    proof: Certificate | None = field(default=None, repr=False)
-    """The solver's proof for a harmonic map; always certified."""
+    step_certificate: Certificate | None = field(default=None, repr=False)
+    """What the solver proved of its last step; always certified. None for a map of a mesh."""
 
     def __getstate__(self) -> dict[str, Any]:
         """Pickle NumPy arrays: outside the package, JAX arrays would load in single precision."""
@@ -265,13 +265,14 @@ class Result(Course):
     def certificate(self) -> Certificate | None:
         """The proof for a harmonic map, with tight bounds from its coefficients alone.
 
-        Computed on first use. If this computation proves nothing, :attr:`proof` still holds.
+        Computed on first use. If this computation proves nothing, :attr:`step_certificate` still
+        holds.
         """
-        disc, proof = self.discretisation, self.proof
+        disc, known = self.discretisation, self.step_certificate
         if isinstance(self.map, MeshMap):
             return None
-        own = proof is not None and proof.belongs_to(self.map)  # the map may have been replaced
+        own = known is not None and known.belongs_to(self.map)  # the map may have been replaced
         if disc is None:
-            return proof if own else certify(self.map)
-        tight = certify(self.map, disc.certificate, disc.panels, refine=disc.can_refine)
+            return known if own else certify(self.map)
+        tight = certify(self.map, disc.certificate, disc.panels, split=disc.can_split)
         return certificate_of(self.map) if own and not tight.certified else tight

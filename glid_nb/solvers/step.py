@@ -30,7 +30,7 @@ class Settings(NamedTuple):
 
     tolerance: Float[AnyArray, ""] | float
     iterations: Int[AnyArray, ""] | int
-    may_refine: Bool[AnyArray, ""] | bool  # whether to return when a panel refuses a step
+    may_split: Bool[AnyArray, ""] | bool  # whether to return when a panel refuses a step
     ridge: Float[AnyArray, ""] | float  # added to the diagonal, relative to its mean
     reuse: Bool[AnyArray, ""] | bool  # whether to begin with the given factor
     corrections: Int[AnyArray, ""] | int  # most corrections of one iteration
@@ -39,14 +39,15 @@ class Settings(NamedTuple):
 
 
 Record = namedtuple(
-    "Record", "energy_iso energy_p2p step decrement sigma2_lower hessian_modified corrections"
+    "Record",
+    "energy_distortion energy_p2p step decrement sigma2_lower hessian_modified corrections",
 )
 """One iteration after its step, as a row of numbers with the names of ``Iteration``."""
 
 
 class State(NamedTuple):
     point: Point  # certified after the first step
-    start_iso: Number  # energies before the first iteration of this call
+    start_distortion: Number  # energies before the first iteration of this call
     start_p2p: Number
     iteration: Int[Array, ""]
     outcome: Int[Array, ""]
@@ -79,7 +80,7 @@ def iterations(
     real = problem.matrices.real
     start = State(
         point=point,
-        start_iso=point.energy_iso,
+        start_distortion=point.energy_distortion,
         start_p2p=point.energy_p2p,
         iteration=jnp.array(0),
         outcome=jnp.array(RUNNING),
@@ -134,7 +135,7 @@ def _tried(problem: SubspaceProblem, settings: Settings, state: State) -> _Trial
     minimal = line.squared_decrement / 2 <= settings.tolerance * scale
     found = line_search.search(problem, point, line)  # lines 14 to 17 and 21 to 23
     found = found._replace(acceptable=found.acceptable & definite & ~minimal)
-    once = settings.may_refine | state.corrects  # a correction does not try shorter steps
+    once = settings.may_split | state.corrects  # a correction does not try shorter steps
     searched = line_search.backtrack(problem, point, line, found, once)  # lines 18 to 20
     outcome = jnp.where(minimal, CONVERGED, searched.outcome)
     outcome = jnp.where(definite, outcome, INDEFINITE)
@@ -165,7 +166,7 @@ def _after_first_step(
     there, stepped, i = trial.point, trial.outcome == RUNNING, state.iteration
     gain = state.point.energy - there.energy
     record = Record(
-        energy_iso=there.energy_iso,
+        energy_distortion=there.energy_distortion,
         energy_p2p=there.energy_p2p,
         step=trial.step,
         decrement=trial.decrement,
@@ -175,7 +176,7 @@ def _after_first_step(
     )
     return State(
         point=there,
-        start_iso=state.start_iso,
+        start_distortion=state.start_distortion,
         start_p2p=state.start_p2p,
         iteration=i + stepped,
         outcome=trial.outcome,
@@ -200,7 +201,7 @@ def _after_correction(
     known = Record(*state.records[i])
     ends = trial.minimal & (known.corrections > 0)
     record = known._replace(
-        energy_iso=there.energy_iso,
+        energy_distortion=there.energy_distortion,
         energy_p2p=there.energy_p2p,
         sigma2_lower=_least(problem, trial.sigma2_lower),
         corrections=known.corrections + 1,

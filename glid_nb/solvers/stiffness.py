@@ -35,7 +35,7 @@ def stiff_matrices(disc: Discretisation, stiffness: Stiffness) -> Matrices:
     p, count = len(m.real), len(panels)
     added = np.zeros(len(m.weights))
     added[:count] = _added(stiffness, panels.start)
-    if disc.can_refine:
+    if disc.can_split:
         added[p : p + count] = _added(stiffness, panels.middle)
     weights, index = np.asarray(m.weights), np.asarray(m.hessian_index)
     inner, nodes = _inside(disc.domain, stiffness)

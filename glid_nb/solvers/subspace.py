@@ -20,9 +20,9 @@ from glid_nb.solvers.problem import SubspaceProblem, canonical, map_from, unknow
 from glid_nb.solvers.result import Iteration, Result, Status
 from glid_nb.solvers.stiffness import stiff_matrices
 
-# MOST_PINS: after this many measurements of angles and scales, their directions are fixed.
+# MOST_MEASUREMENTS: after this many measurements of angles and scales, their directions are fixed.
 # KEPT: the damping that fixes them.
-MOST_PINS, KEPT = 16, 1e9
+MOST_MEASUREMENTS, KEPT = 16, 1e9
 # _FAR: a measurement has overshot if it differs from the last one by more than this, in radians.
 # _DAMPING: then the damping is multiplied by this.
 _FAR, _DAMPING = 0.2, 3.0
@@ -37,7 +37,7 @@ class SubspaceDescent(Descent):
     proved: tuple[Panels, Array, Array] | None = None
     """The proof of the last step: panels, bounds on sigma_2 and turnings."""
     just_split = 0  # panels split since the last iteration
-    _pins, _damping = 1, 1.0
+    _measurements, _damping = 1, 1.0
 
     def __init__(self, method: Method, inputs: Inputs, reduced: bool) -> None:
         super().__init__(method, inputs)
@@ -75,25 +75,25 @@ class SubspaceDescent(Descent):
         disc, stiffness = self.discretisation, self.inputs.pose.stiffness
         return stiff_matrices(disc, stiffness) if stiffness else disc.matrices
 
-    def pin(self, map: HarmonicMap) -> bool:
+    def measure_turns(self, map: HarmonicMap) -> bool:
         """Measure angles and scales from this map. Returns whether this changes the objective."""
         inputs, before = self.inputs, self.problem.positional
-        if not inputs.pose.turned.any() or self._damping == KEPT:
+        if not inputs.pose.oriented.any() or self._damping == KEPT:
             return False
-        self._damping = KEPT if self._pins == MOST_PINS else self._damping
+        self._damping = KEPT if self._measurements == MOST_MEASUREMENTS else self._damping
         weight, damping = inputs.options.p2p_weight, self._damping
         now = positional_energy(map, inputs.pose, weight, damping)
         apart = measured_apart(before, now)
         self._damping *= _DAMPING if apart > _FAR and damping != KEPT else 1
-        self._pins += 1
+        self._measurements += 1
         self.problem = self.problem._replace(positional=now)
         return apart > 0
 
     def reached(self) -> Reached:
         point, domain = self.evaluated, self.inputs.domain
-        iso, p2p = float(point.energy_iso), float(point.energy_p2p)
+        iso, p2p = float(point.energy_distortion), float(point.energy_p2p)
         entry = Iteration(
-            energy_iso=iso,
+            energy_distortion=iso,
             energy_p2p=p2p,
             sigma2_lower=None if self.sigma2_lower is None else float(self.sigma2_lower.min()),
             panels=len(self.discretisation.panels),
@@ -135,7 +135,7 @@ class SubspaceDescent(Descent):
         wanted = self.discretisation.splittable(refused)
         count = int(wanted.sum())
         if count:
-            self.discretisation = self.discretisation.refined(wanted)
+            self.discretisation = self.discretisation.split(wanted)
             self.problem = self.problem._replace(matrices=self.matrices)
             self.just_split += count
         return count

@@ -259,8 +259,8 @@ class DeformCanvas(ClosingWidget, ipywidgets.HBox):
         if not self.show_panels:
             self._panels = None
         elif due or frame is None or self._panels is None:
-            proof = None if frame is None else frame.proof
-            self._panels = (proof or certificate_of(moment.map)).panels
+            known = None if frame is None else frame.certificate
+            self._panels = (known or certificate_of(moment.map)).panels
         if not len(pose):
             self._hidden = ()
         elif due or len(pose) != len(self._hidden):

@@ -60,7 +60,7 @@ class LivePlots:
 
         With a map, its sampled sigma_2 is drawn over the certified bound. ``starts`` are the first
         iterations after targets moved. ``solving`` says whether the last solve is still running.
-        ``minimum`` is the least possible isometric energy.
+        ``minimum`` is the least possible energy.
         """
         changed = [
             self._energy.update(history, starts=starts, solving=solving, minimum=minimum),

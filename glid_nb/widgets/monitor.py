@@ -163,13 +163,13 @@ class SolverMonitor(ClosingWidget, ipywidgets.VBox):
         latest = frame if frame is not None else solution
         history, starts = (latest.history, latest.starts) if latest is not None else ((), ())
         if moment.comparison is not None:
-            proof, map_ = None, None
-        elif moment.busy and frame and frame.proof is not None:
-            proof, map_ = frame.proof, None
+            certificate, map_ = None, None
+        elif moment.busy and frame and frame.certificate is not None:
+            certificate, map_ = frame.certificate, None
         else:
-            proof, map_ = certificate_of(moment.map), moment.map
+            certificate, map_ = certificate_of(moment.map), moment.map
         minimum = isometry_energy(moment.state.current.energy)
-        picture = self._plots.draw(history, proof, map_, starts, moment.busy, minimum)
+        picture = self._plots.draw(history, certificate, map_, starts, moment.busy, minimum)
         with self.deformation.locked(), self.image.hold_sync():  # format and value in one message
             if not self._closed:
                 self.image.format, self.image.value = "png", picture

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from glid_nb._runtime import double_precision
-from glid_nb.certificate import BDHM, EndValues, Lipschitz, certify
+from glid_nb.certificate import BDHMLipschitz, EndValues, Lipschitz, certify
 from glid_nb.certificate.paper import variation
 from glid_nb.geometry import uniform_panels
 from glid_nb.harmonic import HarmonicMap, basis_of
@@ -63,14 +63,14 @@ def lipschitz_constants(map_: HarmonicMap, segments: int) -> tuple[Array, Array]
     ends = EndValues(*map(jnp.asarray, (fz, fz[panels.next], *slopes)))
     remainder = Lipschitz.on(start, end, sing).remainder(phi, sing)[0]
     ours = np.asarray(variation(ends, remainder)) / panels.length
-    theirs = BDHM.on(start, end, sing).constants(phi, sing)[0]
+    theirs = BDHMLipschitz.on(start, end, sing).constants(phi, sing)[0]
     return ours, np.asarray(theirs)
 
 
 def refused_segments(map_: HarmonicMap, constants: Any) -> int:
     """On how many of the solver's fixed segments a map is not proved locally injective."""
     panels = uniform_panels(map_.domain.cage, UNIFORM_SAMPLES)
-    proof = certify(map_, constants, panels, refine=False)
+    proof = certify(map_, constants, panels, split=False)
     return int((~(proof.panels.sigma2_lower > 0)).sum())
 
 

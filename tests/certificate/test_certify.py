@@ -16,7 +16,7 @@ from hypothesis import strategies as st
 
 from glid_nb._errors import InputError
 from glid_nb.certificate import Certificate, certify, global_injectivity, rounding
-from glid_nb.certificate.certify import CertificateError, Known, _kernel, proof_text, refined
+from glid_nb.certificate.certify import CertificateError, Known, _kernel, proof_text, split_panels
 from glid_nb.geometry import (
     Cage,
     Domain,
@@ -260,7 +260,7 @@ def test_without_refinement_the_given_panels_are_all_there_is(kind: Any) -> None
     d = domain("ring")
     panels = uniform_panels(d.cage, 1000)
     map, truth = measured("ring", 0.02, 3)
-    c = certify(map, kind, panels, refine=False)
+    c = certify(map, kind, panels, split=False)
     assert len(c.panels) == len(panels) >= 1000
     np.testing.assert_array_equal(c.panels.start, panels.start)
     check_sound(c, truth)
@@ -268,11 +268,11 @@ def test_without_refinement_the_given_panels_are_all_there_is(kind: Any) -> None
     # Few and long panels prove nothing, and say so.
     map, truth = measured("ring", 0.4, 3)
     coarse = uniform_panels(d.cage, 10)
-    c = certify(map, kind, coarse, refine=False)
+    c = certify(map, kind, coarse, split=False)
     assert len(c.panels) == len(coarse) < 25
     assert not c.certified
     assert re.search(r"Undecided: \d+ of \d+ panels could not be proved injective", c.reason)
-    finer = certify(map, kind, coarse, refine=True)
+    finer = certify(map, kind, coarse, split=True)
     check_sound(finer, truth)
     assert finer.certified
     # However loose the bounds may be, panels are split until there is a proof.
@@ -439,7 +439,7 @@ def test_what_was_proved_is_not_lost_to_finer_panels() -> None:
         bounds = fresh.bounds._replace(sigma2_lower=-np.ones(len(start)))
         return fresh._replace(bounds=bounds)
 
-    kept, still = refined(panels, known, worse, 1e-6)
+    kept, still = split_panels(panels, known, worse, 1e-6)
     assert kept is panels
     assert still.proved
 

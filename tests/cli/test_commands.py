@@ -106,7 +106,7 @@ def test_solve_writes_a_map_and_a_report(
     assert {
         "iteration",
         "energy",
-        "energy_iso",
+        "energy_distortion",
         "energy_p2p",
         "step",
         "decrement",

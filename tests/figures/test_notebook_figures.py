@@ -177,7 +177,8 @@ def test_level_sets_and_convergence_are_labelled() -> None:
     labels = set(texts(figures.energy_levels("iso", AMIPS())).split("\n"))
     assert {"Symmetric Dirichlet", "2.2", "4", "20"} <= labels
     steps = [
-        Iteration(iteration=i, energy_iso=2 + 0.1**i, energy_p2p=0.0, time=0.1) for i in range(4)
+        Iteration(iteration=i, energy_distortion=2 + 0.1**i, energy_p2p=0.0, time=0.1)
+        for i in range(4)
     ]
     solved = solve(domain("ring"), POSE, options=Options(max_iterations=0, restarts=0))
     result = replace(solved, initial=steps[0], history=tuple(steps[1:]))

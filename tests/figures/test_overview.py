@@ -35,7 +35,7 @@ pytestmark = pytest.mark.slow  # most of the time is compiling
 @dataclass(frozen=True)
 class Record:
     iteration: int
-    energy_iso: float
+    energy_distortion: float
     energy_p2p: float
     step: float = 1.0
     decrement: float = 1.0
@@ -43,7 +43,7 @@ class Record:
 
     @property
     def energy(self) -> float:
-        return self.energy_iso + self.energy_p2p
+        return self.energy_distortion + self.energy_p2p
 
 
 HISTORY = tuple(
@@ -225,7 +225,7 @@ def test_the_energy_is_drawn_above_its_minimum_on_a_logarithmic_axis():
     p2p, iso, total, _, text = plot.artists
     np.testing.assert_allclose(p2p.get_ydata(), [r.energy_p2p for r in HISTORY])  # type: ignore[attr-defined]
     np.testing.assert_allclose(total.get_ydata(), [r.energy - 2 for r in HISTORY])  # type: ignore[attr-defined]
-    np.testing.assert_allclose(iso.get_ydata(), [r.energy_iso - 2 for r in HISTORY])  # type: ignore[attr-defined]
+    np.testing.assert_allclose(iso.get_ydata(), [r.energy_distortion - 2 for r in HISTORY])  # type: ignore[attr-defined]
     assert text.get_text() == "E = 2 + 0.2"  # type: ignore[attr-defined]
     plot.update(HISTORY)
     assert text.get_text() == "E = 2.2"  # type: ignore[attr-defined]

@@ -116,7 +116,7 @@ def test_it_goes_on_from_a_map_within_its_bounds() -> None:
     # A map beyond the bounds gives way to the identity.
     beyond = {**settings, "sigma1": 1.2}
     anew = run_method("bdhm", *problem("ring"), start=tight.map, **beyond)
-    assert anew.energy_iso == pytest.approx(0.0, abs=1e-12)
+    assert anew.energy_distortion == pytest.approx(0.0, abs=1e-12)
 
 
 @pytest.mark.parametrize(("name", "bounds"), [("ring", TIGHT), ("bent", LOOSE), ("bent", TIGHT)])

@@ -45,7 +45,7 @@ def check(result: Result, iterations: int) -> None:
     assert result.iterations == iterations
     assert [step.iteration for step in result.history] == list(range(1, iterations + 1))
     assert np.isfinite([step.energy for step in (result.initial, *result.history)]).all()
-    assert result.energy == pytest.approx(result.energy_iso + result.energy_p2p)
+    assert result.energy == pytest.approx(result.energy_distortion + result.energy_p2p)
     assert np.isfinite(points_of(result.map)).all()
     miss = result.map(result.pose.handles) - result.pose.targets
     if "p2p_weight" in method.options:

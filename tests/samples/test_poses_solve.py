@@ -55,7 +55,7 @@ def test_the_poses_are_reached_certified_and_in_the_frame(name: str, tmp_path: P
         assert result.status is Status.CONVERGED
         assert result.certificate.certified
         assert result.certificate.sigma2_lower > LEAST_SIGMA2[kind]
-        assert result.energy_iso < MOST_ENERGY[kind]
+        assert result.energy_distortion < MOST_ENERGY[kind]
         assert np.abs(result.map(pose.handles) - pose.targets).max() < 1e-4
         shape = boundary_image(result.map)
         assert shape.is_valid, f"{kind}: limbs overlap"

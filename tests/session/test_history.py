@@ -24,7 +24,7 @@ def test_a_step_forgets_what_was_undone() -> None:
 
 
 def test_many_small_steps_count_as_one() -> None:
-    history = History("a").step("a1", gesture=7).refined("a2").step("b", gesture=7)
+    history = History("a").step("a1", gesture=7).amended("a2").step("b", gesture=7)
     assert history.past == ("a",)
     assert history.undone().present == "a"
     for other in (history.step("c", gesture=8), history.ended().step("c", gesture=7)):

@@ -120,7 +120,7 @@ def test_depths_and_angles_are_written(model: TracingModel, picture: str) -> Non
     assert "    depths=[-2.0],\n" in python_code(document, picture)
     scope = run(python_code(document, picture, exact=True))
     assert scope["pose"].depths.tolist() == [-2.0]
-    assert scope["pose"].pins_alike(pose)
+    assert scope["pose"].same_constraints(pose)
     other = replace(document.poses[0], name="other", pose=Pose([[point.x, point.y]], [[1.0, 2.0]]))
     both = replace(document, poses=(document.poses[0], other))
     assert run(python_code(both, picture, exact=True))["pose"].depths.tolist() == [-2.0]

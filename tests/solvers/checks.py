@@ -31,7 +31,7 @@ def measured(map: HarmonicMap, count: int = 200_000) -> Measured:
 
 def check_certified(result: Result, count: int = 50_000) -> None:
     """The energies are finite, the map is proved injective, and the proof holds densely."""
-    for value in (result.energy, result.energy_iso, result.energy_p2p):
+    for value in (result.energy, result.energy_distortion, result.energy_p2p):
         assert np.isfinite(value)
     certificate = result.certificate
     assert certificate.certified, certificate.reason

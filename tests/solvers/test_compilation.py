@@ -45,7 +45,7 @@ def test_panels_split_within_a_bucket_compile_nothing(first: Result) -> None:
         disc = first.discretisation
         chosen = np.zeros(len(disc.panels), dtype=bool)
         chosen[place : place + 2] = True
-        return replace(first, discretisation=disc.refined(chosen), factor=None)
+        return replace(first, discretisation=disc.split(chosen), factor=None)
 
     split(0)  # what cuts panels is compiled once
     assert compiled_by(lambda: solve(domain("ell"), bent(0.13), None, OPTIONS, split(4))) == 0
@@ -57,6 +57,6 @@ def test_splitting_any_panels_makes_few_sizes() -> None:
     for _ in range(8):
         disc = discretise(domain("ell"))
         while len(disc.panels) < 700:
-            disc = disc.refined(rng.random(len(disc.panels)) < 0.1)
+            disc = disc.split(rng.random(len(disc.panels)) < 0.1)
             sizes.add((len(disc.matrices.real), len(disc.matrices.hessian_index)))
     assert len(sizes) <= 6, sorted(sizes)

@@ -106,5 +106,5 @@ def test_poses_read_back() -> None:
     assert data["angles"] == [None, 1.0, None, None]
     assert "scales" not in data
     again = Pose.from_dict(data)
-    assert again.pins_alike(pose)
+    assert again.same_constraints(pose)
     assert pose.only([1]).angles.tolist() == [1.0]

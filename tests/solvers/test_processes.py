@@ -80,9 +80,9 @@ def test_a_result_is_the_same_bit_for_bit(kind: str, copied: Callable[[Any], Any
         assert isinstance(other.map, HarmonicMap)
         assert other.map.phi.tobytes() == result.map.phi.tobytes()
         assert other.map.psi.tobytes() == result.map.psi.tobytes()
-        assert other.proof is not None
-        assert other.proof.certified
-        assert other.proof.belongs_to(other.map)
+        assert other.step_certificate is not None
+        assert other.step_certificate.certified
+        assert other.step_certificate.belongs_to(other.map)
         assert certificate_of(other.map).certified
         assert other.certificate is not None
         assert other.certificate.certified
@@ -144,7 +144,7 @@ def test_results_of_a_pool_of_processes_are_those_of_this_one() -> None:
     here = solve(bar(), OTHER)
     assert second.map.phi.tobytes() == here.map.phi.tobytes()
     assert again.status is Status.CONVERGED
-    assert again.proof.certified
-    assert solve(bar(), POSE, start=again).proof is not None
+    assert again.step_certificate.certified
+    assert solve(bar(), POSE, start=again).step_certificate is not None
     # Every result comes with a domain of its own; all are equal.
     assert Motion([first, second], between="linear").certificate.certified

@@ -33,7 +33,7 @@ POSE = Pose([(2.2, 0.5), (-2.2, 0.5), (0.96, -2.2)], [(2.9, 1.5), (-2.2, 0.9), (
 
 def check_carries(made: Result | Progress) -> None:
     """It carries the proof of its very map, and anyone who computes anew finds it certified."""
-    proof = made.proof if isinstance(made, Result) else made.certificate
+    proof = made.step_certificate if isinstance(made, Result) else made.certificate
     assert proof is not None
     assert proof.certified
     assert proof.belongs_to(made.map)
@@ -63,10 +63,10 @@ def test_every_map_of_a_solve_carries_its_proof(method: str) -> None:
 def test_the_proof_of_a_step_is_what_the_compiled_call_has_proved() -> None:
     """Bounds, panels and windings, not made again."""
     result = solve(domain("ring"), POSE, options=Options(restarts=0))
-    assert result.proof.reason.startswith("Proved locally injective by the solver on")
-    assert len(result.proof.panels) <= (result.n_panels or 0)
-    assert result.proof.sigma2_lower == result.history[-1].sigma2_lower
-    assert result.proof.windings == (0, 0)
+    assert result.step_certificate.reason.startswith("Proved locally injective by the solver on")
+    assert len(result.step_certificate.panels) <= (result.n_panels or 0)
+    assert result.step_certificate.sigma2_lower == result.history[-1].sigma2_lower
+    assert result.step_certificate.windings == (0, 0)
 
 
 def test_a_batch_carries_proofs() -> None:
@@ -91,7 +91,7 @@ def test_a_result_whose_map_was_replaced_is_proved_again() -> None:
         with pytest.raises(StartError, match="not certified"):
             solve(ring, POSE, start=wrong, options=Options(max_iterations=limit))
     assert not wrong.certificate.certified
-    forged = replace(wrong, proof=replace(result.proof, map=folded))
+    forged = replace(wrong, step_certificate=replace(result.step_certificate, map=folded))
     with pytest.raises(StartError, match="not certified"):
         solve(ring, POSE, start=forged, options=Options(max_iterations=0))
     assert not forged.certificate.certified
@@ -128,7 +128,7 @@ def test_what_a_solver_proves_can_be_kept_and_checked(tmp_path: Path) -> None:
     check_carries(result)
     assert np.isfinite([result.certificate.sigma1_upper, certify(result.map).sigma1_upper]).all()
     assert result.certificate.k_upper < 1
-    result.proof.save(tmp_path / "proof.json")
+    result.step_certificate.save(tmp_path / "proof.json")
     for bound in ("sigma1_upper", "k_upper"):
         assert np.isfinite(float.fromhex(read_json(tmp_path / "proof.json")[bound]))
     poses = (NamedPose("slit", pose, result.energy_measure, Options(), result.map),)
@@ -164,9 +164,9 @@ def test_a_nearly_folded_start_never_converges_at_infinity(gap: float) -> None:
     for energy in (SymmetricDirichlet(), by_name("exp", 1.0)):
         options = Options(restarts=0, max_iterations=5)
         result = solve(bar, pose, energy, options, start)
-        assert result.proof.certified
+        assert result.step_certificate.certified
         assert result.certificate.certified
-        assert result.proof.belongs_to(result.map)
+        assert result.step_certificate.belongs_to(result.map)
         assert np.isfinite(result.energy) or not result.status.ok
         if result.status is Status.UNPROVED:
             np.testing.assert_array_equal(result.map.phi, start.phi)

@@ -66,8 +66,8 @@ def test_converges_to_a_certified_map_on_its_targets(solved: Callable[[], Result
     check_certified(result)
     reached = result.map(result.pose.handles)
     np.testing.assert_allclose(reached, result.pose.targets, atol=1e-4)
-    assert result.energy == pytest.approx(result.energy_iso + result.energy_p2p)
-    assert 2 < result.energy_iso < 4
+    assert result.energy == pytest.approx(result.energy_distortion + result.energy_p2p)
+    assert 2 < result.energy_distortion < 4
 
 
 def test_energy_of_the_history_decreases() -> None:
@@ -132,7 +132,7 @@ def test_conformal_maps_have_no_antiholomorphic_part() -> None:
     result = ring(Options(conformal=True))
     assert np.array_equal(result.map.psi, np.zeros_like(result.map.psi))
     assert result.map.k([[2.0, 0.3]])[0] == 0
-    assert result.energy_iso > ring().energy_iso
+    assert result.energy_distortion > ring().energy_distortion
     check_certified(result)
 
 
@@ -416,7 +416,7 @@ def test_steps_that_creep_to_a_fold_end_a_solve(step: float, gain: float, ends: 
     """Each would be proved on twice as many panels as the one before."""
     energies = 1e6 - gain * np.arange(5)
     entries = [
-        Iteration(iteration=i, energy_iso=float(e), energy_p2p=0.0, time=0.0, step=step)
+        Iteration(iteration=i, energy_distortion=float(e), energy_p2p=0.0, time=0.0, step=step)
         for i, e in enumerate(energies)
     ]
     assert newton._has_stalled(entries) is ends

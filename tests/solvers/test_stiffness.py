@@ -105,7 +105,7 @@ def test_a_pose_keeps_its_stiff_areas() -> None:
     assert pose.only([1]).stiffness == pose.with_targets(pose.handles).stiffness == pose.stiffness
     assert Pose.from_dict(pose.to_dict()).stiffness == pose.stiffness
     assert "stiffness" not in posed("ell").to_dict()
-    assert not pose.pins_alike(posed("ell"))
+    assert not pose.same_constraints(posed("ell"))
 
 
 def test_nothing_painted_changes_nothing() -> None:
@@ -135,7 +135,7 @@ def test_weights_nodes_and_energy_of_an_isometry() -> None:
     share = area.area / domain("ell").cage.area * (math.sqrt(FULL_WEIGHT) - 1)
     assert np.asarray(m.weights)[-NODES:].sum() == pytest.approx(share)
     y = real_coefficients(random_map("ell", 0.0, 0))
-    energy = evaluation.isometric_energy(evaluation.products(m, y).values, m, SymmetricDirichlet())
+    energy = evaluation.energy_distortion(evaluation.products(m, y).values, m, SymmetricDirichlet())
     assert float(energy) == pytest.approx(2, abs=1e-12)
 
 
@@ -151,7 +151,7 @@ def test_derivatives_are_those_of_automatic_differentiation() -> None:
     @jax.jit
     def both(y: Any) -> tuple[Any, ...]:
         def value(y: Any) -> Any:
-            return evaluation.isometric_energy(evaluation.products(m, y).values, m, energy)
+            return evaluation.energy_distortion(evaluation.products(m, y).values, m, energy)
 
         nodes = evaluation.products(m, y).values
         squares = evaluation.squares(nodes)

@@ -25,7 +25,12 @@ MESH = triangulate(problem("ell")[0].cage, 20)
 
 def step(iteration: int, flips: int = 0, seconds: float = 1.0) -> Iteration:
     return Iteration(
-        iteration=iteration, energy_iso=1.0, energy_p2p=0.0, step=1.0, time=seconds, flips=flips
+        iteration=iteration,
+        energy_distortion=1.0,
+        energy_p2p=0.0,
+        step=1.0,
+        time=seconds,
+        flips=flips,
     )
 
 
@@ -34,7 +39,7 @@ def progress(iteration: int, shift: float) -> Progress:
         method=AQP(),
         history=tuple(step(i) for i in range(1, iteration + 1)),
         initial=step(0),
-        energy_iso=1.0,
+        energy_distortion=1.0,
         energy_p2p=0.0,
         make=lambda: MeshMap(MESH, MESH.vertices + np.array([shift, 0])),
     )

@@ -199,7 +199,7 @@ def test_the_ring_turns_and_scales_in_one_step_each(hand: Hand) -> None:
     model.undo()
     assert np.isnan(model.pose.scales).all()
     model.undo()
-    assert not model.pose.turned.any()
+    assert not model.pose.oriented.any()
     model.undo()
     assert not len(model.pose)
 
@@ -219,7 +219,7 @@ def test_keys_turn_scale_and_set_free(hand: Hand) -> None:
     np.testing.assert_allclose(hand.model.pose.angles, [np.radians(10)])
     np.testing.assert_allclose(hand.model.pose.scales, [1])
     hand.key("x")
-    assert not hand.model.pose.turned.any()
+    assert not hand.model.pose.oriented.any()
     hand.key("Escape")
     before = hand.model.state
     assert hand.key("<") == hand.key("+") == hand.key("x") == ""

@@ -194,7 +194,7 @@ def test_no_text_lies_over_data_or_other_text(n_holes: int, width: int):
         SimpleNamespace(
             iteration=i,
             energy=2.1,
-            energy_iso=2.0,
+            energy_distortion=2.0,
             energy_p2p=0.1,
             step=1.0,
             decrement=10.0 ** -(i % 12),
@@ -265,7 +265,7 @@ def test_a_single_step_says_what_it_did(model: Deformation) -> None:
 
 
 def test_a_step_in_words() -> None:
-    step = Iteration(iteration=7, energy_iso=2.125, energy_p2p=0.0, step=0.5, panels=212)
+    step = Iteration(iteration=7, energy_distortion=2.125, energy_p2p=0.0, step=0.5, panels=212)
     step = replace(step, hessian_modified=True, panels_split=3)
     words = "Iteration 7 · Hessian projected · step length 0.5 · 3 of 212 panels split · E = 2.125"
     assert step_in_words(step) == words

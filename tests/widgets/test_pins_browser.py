@@ -71,7 +71,7 @@ def test_a_ring_turns_and_scales_and_the_list_takes_numbers(open_notebook: OpenN
     hand.pad.focus()
     for _ in range(4):
         page.keyboard.press("Control+z")
-    book.wait_for("not model.pose.turned.any() and len(model.pose) == 2")
+    book.wait_for("not model.pose.oriented.any() and len(model.pose) == 2")
 
     # A box selects, a pin out of sight is brought back, a pose goes through the clipboard.
     keys = page.locator(".glid-pane .glid-help")

@@ -89,7 +89,7 @@ def test_a_cut_out(
     hand.drag([[x + z.real, y + z.imag] for z in turn])
     page.get_by_title("The selected pin's name").fill("head")
     hand.pad.focus()
-    book.wait_for("editor.pose.names[0] == 'head' and editor.pose.turned[0]")
+    book.wait_for("editor.pose.names[0] == 'head' and editor.pose.oriented[0]")
     hand.settle()
     shot("head-turned-and-named")
     page.keyboard.press("b")

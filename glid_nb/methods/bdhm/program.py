@@ -175,7 +175,7 @@ class ActiveSet:
         beyond = self._peaks(used) & (used > 1 - (1 - _SLACK) * MARGIN) & ~self.chosen
         return replace(self, chosen=self.chosen | beyond) if beyond.any() else self
 
-    def refined(self, certificate: Certificate) -> Self:
+    def widened(self, certificate: Certificate) -> Self:
         """Add samples on panels that fail the proof. Only local extremes among them count."""
         panels = certificate.panels
         used = self.bounds.used(panels.k_upper, panels.sigma1_upper, panels.sigma2_lower)

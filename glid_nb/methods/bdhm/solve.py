@@ -21,7 +21,7 @@ from glid_nb.methods.bdhm import program
 from glid_nb.solvers import Inputs, Iteration, Method, MethodError, Result, Status
 from glid_nb.solvers.loop import Ending, GeneratedDescent, Reached, Steps, follow
 from glid_nb.solvers.positional import measured_apart
-from glid_nb.solvers.subspace import KEPT, MOST_PINS
+from glid_nb.solvers.subspace import KEPT, MOST_MEASUREMENTS
 
 _PROOF = 0.4  # the share of the margin that the proof may use
 # Most programs of one step; each has more samples than the one before.
@@ -88,7 +88,7 @@ class _Descent(GeneratedDescent):
     def _measure(self, map: HarmonicMap) -> None:
         weight = self.inputs.options.p2p_weight
         with single_blas_thread():
-            damping = KEPT if self.measured == MOST_PINS else 1.0
+            damping = KEPT if self.measured == MOST_MEASUREMENTS else 1.0
             self.problem = program.BoundedProblem(map, self.inputs.pose, weight, damping)
         samples = self.problem.samples
         none = np.zeros((3, len(samples.a)), dtype=bool)
@@ -97,7 +97,7 @@ class _Descent(GeneratedDescent):
 
     def _measured_anew(self, now: Iterate) -> Iterate | None:
         """The same map with angles and scales measured from it; None if that changes nothing."""
-        if self.measured > MOST_PINS or not self.inputs.pose.turned.any():
+        if self.measured > MOST_MEASUREMENTS or not self.inputs.pose.oriented.any():
             return None
         before, map = self.problem.positional, now.certificate.map
         self._measure(map)
@@ -134,7 +134,7 @@ class _Descent(GeneratedDescent):
     def _at(self, now: Iterate) -> Reached:
         iso, p2p = self.problem.energies(now.v)
         sigma2 = now.certificate.sigma2_lower
-        entry = Iteration(energy_iso=iso, energy_p2p=p2p, step=now.step, sigma2_lower=sigma2)
+        entry = Iteration(energy_distortion=iso, energy_p2p=p2p, step=now.step, sigma2_lower=sigma2)
         return Reached(entry, lambda: now.certificate)
 
     def _next(self, now: Iterate) -> Iterate | Ending:
@@ -176,7 +176,7 @@ class _Descent(GeneratedDescent):
                     return full
                 if full is None:
                     break
-                wider = self.active.refined(full)
+                wider = self.active.widened(full)
             if not rounds:
                 break
             self.active = wider

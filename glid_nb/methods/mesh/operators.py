@@ -141,7 +141,7 @@ class MeshProblem:
             fz, fzb = self.operators.wirtinger(w)
             miss = w[self.handles] - self.targets
             entry = Iteration(
-                energy_iso=self.operators.energy(self.inputs.energy, fz, fzb),
+                energy_distortion=self.operators.energy(self.inputs.energy, fz, fzb),
                 energy_p2p=self.p2p_weight / 2 * float((np.abs(miss) ** 2).sum()),
                 step=step,
                 flips=flips(fz, fzb),

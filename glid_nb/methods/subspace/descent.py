@@ -119,16 +119,16 @@ class DirectedDescent(SubspaceDescent):
         h[fixed, fixed] = self.unit**-2
         return h
 
-    def advance(self, may_refine: bool) -> Advance:
+    def advance(self, may_split: bool) -> Advance:
         """Take the next certified step, or return why there is none."""
         if not self.left:
             return Advance()
         watch = Stopwatch()
         if self._chosen is None and (ending := self._choose()) is not None:
             return Advance(ending=ending)
-        refining = may_refine and self.discretisation.can_refine
+        may_split_now = may_split and self.discretisation.can_split
         move, gradient = _advance(
-            self.problem, self.evaluated, self.gradient, self._chosen, refining
+            self.problem, self.evaluated, self.gradient, self._chosen, may_split_now
         )
         end = int(move.outcome)
         self._seconds += watch.seconds
@@ -146,7 +146,7 @@ class DirectedDescent(SubspaceDescent):
         ending = self._adapted(done)
         if ending is None or not ending.status.ok:
             return ending
-        if not self.pin(map_from(self.inputs.domain, self.coefficients)):
+        if not self.measure_turns(map_from(self.inputs.domain, self.coefficients)):
             return ending
         vars(self).pop("p2p_hessian", None)
         self._chosen = self.memory = None
@@ -246,12 +246,12 @@ def _advance(
     point: Point,
     gradient: Coefficients,
     direction: Coefficients,
-    may_refine: Bool[AnyArray, ""] | bool,
+    may_split: Bool[AnyArray, ""] | bool,
 ) -> tuple[line_search.Backtracking, Coefficients]:
     slope = jnp.dot(gradient, direction)
     line = evaluation.line_along(problem, expand(direction, problem.unknowns), slope)
     found = line_search.search(problem, point, line)
-    end = line_search.backtrack(problem, point, line, found, may_refine)
+    end = line_search.backtrack(problem, point, line, found, may_split)
     # Compute the values from the coefficients. Carried values would collect rounding errors over
     # thousands of iterations, more than the certificate allows for.
     after = evaluation.evaluated(problem, point.coefficients + end.step * line.direction)

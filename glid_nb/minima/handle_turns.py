@@ -1,4 +1,4 @@
-"""Turning: by which angles a map turns the lines between handles.
+"""By which angles a map turns the lines between handles.
 
 A line leads from a handle to its parent in the tree of handles
 (:mod:`glid_nb.minima.handle_tree`). Its turn may exceed 180 degrees: following the argument of
@@ -63,7 +63,7 @@ class Line(NamedTuple):
         return self.is_end and turns and abs(self.overturn - self.turn) > np.pi
 
 
-class Turning(NamedTuple):
+class HandleTurns(NamedTuple):
     """How a map turns the lines of a pose."""
 
     domain: Domain
@@ -94,7 +94,7 @@ class Turning(NamedTuple):
 
 
 @single_blas_thread()
-def turning_of(map: DeformationMap, pose: Pose) -> Turning:
+def handle_turns(map: DeformationMap, pose: Pose) -> HandleTurns:
     """Measure how a harmonic map turns the lines of a pose with at least one handle.
 
     One BLAS thread takes 0.3 ms on large trees, where several took 2 to 8 ms.
@@ -137,4 +137,4 @@ def turning_of(map: DeformationMap, pose: Pose) -> Turning:
         )
         for edge, stretch, bend in zip(tree.edges, stretches, bends, strict=True)
     ]
-    return Turning(map.domain, pose, root, whole, lines)
+    return HandleTurns(map.domain, pose, root, whole, lines)
