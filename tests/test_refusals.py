@@ -53,6 +53,7 @@ def test_a_name_that_is_near_is_offered() -> None:
     assert did_you_mean("q", ("cage", "holes")) == ""
 
 
+@pytest.mark.slow
 def test_ipython_prints_the_line_of_the_cell_and_one_sentence(tmp_path: Path) -> None:
     """Not our frames, nor the errors that led to this one."""
     path = tmp_path / "picture.png"

@@ -17,6 +17,7 @@ from ..domains import NAMES, dense_check, domain, random_map
 TIMES = np.linspace(0, 1, 21)
 
 
+@pytest.mark.slow
 @given(
     st.sampled_from(NAMES),
     st.sampled_from([0.003, 0.01, 0.03]),

@@ -61,6 +61,7 @@ def test_without_jupyterlab_it_says_what_to_install(
     assert "pip install 'glid-nb[lab]'" in outcome.err
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(os.name != "posix", reason="elsewhere a process of its own is started")
 def test_the_server_takes_the_place_of_the_command() -> None:
     """So a terminal that closes, or a supervisor, ends the server too."""

@@ -62,6 +62,7 @@ def test_bases_are_refined_until_the_energy_hardly_changes() -> None:
     assert f"{unknowns[-1]} unknowns" in summary_text(report, [])
 
 
+@pytest.mark.slow
 def test_the_gain_is_a_fraction() -> None:
     pose = Pose([[-2, -2]], [[-2, -2]])
     result = solve(domain("ell"), pose, options=Options(restarts=0, max_iterations=0))

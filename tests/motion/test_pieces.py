@@ -115,6 +115,7 @@ def test_a_rotation_by_almost_half_a_turn_needs_halves_of_time() -> None:
     assert np.cos(1.5) * 0.9 < proof.sigma2_lower < np.cos(1.5)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("name", "size", "seed"), [("ell", 1.4675, 3), ("ring", 0.2625, 2)])
 def test_where_f_z_turns_within_a_panel_it_is_halved(name: str, size: float, seed: int) -> None:
     """Almost folded, so no direction serves the whole panel, whatever time does."""

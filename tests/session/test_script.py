@@ -180,6 +180,7 @@ def test_what_cannot_be_written_is_refused(model: TracingModel) -> None:
         python_code(replace(document, poses=(replace(pose, energy=custom),)))
 
 
+@pytest.mark.slow
 def test_all_poses_are_made(solved: Document, picture: str) -> None:
     wave = solved.poses[0]
     rest = replace(wave, name="at\nrest", map=HarmonicMap.identity(solved.domain))

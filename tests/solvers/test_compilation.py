@@ -51,6 +51,7 @@ def test_panels_split_within_a_bucket_compile_nothing(first: Result) -> None:
     assert compiled_by(lambda: solve(domain("ell"), bent(0.13), None, OPTIONS, split(4))) == 0
 
 
+@pytest.mark.slow
 def test_splitting_any_panels_makes_few_sizes() -> None:
     """Each size is a program more, of which a person who drags waits for the compiling."""
     rng, sizes = np.random.default_rng(0), set[tuple[int, int]]()

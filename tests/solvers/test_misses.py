@@ -58,6 +58,7 @@ def test_what_cannot_be_seen_is_not_told() -> None:
     assert at_rest(np.zeros((0, 2)), np.zeros((0, 2))) == ""
 
 
+@pytest.mark.slow
 def test_a_mirrored_square_is_told_in_message_and_report_at_every_scale() -> None:
     for scale in (1.0, 1e-4):
         pose = Pose(scale * SQUARE, scale * SQUARE * [-1, 1])
@@ -73,6 +74,7 @@ def test_a_mirrored_square_is_told_in_message_and_report_at_every_scale() -> Non
         assert report["message"] == result.message
 
 
+@pytest.mark.slow
 def test_every_result_knows_its_misses() -> None:
     light, square = Options(p2p_weight=1.0), Pose(SQUARE, SQUARE + PULLED)
     met = solve(box(), square)

@@ -264,6 +264,7 @@ def test_poses_travel_as_text_and_are_mirrored(hand: Hand) -> None:
         assert "holds no pose" in hand.send("paste_pose", text=wrong)
 
 
+@pytest.mark.slow
 def test_escape_and_undo_take_a_drag_back(hand: Hand) -> None:
     hand.click(2, 0)
     hand.model.paused = False
