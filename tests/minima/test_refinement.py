@@ -70,6 +70,7 @@ def test_the_gain_is_a_fraction() -> None:
         refine(result, gain=0)
 
 
+@pytest.mark.slow
 def test_results_without_a_basis_of_their_own_are_refused_by_name() -> None:
     pose = Pose([[-2, -2]], [[-2, -2]])
     result = solve(domain("ell"), pose, options=Options(restarts=0, max_iterations=0))

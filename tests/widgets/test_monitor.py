@@ -223,6 +223,7 @@ def test_no_text_lies_over_data_or_other_text(n_holes: int, width: int):
     assert all(t.x1 / _SCALE < float(x) for t, x in zip(titles, marks, strict=True))
 
 
+@pytest.mark.slow
 def test_a_frame_says_where_its_solves_began(model: Deformation) -> None:
     model.add_handles([(2, 0), (-2, 0)])
     assert model.solve(TIMEOUT)
@@ -242,6 +243,7 @@ def test_a_frame_says_where_its_solves_began(model: Deformation) -> None:
     assert all(energies[i] > energies[i - 1] for i in moved)
 
 
+@pytest.mark.slow
 def test_a_single_step_says_what_it_did(model: Deformation) -> None:
     model.paused = True
     panel = SolverPanel(model)
