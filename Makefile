@@ -53,7 +53,7 @@ chapter: $(VENV)/.test
 	$(PYTEST) --nbval --nbval-current-env notebooks/01_quickstart.ipynb
 
 install-tests: $(VENV)/.test
-	$(PYTEST) -p no:nbval --no-skip --install -m install tests/packaging
+	$(PYTEST) -p no:nbval --no-skip --install -m install -n $(WORKERS) --dist loadfile --durations 5 tests/packaging
 
 leaks: $(VENV)/.test browser
 	$(PYTEST) -p no:nbval --no-skip -s --minutes 10 -m long tests/widgets

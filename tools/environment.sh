@@ -4,7 +4,7 @@
 # $VENV names the environment, .venv without it; $PYTHON the interpreter, else the newest one that
 # tools/pythons.sh finds. $RESOLUTION=lowest-direct installs the oldest libraries that
 # pyproject.toml allows, by uv.
-set -eu
+set -euf
 cd "$(dirname "$0")/.."
 extra=${1:-}
 venv=${VENV:-.venv}
@@ -31,9 +31,13 @@ if ! [ -x "$venv/bin/python" ] || ! recent "$venv/bin/python"; then
 fi
 
 say "installing glid-nb${extra:+[$extra]} and what it needs into $venv (about a minute the first time)"
+what="${extra:+--editable ./checker} --editable .${extra:+[$extra]}"
 pip="$venv/bin/python -m pip install --quiet --disable-pip-version-check"
-if [ -n "${RESOLUTION:-}" ]; then
-    $pip uv
-    pip="$venv/bin/python -m uv pip install --quiet --python $venv/bin/python --resolution $RESOLUTION"
-fi
-$pip ${extra:+--editable ./checker} --editable ".${extra:+[$extra]}"
+# uv is several times faster than pip, and knows the oldest libraries. It trusts the certificates that
+# the system trusts, as pip does.
+export UV_SYSTEM_CERTS=true UV_NATIVE_TLS=true
+uv="$venv/bin/python -m uv pip install --quiet --compile-bytecode --python $venv/bin/python"
+if $pip uv && $uv ${RESOLUTION:+--resolution "$RESOLUTION"} $what; then exit 0; fi
+if [ -n "${RESOLUTION:-}" ]; then exit 1; fi
+say "uv cannot install it here; pip tries"
+$pip $what
