@@ -17,7 +17,7 @@ from studies.store import Measurement
 from studies.study import Plan, Study, Task, on_cases
 from studies.tables import Row
 from studies.timing import timed
-from tests.reference_map import DenseCheck
+from tests.support.reference_map import DenseCheck
 
 QUARTERS = (0.25, 0.5, 0.75)
 _SIZES = (0.01, 0.02, 0.04)  # of what is added to the identity's coefficients

@@ -30,7 +30,7 @@ from playwright.sync_api import Browser
 from glid_nb import load_pose, samples
 from studies.editor.frame_log import N_SAMPLES
 from studies.machine import machine
-from tests.browser import JupyterServer, LabNotebook, launched_chromium, watched_page
+from tests.support.browser import JupyterServer, LabNotebook, launched_chromium, watched_page
 from tests.widgets.editor_page import MANAGER, Hand
 
 RATE = 60

@@ -27,8 +27,8 @@ from glid_nb.geometry import (
 )
 from glid_nb.harmonic import HarmonicMap, run_on
 
-from ..domains import dense_check, domain, random_map, reference
-from ..reference_map import DenseCheck, Measured, cauchy_first
+from ..support.domains import dense_check, domain, random_map, reference
+from ..support.reference_map import DenseCheck, Measured, cauchy_first
 
 pytestmark = pytest.mark.slow  # most of the time is compiling
 

@@ -18,7 +18,7 @@ from glid_nb.certificate import PROOFS, certify
 from glid_nb.geometry import Cage, Domain, GeometryError
 from glid_nb.harmonic import HarmonicMap
 
-from ..domains import circle
+from ..support.domains import circle
 
 pytestmark = pytest.mark.slow
 

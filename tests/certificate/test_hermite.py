@@ -18,8 +18,8 @@ from glid_nb.geometry import graded_panels
 from glid_nb.harmonic import basis_of, cauchy
 from glid_nb.harmonic.cauchy import Singularities
 
-from ..domains import random_map, reference
-from ..reference_map import cauchy_first, holomorphic_derivative
+from ..support.domains import random_map, reference
+from ..support.reference_map import cauchy_first, holomorphic_derivative
 from .panel_values import PANELS, T, change_of_argument, end_values, polynomials, seeds, values
 
 bounds_of = jax.jit(Hermite.bounds)

@@ -24,8 +24,8 @@ from glid_nb.solvers.problem import (
     unknowns_of,
 )
 
-from ..domains import domain, random_map
-from ..reference_map import cauchy_first, cauchy_second
+from ..support.domains import domain, random_map
+from ..support.reference_map import cauchy_first, cauchy_second
 
 scale_of = jax.jit(rounding.term_scale)
 panel_scale = jax.jit(rounding.panel_scale)

@@ -12,7 +12,7 @@ from glid_nb.certificate.certify import CertificateError
 from glid_nb.certificate.pieces import certify_pieces
 from glid_nb.harmonic import HarmonicMap
 
-from ..domains import NAMES, dense_check, domain, random_map
+from ..support.domains import NAMES, dense_check, domain, random_map
 
 TIMES = np.linspace(0, 1, 21)
 

@@ -36,8 +36,8 @@ from glid_nb.minima import solve
 from glid_nb.pose import Pose
 from glid_nb.solvers import Options
 
-from ..domains import circle, dense_check, domain, random_map
-from ..reference_map import DenseCheck, Measured
+from ..support.domains import circle, dense_check, domain, random_map
+from ..support.reference_map import DenseCheck, Measured
 
 pytestmark = pytest.mark.slow
 

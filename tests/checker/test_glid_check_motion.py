@@ -19,7 +19,7 @@ from glid_nb.certificate import certify
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.motion import MotionError
 
-from ..motion.test_pieces import turned
+from ..support.domains import turned
 from .test_glid_check import Files, Verdict, check, flipped, places, points, small
 
 pytestmark = pytest.mark.slow

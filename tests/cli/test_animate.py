@@ -20,7 +20,7 @@ from glid_nb.session.document_file import save_document
 from glid_nb.session.timeline import Timeline
 from glid_nb.solvers import Options
 
-from ..export import shapes
+from ..support import shapes
 
 pytestmark = pytest.mark.slow
 

@@ -16,7 +16,7 @@ from PIL import Image
 from glid_nb import Cage, HarmonicMap
 from glid_nb.cli import main
 
-from ..export import shapes
+from ..support import shapes
 
 pytestmark = pytest.mark.slow
 

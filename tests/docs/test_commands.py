@@ -28,8 +28,8 @@ from playwright.sync_api import Page
 
 import glid_nb as glid
 
-from ..browser import READY, Host, launched_chromium, watched_page
-from ..documented import PAGES, REPOSITORY, Command, checkout, commands, here, spoken
+from ..support.browser import READY, Host, launched_chromium, watched_page
+from ..support.documented import PAGES, REPOSITORY, Command, checkout, commands, here, spoken
 
 pytestmark = pytest.mark.slow
 

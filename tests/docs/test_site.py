@@ -11,7 +11,7 @@ import pytest
 import glid_nb
 from glid_nb import figures, methods
 
-from ..test_public_face import public_names
+from ..foundation.test_public_face import public_names
 
 REPOSITORY = Path(__file__).resolve().parents[2]
 DOCS = REPOSITORY / "docs"

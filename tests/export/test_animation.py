@@ -14,7 +14,7 @@ from glid_nb.export import animation_bytes
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.pose import Pose
 
-from .shapes import bent, domain, picture, pose
+from ..support.shapes import bent, domain, picture, pose
 
 
 def drag(count: int = 4) -> tuple[list[HarmonicMap], list[Pose]]:

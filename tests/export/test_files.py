@@ -37,7 +37,7 @@ from glid_nb.imaging.mesh import deformed_loops
 from glid_nb.imaging.render import render
 from glid_nb.motion import Motion
 
-from .shapes import SIZE, bent, domain, picture, pose
+from ..support.shapes import SIZE, bent, domain, picture, pose
 
 pytestmark = pytest.mark.slow  # most of the time is compiling
 

@@ -27,7 +27,7 @@ from glid_nb.imaging import PixelFrame
 from glid_nb.imaging.order import order_of
 from glid_nb.pose import Pose
 
-from .shapes import SIZE, bent, domain, picture, pose
+from ..support.shapes import SIZE, bent, domain, picture, pose
 
 pytestmark = pytest.mark.slow
 

@@ -17,7 +17,7 @@ from glid_nb.export import page_html
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.page import ShaderMap
 
-from .shapes import bent, domain, picture
+from ..support.shapes import bent, domain, picture
 
 
 def data_of(page: str) -> dict:

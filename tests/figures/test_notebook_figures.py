@@ -28,7 +28,7 @@ from glid_nb.minima import solve
 from glid_nb.pose import Pose
 from glid_nb.solvers import Iteration, Options
 
-from ..domains import domain
+from ..support.domains import domain
 
 pytestmark = pytest.mark.slow
 

@@ -11,7 +11,7 @@ from hypothesis import given, settings
 
 from glid_nb.geometry import Cage, GeometryError, loop_name
 
-from .shapes import (
+from ..support.cages import (
     SQUARE,
     box,
     cages,

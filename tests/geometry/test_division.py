@@ -13,7 +13,7 @@ from glid_nb.geometry import Cage, Domain, GeometryError
 from glid_nb.geometry.offset import offset_cage
 from glid_nb.imaging import read_image, trace
 
-from .shapes import box, cages
+from ..support.cages import box, cages
 
 
 def bar(width: float) -> Cage:

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from glid_nb.geometry import Cage, GeometryError, Offset, hole_points, offset_cage
 from glid_nb.geometry.offset import CLEARANCE, MITRE_LIMIT
 
-from .shapes import (
+from ..support.cages import (
     SQUARE,
     blunt_notch,
     box,

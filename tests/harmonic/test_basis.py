@@ -12,7 +12,7 @@ from glid_nb._features import enable_x64
 from glid_nb.geometry import Cage, Domain
 from glid_nb.harmonic import basis_of, cauchy
 
-from ..domains import NAMES, circle, domain
+from ..support.domains import NAMES, circle, domain
 
 
 def many_holes(n_exterior: int, n_holes: int) -> Domain:

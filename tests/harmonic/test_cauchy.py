@@ -14,11 +14,11 @@ from hypothesis import strategies as st
 from glid_nb._features import enable_x64
 from glid_nb.harmonic import basis_of, cauchy
 
-from ..domains import NAMES, domain
-from ..reference_map import (
+from ..support.domains import NAMES, domain
+from ..support.reference_map import (
     cauchy as c_reference,
 )
-from ..reference_map import (
+from ..support.reference_map import (
     cauchy_first,
     cauchy_second,
     holomorphic_derivative,

@@ -7,8 +7,8 @@ import pytest
 
 from glid_nb.harmonic import FixedPoints, HarmonicMap, fixed_points
 
-from ..domains import NAMES, domain, random_map, real
-from ..reference_map import points_inside
+from ..support.domains import NAMES, domain, random_map, real
+from ..support.reference_map import points_inside
 
 
 def assert_same(found: tuple[np.ndarray, np.ndarray], map: HarmonicMap, points: np.ndarray) -> None:

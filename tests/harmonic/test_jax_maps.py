@@ -12,7 +12,7 @@ from glid_nb._jax import jax, jnp
 from glid_nb.geometry import Cage, GeometryError, MeshMap, triangulate
 from glid_nb.harmonic.map import HarmonicMap, MapError
 
-from ..domains import random_map
+from ..support.domains import random_map
 
 pytestmark = pytest.mark.slow
 

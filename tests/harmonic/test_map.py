@@ -21,8 +21,8 @@ from glid_nb.certificate import certificate_of
 from glid_nb.geometry import graded_panels
 from glid_nb.harmonic import HarmonicMap, MapError, as_complex
 
-from ..domains import NAMES, domain, random_map, real, reference
-from ..reference_map import points_inside
+from ..support.domains import NAMES, domain, random_map, real, reference
+from ..support.reference_map import points_inside
 
 
 @pytest.mark.slow

@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 
 from glid_nb.harmonic import HarmonicMap, MapError
 
-from ..domains import domain, random_map
+from ..support.domains import domain, random_map
 
 Data = dict[str, Any]
 

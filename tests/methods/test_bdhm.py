@@ -18,8 +18,8 @@ from glid_nb.methods.bdhm.program import MARGIN, BoundedProblem, DistortionBound
 from glid_nb.pose import Pose
 from glid_nb.solvers import MethodError, Progress, Result, Status
 
-from ..reference_map import DenseCheck, Measured
-from .problems import problem, run_method
+from ..support.problems import problem, run_method
+from ..support.reference_map import DenseCheck, Measured
 
 pytestmark = pytest.mark.slow  # most of the time is compiling
 

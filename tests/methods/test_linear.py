@@ -20,8 +20,8 @@ from glid_nb.methods.linear import (
 from glid_nb.pose import Pose
 from glid_nb.solvers import Status
 
-from ..domains import real
-from .problems import problem, run_method
+from ..support.domains import real
+from ..support.problems import problem, run_method
 
 pytestmark = pytest.mark.slow  # most of the time is compiling
 

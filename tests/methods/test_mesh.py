@@ -25,8 +25,8 @@ from glid_nb.methods.mesh.operators import MeshOperators, Pinned
 from glid_nb.pose import Pose
 from glid_nb.solvers import MethodError, Result, Status
 
-from ..domains import domain
-from .problems import problem, run_method
+from ..support.domains import domain
+from ..support.problems import problem, run_method
 
 pytestmark = pytest.mark.slow  # most of the time is compiling
 

@@ -13,7 +13,7 @@ from glid_nb.harmonic import HarmonicMap
 from glid_nb.methods import METHODS
 from glid_nb.solvers import Progress, Result, Status
 
-from .problems import problem, run_method
+from ..support.problems import problem, run_method
 
 pytestmark = pytest.mark.slow
 

@@ -18,8 +18,8 @@ from glid_nb.pose import Pose
 from glid_nb.solvers import Options, Result, Status
 from glid_nb.solvers.method import Inputs
 
-from ..reference_map import DenseCheck
-from .problems import problem, run_method
+from ..support.problems import problem, run_method
+from ..support.reference_map import DenseCheck
 
 pytestmark = pytest.mark.slow
 

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from glid_nb.geometry import Triangulation, triangulate
 from glid_nb.methods.linear import bounded_biharmonic_weights, harmonic_weights
 
-from .problems import problem
+from ..support.problems import problem
 
 pytest.importorskip("igl")
 

@@ -21,8 +21,8 @@ from glid_nb.pose import Pose, PoseError
 from glid_nb.solvers import Options, Status
 from glid_nb.solvers.method import Inputs
 
-from ..domains import domain
-from ..solvers.checks import check_certified
+from ..support.checks import check_certified
+from ..support.domains import domain
 
 HANDLES = np.array([[-2.5, 2.5], [2.5, -2.5], [-2.0, -2.0]])
 

@@ -23,10 +23,10 @@ from glid_nb.minima.known import SAME_ENERGY
 from glid_nb.pose import Pose
 from glid_nb.solvers import Options, Progress, Status
 
-from ..domains import NAMES, circle, domain, real
-from ..geometry.shapes import KINDS as CAGES
-from ..geometry.shapes import random_cage
-from ..solvers.checks import Turn, check_certified, turned
+from ..support.cages import KINDS as CAGES
+from ..support.cages import random_cage
+from ..support.checks import Turn, check_certified, turned
+from ..support.domains import NAMES, circle, domain, real
 
 pytestmark = pytest.mark.slow  # most of the time is compiling
 

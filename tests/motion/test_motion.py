@@ -21,8 +21,8 @@ from glid_nb.harmonic import HarmonicMap
 from glid_nb.motion import MotionError, bounded, curve
 from glid_nb.motion.boundary import boundary_of
 
-from ..domains import MANY_HOLES, NAMES, circle, dense_check, domain, random_map
-from .test_pieces import check, turned
+from ..support.domains import MANY_HOLES, NAMES, circle, dense_check, domain, random_map, turned
+from .test_pieces import check
 
 pytestmark = pytest.mark.slow
 

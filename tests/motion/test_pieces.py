@@ -13,16 +13,8 @@ from glid_nb.certificate.panels import EndValues
 from glid_nb.certificate.pieces import PieceCertificate, certify_pieces
 from glid_nb.harmonic import HarmonicMap
 
-from ..domains import NAMES, dense_check, domain, random_map
-from ..reference_map import DenseCheck
-
-
-def turned(map: HarmonicMap, angle: float, by: complex = 0) -> HarmonicMap:
-    """The map, then a rotation and a translation."""
-    turn, phi = np.exp(1j * angle), map.phi.copy()
-    phi *= turn
-    phi[: len(map.domain.offset_cage.exterior)] += by
-    return HarmonicMap(map.domain, phi, map.psi / turn)
+from ..support.domains import NAMES, dense_check, domain, random_map, turned
+from ..support.reference_map import DenseCheck
 
 
 def check(

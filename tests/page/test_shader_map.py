@@ -7,7 +7,7 @@ import pytest
 
 from glid_nb.page import ShaderMap, vertex_shader
 
-from ..domains import NAMES, domain, random_map
+from ..support.domains import NAMES, domain, random_map
 
 
 def test_the_chain_holds_every_loop_closed() -> None:

@@ -20,7 +20,7 @@ from glid_nb.minima import solve
 from glid_nb.pose import Pose
 from glid_nb.solvers import Options, Status
 
-from ..domains import divided
+from ..support.domains import divided
 
 pytestmark = pytest.mark.slow
 

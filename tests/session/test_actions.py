@@ -17,7 +17,7 @@ from glid_nb.session.document import Solution
 from glid_nb.session.edit_state import EditError, EditState
 from glid_nb.solvers import OptionError, Status
 
-from ..domains import domain
+from ..support.domains import domain
 
 
 @pytest.fixture

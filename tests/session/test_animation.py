@@ -21,7 +21,7 @@ from glid_nb.session.deformation import Deformation
 from glid_nb.session.document import AS_SEEN, NamedPose
 from glid_nb.session.edit_state import EditError, EditState
 
-from ..domains import domain
+from ..support.domains import domain
 
 pytestmark = pytest.mark.slow
 

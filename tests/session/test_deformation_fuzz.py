@@ -17,7 +17,7 @@ from glid_nb.harmonic import HarmonicMap
 from glid_nb.session.deformation import Deformation
 from glid_nb.session.edit_state import EditError
 
-from ..domains import domain
+from ..support.domains import domain
 
 TIMEOUT = 120.0
 

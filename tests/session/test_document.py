@@ -31,7 +31,7 @@ from glid_nb.session.problem import Problem, load_pose
 from glid_nb.session.timeline import Timeline
 from glid_nb.solvers import Newton, Options
 
-from ..domains import domain, random_map
+from ..support.domains import domain, random_map
 
 Data = dict[str, Any]
 

@@ -26,7 +26,7 @@ from glid_nb.session.document_file import load_document, save_document
 from glid_nb.session.problem import Problem, load_pose
 from glid_nb.solvers import Options
 
-from ..domains import domain
+from ..support.domains import domain
 
 pytestmark = pytest.mark.slow  # of 250 examples most take a few milliseconds
 

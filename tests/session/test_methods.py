@@ -18,7 +18,7 @@ from glid_nb.session import live_solver
 from glid_nb.session.deformation import Deformation
 from glid_nb.solvers import MethodError, Status
 
-from ..domains import domain
+from ..support.domains import domain
 
 pytestmark = pytest.mark.slow  # most of the time is compiling
 

@@ -20,7 +20,7 @@ from glid_nb.session.edit_state import EditError, EditState
 from glid_nb.session.model import History
 from glid_nb.session.timeline import Timeline, on_grid, thinned
 
-from ..domains import domain
+from ..support.domains import domain
 
 index = st.integers(-1, 6)
 time = st.floats(-2, 12)

@@ -11,7 +11,7 @@ from glid_nb.minima import solve
 from glid_nb.pose import Pose
 from glid_nb.solvers import Options, Progress, Status
 
-from ..domains import domain
+from ..support.domains import domain
 
 pytestmark = pytest.mark.slow  # most of the time is compiling
 

@@ -10,7 +10,7 @@ from glid_nb import Options, Pose, Result, solve
 from glid_nb._runtime import compilation_clock
 from glid_nb.solvers.discretisation import discretise
 
-from ..domains import domain
+from ..support.domains import domain
 
 HANDLES = np.array([[-2.5, -2.0], [-2.5, 2.5], [2.5, -1.5], [0.0, -1.5]])
 OPTIONS = Options(restarts=0)

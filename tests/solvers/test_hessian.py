@@ -36,8 +36,8 @@ from glid_nb.solvers.hessian import (
 )
 from glid_nb.solvers.problem import restrict_gradient, restrict_hessian, unknowns_of
 
-from ..domains import domain, random_map
-from ..reference_map import cauchy_first
+from ..support.domains import domain, random_map
+from ..support.reference_map import cauchy_first
 from .dense import dense_expansion
 
 Array = NDArray[Any]

@@ -23,7 +23,7 @@ from glid_nb.session.report import build_report
 from glid_nb.solvers import Options, Progress, Result, Status
 from glid_nb.solvers.method import StartError
 
-from ..domains import domain
+from ..support.domains import domain
 
 pytestmark = pytest.mark.slow  # most of the time is compiling
 

@@ -16,8 +16,8 @@ from glid_nb.minima import solve
 from glid_nb.pose import Pose
 from glid_nb.solvers import Options, Result, Status
 
-from ..domains import divided
-from .checks import measured, turned
+from ..support.checks import measured, turned
+from ..support.domains import divided
 
 pytestmark = [pytest.mark.reference, pytest.mark.slow]
 

@@ -38,8 +38,8 @@ from glid_nb.solvers import (
     newton,
 )
 
-from ..domains import domain
-from .checks import check_certified
+from ..support.checks import check_certified
+from ..support.domains import domain
 
 pytestmark = pytest.mark.slow  # most of the time is compiling
 

@@ -23,9 +23,9 @@ from glid_nb.solvers.hessian import assemble, local_hessian
 from glid_nb.solvers.problem import real_coefficients
 from glid_nb.solvers.stiffness import NODES, stiff_matrices
 
-from ..domains import domain, random_map, real, reference
-from ..reference_map import points_inside
-from .checks import check_certified
+from ..support.checks import check_certified
+from ..support.domains import domain, random_map, real, reference
+from ..support.reference_map import points_inside
 
 HEADS = {"ell": ([[-2.2, 2.2], [-1.6, 2.4]], 1.4), "ring": ([[2.2, 0.4]], 1.3)}
 """By their domains: the lines and the radii of strokes."""

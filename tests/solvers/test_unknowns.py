@@ -19,8 +19,8 @@ from glid_nb.solvers.problem import (
     unknowns_of,
 )
 
-from ..domains import NAMES, domain, random_map, reference
-from ..reference_map import cauchy, points_inside
+from ..support.domains import NAMES, domain, random_map, reference
+from ..support.reference_map import cauchy, points_inside
 from .dense import dense_expansion
 
 

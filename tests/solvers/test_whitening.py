@@ -21,7 +21,7 @@ from glid_nb.solvers.line_search import INDEFINITE
 from glid_nb.solvers.problem import expand, unknowns_of
 from glid_nb.solvers.whitening import coefficients, pulled_back, whitened
 
-from ..domains import divided, domain
+from ..support.domains import divided, domain
 
 pytestmark = pytest.mark.slow  # most of the time is compiling
 

@@ -22,8 +22,8 @@ from studies.compare.minimum import NoMinimumError
 from studies.runs import VISIBLE
 from studies.study import Plan
 
-from ..methods.problems import problem, run_method
-from ..reference_map import ReferenceMap
+from ..support.problems import problem, run_method
+from ..support.reference_map import ReferenceMap
 
 pytestmark = pytest.mark.slow  # most of the time is compiling
 

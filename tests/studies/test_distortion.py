@@ -15,7 +15,7 @@ from studies.distortion import (
     mesh_area_mean,
 )
 
-from ..methods.problems import problem, run_method
+from ..support.problems import problem, run_method
 
 DOMAIN, POSE = problem("ell")
 

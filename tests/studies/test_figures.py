@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from glid_nb.geometry import triangulate
 from studies import figures
 
-from ..methods.problems import problem
+from ..support.problems import problem
 
 MESH = triangulate(problem("ell")[0].cage, 60)
 

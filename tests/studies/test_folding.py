@@ -14,7 +14,7 @@ from studies.cases import Case
 from studies.compare import folding
 from studies.study import Plan
 
-from ..methods.problems import problem
+from ..support.problems import problem
 
 
 def test_the_outline_is_the_boundary() -> None:

@@ -14,7 +14,7 @@ from glid_nb.solvers import Result
 from studies.compare import minimum
 from studies.compare.minimum import Constraints, NoMinimumError, mesh_minimum
 
-from ..methods.problems import problem, run_method
+from ..support.problems import problem, run_method
 
 pytestmark = pytest.mark.slow  # most of the time is compiling
 

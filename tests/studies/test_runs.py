@@ -16,7 +16,7 @@ from studies.cases import Case
 from studies.compare.progress import ended_by
 from studies.runs import VISIBLE, Watcher, outcome, reached, run, thumbnails
 
-from ..methods.problems import problem, run_method
+from ..support.problems import problem, run_method
 
 pytestmark = pytest.mark.slow  # most of the time is compiling
 

@@ -1,4 +1,4 @@
-"""Fixtures of the tests that drive a real browser; see tests/browser.py."""
+"""Fixtures of the tests that drive a real browser; see tests/support/browser.py."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 from playwright.sync_api import Browser, Page
 
-from ..browser import (
+from ..support.browser import (
     JupyterServer,
     LabNotebook,
     NotebookPage,

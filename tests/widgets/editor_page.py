@@ -8,7 +8,7 @@ from typing import Any
 
 from playwright.sync_api import Locator
 
-from ..browser import NotebookPage
+from ..support.browser import NotebookPage
 
 # A bar of 16 x 4 units in a picture of 200 x 100 pixels, checked so that one sees where it goes.
 SETUP = """

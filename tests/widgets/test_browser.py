@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 from playwright.sync_api import Browser
 
-from ..browser import LabNotebook, watched_page
+from ..support.browser import LabNotebook, watched_page
 from .conftest import OpenNotebook
 
 pytestmark = [pytest.mark.browser, pytest.mark.slow]

@@ -9,7 +9,7 @@ from typing import Any
 import nbformat
 import pytest
 
-from ..browser import LabNotebook, VoilaPage
+from ..support.browser import LabNotebook, VoilaPage
 from .conftest import OpenNotebook
 
 pytestmark = [pytest.mark.browser, pytest.mark.slow]

@@ -40,7 +40,7 @@ from glid_nb.widgets.file_panel import OpenPanel
 from glid_nb.widgets.overlays import N_COLORS, OVERLAYS, color_range, legend
 from glid_nb.widgets.pane import emptiest_corner
 
-from ..domains import domain
+from ..support.domains import domain
 
 pytestmark = pytest.mark.slow  # most of the time is compiling
 

@@ -23,8 +23,8 @@ from glid_nb.imaging.render import draw_mesh, render
 from glid_nb.imaging.texture import Texture
 from glid_nb.pose import Pose
 
-from ..browser import ARTEFACTS, watched_page
-from ..export import shapes
+from ..support import shapes
+from ..support.browser import ARTEFACTS, watched_page
 
 _LOW = ("header p", "main canvas", "#poses", "#play", "#time", "#clock", "#overlay", "#fit")
 # Pauses in the frame in which the condition holds: a slow browser would be elsewhere afterwards.

@@ -7,7 +7,7 @@ import functools
 import numpy as np
 import pytest
 
-from ..browser import LabNotebook, VoilaPage
+from ..support.browser import LabNotebook, VoilaPage
 from .conftest import OpenNotebook
 from .editor_page import EDITOR, SETUP, Hand, line
 

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from playwright.sync_api import CDPSession
 
-from ..browser import WINDOW, JupyterServer, NotebookPage
+from ..support.browser import WINDOW, JupyterServer, NotebookPage
 from .conftest import OpenNotebook
 from .editor_page import EDITOR, SETUP, Hand, line
 

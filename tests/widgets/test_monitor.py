@@ -24,7 +24,7 @@ from glid_nb.widgets.live_plots import _SCALE, LivePlots
 from glid_nb.widgets.monitor import _guide, places
 from glid_nb.widgets.solver_panel import SolverPanel, step_in_words
 
-from ..domains import domain
+from ..support.domains import domain
 
 TIMEOUT = 120.0
 

@@ -7,7 +7,7 @@ import pytest
 
 from glid_nb.widgets import DeformCanvas
 
-from ..domains import domain
+from ..support.domains import domain
 from .test_shader import PICTURE
 
 pytestmark = pytest.mark.slow  # most of the time is compiling

@@ -10,7 +10,7 @@ import pytest
 from glid_nb.session.deformation import Deformation
 from glid_nb.widgets import DeformCanvas
 
-from ..domains import domain
+from ..support.domains import domain
 
 PICTURE = np.full((40, 40, 4), 255, np.uint8)
 

@@ -17,7 +17,7 @@ from glid_nb.page import ShaderMap, energy_defines, glsl
 from glid_nb.widgets.layers import picture_texture
 from glid_nb.widgets.scene import Drawing, Scene, _stacked, drawing_order, energy_uniform
 
-from ..domains import NAMES, domain, random_map
+from ..support.domains import NAMES, domain, random_map
 
 PICTURE = np.full((40, 40, 4), 255, np.uint8)
 

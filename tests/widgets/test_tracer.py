@@ -19,7 +19,7 @@ from glid_nb.imaging.read import MAX_SIDE
 from glid_nb.session.tracing import TracingModel
 from glid_nb.widgets import CageTracer
 
-from ..session.test_tracing import DRAWING, IN_SMALL_DISC
+from ..support.drawing import DRAWING, IN_SMALL_DISC
 
 
 class Page:

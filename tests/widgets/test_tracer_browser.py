@@ -11,7 +11,7 @@ from playwright.sync_api import Locator
 from skimage.color import deltaE_ciede2000, rgb2lab
 from skimage.io import imread
 
-from ..browser import LabNotebook
+from ..support.browser import LabNotebook
 from .conftest import OpenNotebook
 
 pytestmark = [pytest.mark.browser, pytest.mark.slow]

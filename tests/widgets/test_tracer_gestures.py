@@ -10,7 +10,7 @@ import pytest
 from glid_nb.session.tracing import TracingModel
 from glid_nb.widgets.tracer_gestures import TraceGestures
 
-from ..session.test_tracing import DRAWING, IN_LARGE_HOLE, IN_SMALL_DISC, far_vertex
+from ..support.drawing import DRAWING, IN_LARGE_HOLE, IN_SMALL_DISC, far_vertex
 
 
 class Hand:

@@ -30,11 +30,11 @@ from glid_nb.solvers import cholesky, newton, step, subspace
 from glid_nb.solvers.method import Inputs
 from glid_nb.solvers.newton import Newton, NewtonDescent
 
-from .domains import domain
+from ..support.domains import domain
 
 pytestmark = [pytest.mark.slow, pytest.mark.timeout(900)]
 
-PACKAGE = Path(__file__).resolve().parent.parent / "glid_nb"
+PACKAGE = Path(__file__).resolve().parents[2] / "glid_nb"
 
 MAKERS = {"jit", "solver_jit", "Program", "CompiledOnUse", "pmap", "shard_map", "ffi_call"}
 """Calls that make something compiled."""

@@ -18,7 +18,7 @@ from glid_nb._features import enable_x64
 from glid_nb.certificate import certify
 from glid_nb.harmonic import HarmonicMap
 
-from .domains import domain
+from ..support.domains import domain
 
 
 def run_python(source: str) -> list[str]:

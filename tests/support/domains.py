@@ -93,6 +93,14 @@ def random_map(name: str, size: float, seed: int) -> HarmonicMap:
     return HarmonicMap(d, phi, psi)
 
 
+def turned(map: HarmonicMap, angle: float, by: complex = 0) -> HarmonicMap:
+    """The map, then a rotation and a translation."""
+    turn, phi = np.exp(1j * angle), map.phi.copy()
+    phi *= turn
+    phi[: len(map.domain.offset_cage.exterior)] += by
+    return HarmonicMap(map.domain, phi, map.psi / turn)
+
+
 def divided(domain: Domain, pieces: Callable[[int], Array]) -> Domain:
     """The same domain, each edge of both its cages cut into pieces: for the edges of a loop."""
     counts = [pieces(len(loop)) for loop in domain.cage.loops]

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-PACKAGE = Path(__file__).resolve().parent.parent / "glid_nb"
+PACKAGE = Path(__file__).resolve().parents[2] / "glid_nb"
 
 FOUNDATION = "private modules at the top, such as _files"
 # Lowest first; the members of one row know nothing of each other.

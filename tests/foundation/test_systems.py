@@ -17,7 +17,7 @@ from glid_nb import InputError, read_image
 from glid_nb._files import discard, portable_name, read_file, same_file, write_atomically, zipped
 from glid_nb._json import read_json
 
-REPOSITORY = Path(__file__).resolve().parents[1]
+REPOSITORY = Path(__file__).resolve().parents[2]
 FOLDERS = ("glid_nb", "checker", "studies", "tools", "docs")
 SOURCES = sorted(path for name in FOLDERS for path in (REPOSITORY / name).rglob("*.py"))
 NAMES = ["with two  spaces.json", "Σ₂ – größer.json", "🦎.json", "C:\\Users\\me\\map.json"]
