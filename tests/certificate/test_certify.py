@@ -16,7 +16,7 @@ from hypothesis import strategies as st
 
 from glid_nb._errors import InputError
 from glid_nb.certificate import Certificate, certify, global_injectivity, rounding
-from glid_nb.certificate.certify import CertificateError, Known, _kernel, proof_text, refined
+from glid_nb.certificate.certify import CertificateError, Known, known_on, proof_text, refined
 from glid_nb.geometry import (
     Cage,
     Domain,
@@ -429,7 +429,7 @@ def test_rounding_that_falls_with_a_panels_length_hides_nothing() -> None:
 
 def test_what_was_proved_is_not_lost_to_finer_panels() -> None:
     map = random_map("ring", 0.05, 1)
-    evaluate = functools.partial(run_on, map, functools.partial(_kernel, kind="hermite"))
+    evaluate = functools.partial(run_on, map, functools.partial(known_on, kind="hermite"))
     panels = graded_panels(map.domain)
     known: Known = evaluate(panels.start, panels.end)
     assert known.proved

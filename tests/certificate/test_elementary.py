@@ -131,7 +131,7 @@ def test_the_logarithm_of_an_edge() -> None:
     none = np.array([], dtype=complex)
     edge = Singularities(np.zeros(2, complex), np.array([1, 0]), np.array([1, 0]), none)
     pairs = np.stack([b, after], axis=1)
-    computed = cauchy._logarithms(pairs, edge)[:, 0]
+    computed = cauchy.edge_logarithms(pairs, edge)[:, 0]
     wide = np.log(after.astype(np.clongdouble) / b.astype(np.clongdouble))
     # Either side of the cut is right there; the certificate keeps away from it.
     away = np.abs(computed.imag) < np.pi * (1 - 2 * rounding.CUT)

@@ -122,8 +122,8 @@ def test_bernstein_coefficients_are_those_of_the_squared_modulus() -> None:
         )
 
     with enable_x64():
-        square = hermite._squared_modulus(control)
-        halves = hermite._halves(control)
+        square = hermite.squared_modulus(control)
+        halves = hermite.halved(control)
     np.testing.assert_allclose(bernstein(square), np.abs(bernstein(control)) ** 2, rtol=1e-12)
     left, right = (bernstein(half) for half in halves)
     whole = [np.asarray(c) for c in control]

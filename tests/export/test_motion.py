@@ -347,7 +347,7 @@ def test_an_ffmpeg_that_ends_early_is_named_by_its_log(
         def write(self, _: bytes) -> None:
             raise OSError(number, os.strerror(number))
 
-    monkeypatch.setattr(encode, "_running", Ended)
+    monkeypatch.setattr(encode, "running", Ended)
     with pytest.raises(OSError, match="exit code 3: no space on drive \N{REPLACEMENT CHARACTER}:"):
         motion_files("walk.mp4", picture(), motion(), **SMALL)
 

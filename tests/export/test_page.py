@@ -140,7 +140,7 @@ def test_long_motions_make_small_pages(poses: int, turns: int, least: int) -> No
 def test_a_cage_too_large_for_a_shader_is_evaluated_beforehand(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr("glid_nb.export.page._LONGEST_CHAIN", 10)
+    monkeypatch.setattr("glid_nb.export.page.LONGEST_CHAIN", 10)
     data = data_of(page_html(picture(), Motion([HarmonicMap.identity(domain()), bent()])))
     vertices = unpacked(data["source"], 2)
     images = restored(data["coefficients"], data["width"])[-1].reshape(-1, 6)[:, :2]

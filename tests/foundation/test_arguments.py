@@ -72,7 +72,7 @@ def test_what_does_not_belong_is_refused(
 def test_the_results_of_chunks_are_put_together(
     count: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(_runtime, "_CHUNK_ELEMENTS", 8)
+    monkeypatch.setattr(_runtime, "CHUNK_ELEMENTS", 8)
     sizes = []
 
     def program(x: Any, y: Any, scale: float) -> dict[str, Any]:

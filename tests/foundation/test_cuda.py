@@ -131,7 +131,7 @@ def lowered() -> Lowered:
         return call(self, *arguments, **keywords)
 
     def ran(self: Program, *arguments: Any) -> Any:
-        jitted = jax.jit(self._function, donate_argnums=self._donated)
+        jitted = jax.jit(self.function, donate_argnums=self.donated)
         found.add(self, jitted, arguments, {})
         (problem, *rest), known = arguments, found.texts[found.names[id(self)]]
         if len(known) == 1:
@@ -160,7 +160,7 @@ def use_every_program() -> None:
         energy = "arap" if name == "gauss-newton" else None
         solve(ell, pose, energy, QUICK, method=methods.by_name(name, **settings))
     inputs = Inputs(domain=ell, pose=pose, energy=as_energy(None), options=QUICK)
-    batch._in_lockstep([inputs, inputs])
+    batch.in_lockstep([inputs, inputs])
     evaluate_a_start(inputs)
 
 
@@ -168,8 +168,8 @@ def use_every_program() -> None:
 def evaluate_a_start(inputs: Inputs) -> None:
     """As where the start has no proof."""
     start = NewtonDescent(Newton(), inputs)
-    point = subspace._evaluated(start.problem, start.coefficients)
-    newton._gradient(start.problem, point)
+    point = subspace.evaluated_at(start.problem, start.coefficients)
+    newton.gradient(start.problem, point)
 
 
 def test_every_program_of_the_code_is_lowered(lowered: Lowered) -> None:
@@ -178,7 +178,7 @@ def test_every_program_of_the_code_is_lowered(lowered: Lowered) -> None:
     kinds = lowered.texts["glid_nb.solvers.step.run"]
     assert len(kinds) >= len(ENERGIES) + len(["custom", "stiff areas", "paper"])
     curvatures = typing.get_args(descent.Curvature)
-    assert len(lowered.texts["glid_nb.methods.subspace.descent._hessian"]) == len(curvatures)
+    assert len(lowered.texts["glid_nb.methods.subspace.descent.hessian_at"]) == len(curvatures)
 
 
 def test_no_program_calls_what_only_a_cpu_has(lowered: Lowered) -> None:
@@ -189,7 +189,7 @@ def test_no_program_calls_what_only_a_cpu_has(lowered: Lowered) -> None:
     for name, some in calls.items():
         assert not [call for call in some if not ON_CUDA.fullmatch(call)], name
     assert "cusolver_potrf_ffi" in calls["glid_nb.solvers.step.run"]
-    assert "cusolver_potrf_ffi" in calls["glid_nb.minima.batch._together"]
+    assert "cusolver_potrf_ffi" in calls["glid_nb.minima.batch.together"]
 
 
 def custom_calls(text: str) -> set[str]:
@@ -229,7 +229,7 @@ def test_only_the_whitened_basis_is_in_single_precision(lowered: Lowered) -> Non
         for text in texts.values():
             (main,) = re.findall(r"func.func public @main\((.*?)\) ->", text, re.DOTALL)
             singles = re.findall(r"tensor<([\dx]*)f32>", main)
-            of_newton = name in ("glid_nb.solvers.step.run", "glid_nb.minima.batch._together")
+            of_newton = name in ("glid_nb.solvers.step.run", "glid_nb.minima.batch.together")
             assert len(singles) <= 1, name
             assert not singles or of_newton or name.startswith("glid_nb.methods.subspace"), name
 
@@ -286,10 +286,13 @@ def test_a_device_may_be_chosen_by_its_platforms_name() -> None:
 
 
 @pytest.mark.parametrize("precision", ["bfloat16", "BF16_BF16_F32", "tensorfloat32"])
-def test_a_callers_precision_of_products_changes_nothing(precision: str) -> None:
+def test_a_callers_precision_of_products_changes_nothing(
+    precision: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
     ell, pose = domain("ell"), Pose(HANDLES, BENT)
     here = solve(ell, pose, None, QUICK)
-    step.run._ready.clear()
+    again = Program(step.run.function, step.run.donated, step.run.may_keep)
+    monkeypatch.setattr(step, "run", again)
     with jax.default_matmul_precision(precision):
         there = solve(ell, pose, None, QUICK)
         assert jax.config.jax_default_matmul_precision == precision

@@ -25,8 +25,8 @@ def assert_same(found: tuple[np.ndarray, np.ndarray], map: HarmonicMap, points: 
 def test_images_and_derivatives_are_the_maps(
     name: str, chunk: int, kept: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(fixed_points, "_CHUNK", chunk)
-    monkeypatch.setattr(fixed_points, "_MOST_KEPT", kept)
+    monkeypatch.setattr(fixed_points, "CHUNK", chunk)
+    monkeypatch.setattr(fixed_points, "MOST_KEPT", kept)
     d = domain(name)
     points = np.concatenate([real(points_inside(d.cage.loops_complex, 40)), *d.cage.loops])
     evaluate = FixedPoints(d, points)

@@ -297,8 +297,8 @@ def test_bands_change_nothing(monkeypatch: pytest.MonkeyPatch):
     points, triangles = irregular_mesh(60, 50, 100)
     positions = (points - 25) @ [[0.9, 0.5], [-0.4, 0.8]] + 40
     whole = render_mesh(image, points, positions, triangles, (90, 80))
-    monkeypatch.setattr(rasterise, "_TILE", 31 * 7)
-    monkeypatch.setattr(rasterise, "_TILE_WIDTH", 31)
+    monkeypatch.setattr(rasterise, "TILE", 31 * 7)
+    monkeypatch.setattr(rasterise, "TILE_WIDTH", 31)
     pieces = render_mesh(image, points, positions, triangles, (90, 80))
     np.testing.assert_array_equal(pieces, whole)
 

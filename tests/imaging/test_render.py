@@ -181,7 +181,7 @@ def test_refinement_is_conforming_and_keeps_the_domain(bar: Domain):
 
 
 def test_a_tolerance_that_cannot_be_met_has_its_limit(bar: Domain, monkeypatch: pytest.MonkeyPatch):
-    monkeypatch.setattr("glid_nb.imaging.mesh._MOST_VERTICES", 600)
+    monkeypatch.setattr("glid_nb.imaging.mesh.MOST_VERTICES", 600)
     map = bent(bar, 0.3)
     mesh = deformed_mesh(map, 300, tolerance=1e-6)
     assert len(mesh.vertices) <= 600
@@ -345,8 +345,8 @@ def test_a_large_picture_is_drawn_in_tiles_on_threads_as_in_one(domain, monkeypa
     map = affine(domain, 0.9 * np.exp(0.4j), 0.3)
     whole = render(image, map)
     told: list[tuple[int, int]] = []
-    monkeypatch.setattr("glid_nb.imaging.rasterise._TILE", 64 * 32)
-    monkeypatch.setattr("glid_nb.imaging.rasterise._TILE_WIDTH", 64)
+    monkeypatch.setattr("glid_nb.imaging.rasterise.TILE", 64 * 32)
+    monkeypatch.setattr("glid_nb.imaging.rasterise.TILE_WIDTH", 64)
     monkeypatch.setattr("os.cpu_count", lambda: 3)
     pieces = render(image, map, progress=lambda *at: told.append(at))
     np.testing.assert_array_equal(pieces, whole)
@@ -356,8 +356,8 @@ def test_a_large_picture_is_drawn_in_tiles_on_threads_as_in_one(domain, monkeypa
 @pytest.mark.parametrize("cores", [1, 3])
 @pytest.mark.parametrize("interpolation", ["smooth", "nearest"])
 def test_progress_ends_a_drawing(domain, monkeypatch, interpolation, cores):
-    monkeypatch.setattr("glid_nb.imaging.rasterise._TILE", 32 * 32)
-    monkeypatch.setattr("glid_nb.imaging.rasterise._TILE_WIDTH", 32)
+    monkeypatch.setattr("glid_nb.imaging.rasterise.TILE", 32 * 32)
+    monkeypatch.setattr("glid_nb.imaging.rasterise.TILE_WIDTH", 32)
     monkeypatch.setattr("os.cpu_count", lambda: cores)
     told: list[int] = []
 

@@ -198,7 +198,7 @@ class TestAwkwardPictures:
         assert trace(picture).cage.n_vertices >= 3
 
     def test_a_very_rough_outline_is_traced_coarsely(self, monkeypatch):
-        monkeypatch.setattr("glid_nb.imaging.outline._ROUGH", 300)
+        monkeypatch.setattr("glid_nb.imaging.outline.ROUGH", 300)
         picture = disc(60, 150) * (np.random.default_rng(1).random((150, 150)) > 0.35)
         tracing = trace(with_alpha(picture))
         assert any("very rough: it was traced in blocks of" in note for note in tracing.notes)

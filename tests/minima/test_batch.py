@@ -59,7 +59,7 @@ def test_poses_in_lockstep_are_the_poses_one_by_one() -> None:
         for goal in goals
     ]
     with enable_x64():
-        results = batch._in_lockstep(given)
+        results = batch.in_lockstep(given)
     alone = [solve(ell, Pose(HANDLES, goal)) for goal in goals]
     np.testing.assert_allclose([r.energy for r in results], [r.energy for r in alone], rtol=1e-6)
     for goal, result in zip(goals, results, strict=True):

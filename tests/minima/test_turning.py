@@ -137,13 +137,13 @@ def test_a_line_is_squeezed_where_its_targets_are_closer_and_it_stays_straight()
 
 
 def test_other_handles_of_a_shape_need_no_other_mesh(monkeypatch: pytest.MonkeyPatch) -> None:
-    made, delaunay = list[int](), meshes._constrained_delaunay
+    made, delaunay = list[int](), meshes.constrained_delaunay
 
     def counted(vertices: np.ndarray, loops: list[np.ndarray]) -> np.ndarray:
         made.append(len(vertices))
         return delaunay(vertices, loops)
 
-    monkeypatch.setattr(meshes, "_constrained_delaunay", counted)
+    monkeypatch.setattr(meshes, "constrained_delaunay", counted)
     identity = HarmonicMap.identity(Domain.from_cage(Cage([[0, 0], [3, 0], [3, 1], [0, 1]])))
     for handles in ([[1, 0.5]], [[1, 0.5], [2, 0.5]], [[2, 0.5], [2.5, 0.4]]):
         turning_of(identity, Pose(handles, handles))

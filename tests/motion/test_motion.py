@@ -74,7 +74,7 @@ def test_nothing_between_two_keyframes_is_worse_than_the_worse_one(
     maps = [random_map(name, size, seeds[0]), turned(random_map(name, size, seeds[1]), angle)]
     if not all(certificate_of(map).certified for map in maps):
         return
-    curve = Motion(maps)._curve
+    curve = Motion(maps).curve
     ends = [extremes(map) for map in maps]
     for t in (0.25, 0.5, 0.75):
         sigma2, k = extremes(curve.map(t))
@@ -113,7 +113,7 @@ def test_maps_solved_on_the_way_mend_what_the_projection_loses(
         assert way == "solved" or {*chosen[i : i + 2]} != {1, 2}
         worse = ends[i : i + 2, 0].min(), ends[i : i + 2, 1].max()
         for s in np.linspace(0, 1, 24):
-            map = motion._curve.map(times[i] + s * (times[i + 1] - times[i]))
+            map = motion.curve.map(times[i] + s * (times[i + 1] - times[i]))
             sigma2, k = extremes(map, points)
             assert sigma2 >= 0.985 * worse[0]
             assert k <= 1.015 * worse[1]
@@ -139,7 +139,7 @@ def test_periods_around_holes_are_closed_without_distortion() -> None:
     points = uniform_panels(end.domain.cage, 4000).start
     sigma2, k = extremes(end, points)
     for s in np.linspace(0, 1, 17):
-        now = extremes(motion._curve.map(s), points)
+        now = extremes(motion.curve.map(s), points)
         assert now[0] >= 0.98 * sigma2
         assert now[1] <= 1.02 * k
 
@@ -149,9 +149,9 @@ def test_closing_changes_f_z_alone_and_leaves_a_thousandth_of_the_gap() -> None:
         boundary, end = boundary_of(domain(name)), poses(name, 0.4)[-1]
         fz, fzb_conj = boundary.first @ end.phi, boundary.first @ end.psi
         log, nu = 0.5 * boundary.logarithm(end.phi, fz), 0.5 * fzb_conj / fz
-        open_gap = np.abs(boundary._gap(np.exp(log), nu)[0]).max()
+        open_gap = np.abs(boundary.gap(np.exp(log), nu)[0]).max()
         closed = boundary.closed(log, nu)
-        assert np.abs(boundary._gap(closed, nu)[0]).max() <= 1e-3 * open_gap
+        assert np.abs(boundary.gap(closed, nu)[0]).max() <= 1e-3 * open_gap
         phi, _ = boundary.fitted(closed, nu * closed)
         missed = np.abs(boundary.first @ phi - closed).max() / np.abs(closed).max()
         assert missed < 0.05, name
@@ -166,9 +166,9 @@ def test_solving_ends_where_it_mends_nothing(
         solved.append(s)
         return HarmonicMap(stretched[0].domain, *between(piece, s))
 
-    monkeypatch.setattr(curve, "_solved", in_vain)
+    monkeypatch.setattr(curve, "solved_between", in_vain)
     # Shorter pieces close more periods, which mends something by itself.
-    monkeypatch.setattr(bounded, "_CLOSES", 0.0)
+    monkeypatch.setattr(bounded, "CLOSES", 0.0)
     assert not Motion(stretched[1:]).certificate.certified
     assert 1 <= len(solved) <= 3
 
@@ -285,7 +285,7 @@ def test_a_motion_hardly_slows_down_at_its_keyframes(name: str) -> None:
 
     turns = 2 * np.pi * np.arange(5) / 5
     maps = [HarmonicMap(domain(name), swung(a, "phi"), swung(a, "psi")) for a in turns]
-    curve = Motion(maps, repeat="loop")._curve
+    curve = Motion(maps, repeat="loop").curve
     speeds = [curve.map(t % 5).distance(curve.map(t + 1e-4)) for t in np.arange(0, 5, 0.5) - 5e-5]
     assert np.mean(speeds[::2]) > 0.75 * np.mean(speeds[1::2])
     worst = [extremes(map) for map in (*maps, maps[0])]
@@ -332,7 +332,7 @@ def test_pieces_follow_the_curve_within_the_tolerance() -> None:
     maps = poses("twin", 0, 1.5, 0.3)
     for tolerance in (0.01, 0.001):
         motion = Motion(maps, tolerance=tolerance)
-        curve, size = motion._curve, motion.domain.cage.longer_side
+        curve, size = motion.curve, motion.domain.cage.longer_side
         times = np.linspace(0, 2, 23)
         off = max(motion(t).distance(curve.map(float(t)), 100) for t in times)
         assert off <= 1.5 * tolerance * size
@@ -452,7 +452,7 @@ def test_saving_loses_nothing(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -
     for proof in (path, str(path), link):
         with pytest.raises(MotionError, match="the proof would overwrite the motion"):
             motion.save(path, proof)
-    monkeypatch.setattr("glid_nb.motion.file._MOST_KNOTS", 2)
+    monkeypatch.setattr("glid_nb.motion.file.MOST_KNOTS", 2)
     with pytest.raises(MotionError, match=r"no file holds \d+ maps"):
         motion.save(path)
     assert path.read_text() == "before"

@@ -127,7 +127,7 @@ def test_poses_that_were_left_before_they_were_solved_are_solved_first() -> None
         model.paused = True
         model.drag(0, (2.2, 0.5))
         model.go_to_pose(0)
-        assert animation._worker.wait(TIMEOUT)
+        assert animation.worker.wait(TIMEOUT)
         assert misses(model)[1] > 0.1
         assert statuses(animation) == ["refused"]
         assert "'Pose 2' is not solved, for the solver is paused" in animation.spans[0].reason
@@ -207,7 +207,7 @@ def test_poses_that_wind_otherwise_are_not_joined_and_the_others_are() -> None:
         animation = Animation(model)
         put(model, identity, inverse, inverse)
         model.set_repeat("loop")
-        assert animation._worker.wait(TIMEOUT)
+        assert animation.worker.wait(TIMEOUT)
         assert statuses(animation) == ["refused", "proved", "refused"]
         reason = animation.spans[0].reason
         assert reason.startswith("'Pose 1' and 'Pose 2' cannot be joined without folding")
@@ -227,7 +227,7 @@ def test_a_motion_that_folds_stops_where_its_proof_does(monkeypatch: pytest.Monk
         model.paused = True
         animation = Animation(model)
         put(model, identity, turned)
-        assert animation._worker.wait(TIMEOUT)
+        assert animation.worker.wait(TIMEOUT)
         (span,) = animation.spans
         assert span.status == "fails"
         assert span.reason.startswith("Proved up to 0.49")
@@ -284,7 +284,7 @@ def test_closing_does_not_wait_for_a_proof(
         assert closed.wait(TIMEOUT)
         yield from ()
 
-    monkeypatch.setattr("glid_nb.session.animation._proved", proved)
+    monkeypatch.setattr("glid_nb.session.animation.proved_spans", proved)
     model.save_pose()
     animation = Animation(model)
     assert proving.wait(TIMEOUT)
@@ -292,5 +292,5 @@ def test_closing_does_not_wait_for_a_proof(
     animation.close()
     assert not closed.is_set()
     closed.set()
-    animation._worker.thread.join(TIMEOUT)
-    assert not animation._worker.thread.is_alive()
+    animation.worker.thread.join(TIMEOUT)
+    assert not animation.worker.thread.is_alive()

@@ -26,6 +26,8 @@ from glid_nb.session.editor_model import (
     open_document,
 )
 
+from ..support.threads import NewThreads
+
 pytestmark = pytest.mark.slow  # most of the time is compiling
 
 
@@ -349,8 +351,8 @@ class TestKeptWork:
 
     @staticmethod
     def flushed(model: EditorModel) -> None:
-        assert model._autosave is not None
-        assert model._autosave.flush(60)
+        assert model.saving is not None
+        assert model.saving.flush(60)
 
     def test_the_work_of_a_user_without_a_home_is_kept_among_temporary_files(
         self, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
@@ -482,13 +484,14 @@ def test_a_model_that_is_dropped_ends_its_threads_and_saves_its_work(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, named: bool
 ) -> None:
     monkeypatch.setenv("GLID_NB_DATA", str(tmp_path))
+    threads = NewThreads()
     model = EditorModel(picture(), path=tmp_path / "a.glid" if named else None)
     _pin(model, (-6, 0))
-    saving = model._autosave
+    saving = model.saving
     assert saving is not None
     saving.flush()
     _pin(model, (6, 0))  # waits for the interval
-    thread, path = saving._worker.thread, saving.path
+    thread, path = threads.named(f"autosave {saving.path.name}"), saving.path
     assert thread is not None
     gone = weakref.ref(model)
     del model, saving

@@ -273,7 +273,7 @@ def test_a_slow_problem_lets_a_callback_in_after_each_iteration(
 ) -> None:
     pose = Pose(ELL_HANDLES, ELL_TARGETS)
     fast = solve(domain("ell"), pose)
-    monkeypatch.setattr(newton, "_WORK_PER_CALL", 1)
+    monkeypatch.setattr(newton, "WORK_PER_CALL", 1)
     seen: list[int] = []
     slow = solve(domain("ell"), pose, callback=lambda p: bool(seen.append(len(p.history))))
     assert seen == list(range(1, slow.iterations + 1))
@@ -419,8 +419,8 @@ def test_steps_that_creep_to_a_fold_end_a_solve(step: float, gain: float, ends: 
         Iteration(iteration=i, energy_iso=float(e), energy_p2p=0.0, time=0.0, step=step)
         for i, e in enumerate(energies)
     ]
-    assert newton._has_stalled(entries) is ends
-    assert not newton._has_stalled(entries[:4])
+    assert newton.has_stalled(entries) is ends
+    assert not newton.has_stalled(entries[:4])
 
 
 @pytest.mark.parametrize(("size", "weight"), [(1, 1e11), (1, 1e16), (1, 1e300), (1e6, 1e5)])

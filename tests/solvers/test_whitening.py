@@ -184,7 +184,7 @@ def test_a_solve_puts_steep_coordinates_back_that_lower_the_minimum(
     result = solve(uneven(), UNEVEN_POSE, options=options)
     assert result.discretisation is not None
     assert result.discretisation.whitening.steep.shape[1] < begun.steep.shape[1]
-    monkeypatch.setattr(whitening, "_STEEP", 1e-12)
+    monkeypatch.setattr(whitening, "STEEP", 1e-12)
     discretise.cache_clear()
     whole = solve(uneven(), UNEVEN_POSE, options=options)
     discretise.cache_clear()

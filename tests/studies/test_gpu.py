@@ -66,7 +66,7 @@ def test_a_stopped_process_leaves_what_it_has_printed() -> None:
     assert time.perf_counter() - began < 50
     assert printed.ending == "stopped after 10 s"
     assert printed.lines == ["{}\n", "{"]
-    assert run._lines(printed)["rows"] == [{}]
+    assert run.lines_of(printed)["rows"] == [{}]
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="there are no sessions of processes")

@@ -88,12 +88,13 @@ def open_notebook(
 @pytest.fixture
 def sent(monkeypatch: pytest.MonkeyPatch) -> list[Any]:
     """What widgets send to the page from now on: pairs of data and buffers."""
-    from ipywidgets import Widget
+    from comm import DummyComm
 
     messages: list[Any] = []
 
-    def send(_: Any, message: dict[str, Any], buffers: Any = None) -> None:
-        messages.append((message, list(buffers or [])))
+    def publish(_: Any, kind: str, data: Any = None, buffers: Any = None, **__: Any) -> None:
+        if kind == "comm_msg":
+            messages.append((data, list(buffers or [])))
 
-    monkeypatch.setattr(Widget, "_send", send)
+    monkeypatch.setattr(DummyComm, "publish_msg", publish)
     return messages

@@ -302,6 +302,23 @@ def test_touch_drags_and_pinches(open_notebook: OpenNotebook) -> None:
     np.testing.assert_allclose(hand.place([1.0, 0.5]), target, atol=0.5)
 
 
+# The box for the numbers of pins, above the canvas.
+NUMBERS = "editor.tabs.children[1].children[0].children[0].children[1]"
+PREPARED_AS_TOLD = """
+import threading
+from glid_nb._runtime import stage
+from glid_nb.session import live_solver
+may_solve, solve = threading.Event(), live_solver.solve
+
+def prepared(*arguments, **named):
+    stage("compile")
+    may_solve.wait(60)
+    return solve(*arguments, **named)
+
+live_solver.solve = prepared
+"""
+
+
 def test_the_canvas_says_that_it_is_warming_up_and_takes_pins_meanwhile(
     open_notebook: OpenNotebook,
 ) -> None:
@@ -309,7 +326,8 @@ def test_the_canvas_says_that_it_is_warming_up_and_takes_pins_meanwhile(
     hand, page = Hand(book), book.page
     shown = page.locator(".glid-prepared")
     assert not shown.is_visible()
-    book.value("model._prepare(0.5)")
+    hand.settle()
+    book.value("None", setup=f"{PREPARED_AS_TOLD}model.add_handle({THREE[0]})")
     shown.get_by_text("Warming up: 50 %").wait_for()
     # In sight where the cell was just run: at the canvas's top, below the hint.
     pad, hint, box = (one.bounding_box() for one in (hand.pad, page.locator(".glid-notice"), shown))
@@ -317,11 +335,11 @@ def test_the_canvas_says_that_it_is_warming_up_and_takes_pins_meanwhile(
     assert hint is not None
     assert box is not None
     assert hint["y"] + hint["height"] <= box["y"] < box["y"] + box["height"] < pad["y"] + 80
-    for point in THREE:
+    for point in THREE[1:]:
         hand.click(point)
     book.wait_for("len(model.pose) == 3")
     book.screenshot("editor-warming-up")
-    book.value("model._prepare(1.0)")
+    book.value("None", setup="live_solver.solve = solve; may_solve.set()")
     shown.wait_for(state="hidden")
     hand.settle()
     assert hand.certified()
@@ -388,8 +406,8 @@ def test_what_is_beside_the_canvas_neither_takes_undo_nor_moves_it(
         book.value(
             "None", setup="stage.notice = 'So it is. ' * 9; stage.legend_corner = 'top left'"
         )
-        refusal = "editor._parts['pins'].children[0].refusal"
-        book.value("None", setup=f"{refusal}.value = '<div>Refused. </div>' * 9")
+        book.value("None", setup=f"bars = {NUMBERS}.children[0]")
+        book.value("None", setup="bars.children[0].refusal.value = '<div>Refused. </div>' * 9")
         page.locator(".glid-column .glid-refusal").get_by_text("Refused.").first.wait_for()
         notice = page.locator(".glid-notice", has_text="So it is.")
         notice.wait_for()

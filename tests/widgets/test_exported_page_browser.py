@@ -59,7 +59,7 @@ def test_a_page_plays_scrubs_and_leads_to_poses(
 ) -> None:
     """With the network off. Pixels at a time are those of the map at that time."""
     if not in_shader:
-        monkeypatch.setattr("glid_nb.export.page._LONGEST_CHAIN", 10)
+        monkeypatch.setattr("glid_nb.export.page.LONGEST_CHAIN", 10)
     motion = Motion([HarmonicMap.identity(shapes.domain()), shapes.bent()], repeat=repeat)
     front = Pose(shapes.pose().handles, shapes.pose().targets, [1.0, -1.0])
     poses = [shapes.pose(), front]  # nothing overlaps, so their depths change no pixel

@@ -15,7 +15,7 @@ from glid_nb.imaging import PixelFrame
 from glid_nb.imaging.order import order_of
 from glid_nb.page import ShaderMap, energy_defines, glsl
 from glid_nb.widgets.layers import picture_texture
-from glid_nb.widgets.scene import Drawing, Scene, _stacked, drawing_order, energy_uniform
+from glid_nb.widgets.scene import Drawing, Scene, drawing_order, energy_uniform, stacked_triangles
 
 from ..support.domains import NAMES, domain, random_map
 
@@ -199,7 +199,7 @@ def test_vertices_are_shaded_little_more_than_once(name: str) -> None:
 @pytest.mark.parametrize("name", ["ell", "triple"])
 def test_layers_cost_few_more_vertices_and_lie_in_order(name: str) -> None:
     mesh, order = triangulate(domain(name).cage, 4_000), order_of(domain(name).cage)
-    points, ordered = _stacked(mesh, order)
+    points, ordered = stacked_triangles(mesh, order)
     assert sorted(map(tuple, ordered)) == sorted(map(tuple, mesh.triangles))
     assert shaded(ordered) < 1.4 * len(mesh.vertices)
     heights = order(mesh.vertices)

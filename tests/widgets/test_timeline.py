@@ -12,6 +12,8 @@ from glid_nb.geometry import Domain
 from glid_nb.imaging import trace
 from glid_nb.widgets import DeformCanvas, TimelinePanel
 
+from ..support import from_page
+
 pytestmark = pytest.mark.slow
 
 TIMEOUT = 60.0
@@ -32,7 +34,13 @@ def panel(request: pytest.FixtureRequest) -> Iterator[TimelinePanel]:
 
 
 def act(panel: TimelinePanel, kind: str, **content: Any) -> str | None:
-    return panel._handle([{"type": kind, **content}])
+    """Send an event; the refusal."""
+    answers: list[dict[str, Any]] = []
+    panel.send = lambda answer, buffers=None: answers.append(answer)  # noqa: ARG005
+    from_page.send(panel, {"view": "page", "events": [{"type": kind, "seq": 1, **content}]})
+    del panel.send
+    (refusal,) = [answer["refusal"] for answer in answers if "ack" in answer]
+    return refusal
 
 
 def test_the_page_is_given_what_is_proved_and_its_events_act(panel: TimelinePanel) -> None:
@@ -42,7 +50,7 @@ def test_the_page_is_given_what_is_proved_and_its_events_act(panel: TimelinePane
     assert act(panel, "keep", time=0) is None
     model.drag(first, (-6, 1.5))
     assert panel.animation.wait(TIMEOUT)
-    panel._worker.wait(TIMEOUT)
+    panel.worker.wait(TIMEOUT)
     (span,) = panel.motion["spans"]
     assert span["status"] == "proved"
     assert len(span["sigma2"]) == len(span["times"]) - 1
