@@ -23,7 +23,7 @@ pytestmark = pytest.mark.slow
 
 @pytest.fixture
 def pictures(picture: Path, tmp_path: Path) -> list[Path]:
-    """Two that can be traced, and between them one that cannot."""
+    """Two pictures that can be traced, and between them one that cannot."""
     empty = tmp_path / "empty.png"
     Image.new("RGBA", (20, 20)).save(empty)
     other = tmp_path / "other.png"

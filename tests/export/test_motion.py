@@ -1,4 +1,4 @@
-"""Motions as files, opened again by programs that did not write them."""
+"""Motions as files, read by programs that did not write them."""
 
 from __future__ import annotations
 
@@ -123,7 +123,7 @@ def test_ffmpeg_reads_videos(kind: str, drawn: list[np.ndarray], tmp_path: Path)
 
 def test_a_video_may_be_transparent(drawn: list[np.ndarray], tmp_path: Path) -> None:
     (path,) = animate(tmp_path / "a.webm", picture(), motion(), background=None, **SMALL)
-    # ffmpeg's own decoder leaves the alpha out.
+    # ffmpeg's own decoder ignores alpha.
     data = decoded(path, "rgba", "-c:v", "libvpx-vp9")
     alpha = np.frombuffer(data, np.uint8).reshape(4, *drawn[0].shape)[..., 3]
     assert alpha[:, 0, 0].max() < 10

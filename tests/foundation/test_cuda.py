@@ -1,6 +1,6 @@
-"""Every compiled program, lowered for CUDA on a machine without a GPU.
+"""Every compiled program is lowered for CUDA, on a machine without a GPU.
 
-A program is lowered where it is called, under the settings of that call, then runs as always.
+A program is lowered at its call, with the settings of that call. Then it runs as usual.
 """
 
 from __future__ import annotations
@@ -61,11 +61,11 @@ METHODS = {
     "gauss-newton": {},
     "aqp": {},
 }
-"""Names and settings; between them they take every kind of Hessian."""
+"""Names and settings. Together they use every kind of Hessian."""
 
 
 def makers(source: str) -> Iterator[tuple[str, ast.Call | ast.expr]]:
-    """Name of the statement at the module's top level, and what there makes something compiled."""
+    """Name of the top-level statement, and the call or decorator in it that compiles."""
     for statement in ast.parse(source).body:
         target = statement.targets[0] if isinstance(statement, ast.Assign) else statement
         name = getattr(target, "name", None) or getattr(target, "id", type(target).__name__)
@@ -102,7 +102,7 @@ def test_a_program_is_found_in_the_code(source: str, name: str) -> None:
 
 
 class Lowered:
-    """What the programs were lowered to, by their names in the code."""
+    """The lowered texts of the programs, by their names in the code."""
 
     def __init__(self) -> None:
         self.texts: defaultdict[str, dict[Any, str]] = defaultdict(dict)
@@ -166,14 +166,14 @@ def use_every_program() -> None:
 
 @double_precision
 def evaluate_a_start(inputs: Inputs) -> None:
-    """As where the start has no proof."""
+    """As if the start had no proof."""
     start = NewtonDescent(Newton(), inputs)
     point = subspace.evaluated_at(start.problem, start.coefficients)
     newton.gradient(start.problem, point)
 
 
 def test_every_program_of_the_code_is_lowered(lowered: Lowered) -> None:
-    """A new program belongs into `use_every_program`, which must call it."""
+    """A new program must be called in `use_every_program`."""
     assert set(lowered.texts) == programs_in_the_code() - NO_PROGRAMS.keys()
     kinds = lowered.texts["glid_nb.solvers.step.run"]
     assert len(kinds) >= len(ENERGIES) + len(["custom", "stiff areas", "paper"])
@@ -203,7 +203,7 @@ def test_the_same_test_finds_a_cpus_call() -> None:
 
 
 def test_every_product_is_asked_for_in_full_precision(lowered: Lowered) -> None:
-    """A GPU would else take TF32 for the Hessian in single precision."""
+    """Otherwise a GPU would use TF32 for the Hessian in single precision."""
     products = [
         line
         for texts in lowered.texts.values()
@@ -217,7 +217,7 @@ def test_every_product_is_asked_for_in_full_precision(lowered: Lowered) -> None:
 
 
 def test_the_donated_factor_is_where_the_new_one_is_written(lowered: Lowered) -> None:
-    """Else every call would warn that the memory it was given is of no use."""
+    """Otherwise every call would warn that the donated memory is of no use."""
     for text in lowered.texts["glid_nb.solvers.step.run"].values():
         assert text.count("tf.aliasing_output") == 1
         assert "jax.buffer_donor" not in text
@@ -247,7 +247,7 @@ def test_the_factorisation_takes_the_platforms_own_solver() -> None:
     )
     assert calls("cpu") == {"lapack_dpotrf_ffi", "lapack_dtrsm_ffi"}
     assert calls("cuda") == {"cusolver_potrf_ffi"}
-    # Where a matrix is not definite the solver looks for NaN: here if cuSOLVER's `info` is not 0.
+    # If a matrix is not definite, the solver looks for NaN. cuSOLVER's `info` is then not 0.
     text = traced.lower(lowering_platforms=("cuda",)).as_text()
     assert re.search(r"dense<0x7FF8000000000000>", text)
     assert re.search(r"stablehlo.compare +EQ", text)

@@ -1,4 +1,4 @@
-"""What the installed libraries may not have is done without, or named in one sentence."""
+"""A missing feature of the installed libraries is replaced, or named in one sentence."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from glid_nb._errors import IncompatibleVersionsError, InputError
 
 @pytest.fixture(autouse=True)
 def asked_anew() -> Iterator[None]:
-    """Each test asks the libraries itself, and leaves nothing to the next one."""
+    """Each test asks the libraries anew, and leaves no answers to the next one."""
     asked = (
         _features.compiler_options,
         _features.lapack_in_place,

@@ -11,7 +11,7 @@ import pytest
 PACKAGE = Path(__file__).resolve().parents[2] / "glid_nb"
 
 FOUNDATION = "private modules at the top, such as _files"
-# Lowest first; the members of one row know nothing of each other.
+# The lowest first. The members of one row do not import each other.
 LAYERS = (
     (FOUNDATION,),
     ("geometry",),
@@ -29,7 +29,7 @@ LAYERS = (
     ("__main__",),
 )
 HEIGHT = {name: height for height, row in enumerate(LAYERS) for name in row}
-# The command line is a user of the public face, whose attributes are loaded lazily.
+# The command line uses the public face, whose attributes are loaded lazily.
 USES_THE_FACE = {"cli"}
 
 

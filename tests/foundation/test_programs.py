@@ -143,7 +143,7 @@ def test_of_those_in_files_the_few_used_last_stay_in_memory(
 
 @pytest.fixture
 def warned(monkeypatch: pytest.MonkeyPatch) -> list[str]:
-    """The warnings of a process that has given up no folder yet."""
+    """The warnings of a process that has not given up any folder."""
     told: list[str] = []
     monkeypatch.setattr(_cache_folder, "refused", set())
     monkeypatch.setattr(_cache_folder.warnings, "warn", lambda text, *_, **__: told.append(text))

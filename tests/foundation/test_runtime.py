@@ -173,7 +173,8 @@ assert threads() == {2}
 
 @pytest.mark.slow
 def test_the_last_of_several_threads_sets_blas_back(monkeypatch: pytest.MonkeyPatch) -> None:
-    """As when an editor's solver thread and a cell's solve overlap, and both threads live on."""
+    """Like an editor's solver thread and a cell's solve that overlap, while both threads live
+    on."""
     monkeypatch.setenv("OPENBLAS_NUM_THREADS", "2")
     run_python(
         BLAS

@@ -1,4 +1,4 @@
-"""A domain's parts must fit together, and say so when they do not."""
+"""The parts of a domain must fit together; if not, the error says so."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Which neighbouring panels one could stand for."""
+"""Neighbouring panels that one panel could replace."""
 
 import numpy as np
 import pytest

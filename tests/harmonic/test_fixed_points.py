@@ -1,4 +1,4 @@
-"""Maps at points that stay: beside the maps themselves."""
+"""Maps at fixed points, compared with the maps themselves."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Many poses at once: the same maps as one by one, on several devices too."""
+"""Many poses at once give the same maps as one by one, also on several devices."""
 
 from __future__ import annotations
 
@@ -199,7 +199,7 @@ def test_under_jax_distributed_every_host_solves_its_share() -> None:
             shares.append(json.loads(process.stdout.read()))
         assert process.returncode == 0
     for host, (count, elsewhere, energies, certified) in enumerate(shares):
-        assert (count, elsewhere) == (2, 1)  # they know of one another
+        assert (count, elsewhere) == (2, 1)  # they know each other
         assert certified == [True] * len(goals[host::2])
         poses = [Pose(HANDLES, goal) for goal in goals[host::2]]
         alone = [solve(shape, pose, options=Options(restarts=0)).energy for pose in poses]

@@ -1,4 +1,4 @@
-"""Finer bases on the same cage: the same map at first, then a lower minimum."""
+"""Finer bases on the same cage: at first the same map, then a lower minimum."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Motion as a value: what it passes through, how it is proved, what it refuses, its file."""
+"""Motion as a value: where it passes, its proof, its refusals, and its file."""
 
 from __future__ import annotations
 
@@ -84,7 +84,8 @@ def test_nothing_between_two_keyframes_is_worse_than_the_worse_one(
 
 @pytest.fixture(scope="module")
 def stretched() -> list[HarmonicMap]:
-    """The frog at rest and pulled far in two ways, between which its plain interpolation folds."""
+    """The frog at rest and pulled far in two ways. The plain interpolation between the two
+    folds."""
     d = Domain.from_cage(trace(samples.image("frog")).cage)
     pose = load_pose(samples.pose_path("frog", "extreme"))
     first = (
@@ -120,7 +121,7 @@ def test_maps_solved_on_the_way_mend_what_the_projection_loses(
 
 
 def bent_ring() -> HarmonicMap:
-    """A thin ring whose three handles bend it: k is small, but parts of it turn far."""
+    """A thin ring, bent by three handles: k is small, but parts of it turn far."""
     outer, hole = circle(50, 3.0), circle(30, 2.5)
     handles = [[2.63, -0.81], [-0.73, 2.65], [-0.35, -2.73]]
     targets = [[0.19, -1.14], [1.07, 3.42], [0.79, -2.45]]
@@ -131,7 +132,8 @@ def bent_ring() -> HarmonicMap:
 
 
 def test_periods_around_holes_are_closed_without_distortion() -> None:
-    """Were the gap only shared out, k between would be up to a quarter above the worse end's."""
+    """If the gap were only distributed, k in between would exceed the worse end's by up to a
+    quarter."""
     end = bent_ring()
     motion = Motion([HarmonicMap.identity(end.domain), end])
     assert motion.ways == ("bounded",)
@@ -167,7 +169,7 @@ def test_solving_ends_where_it_mends_nothing(
         return HarmonicMap(stretched[0].domain, *between(piece, s))
 
     monkeypatch.setattr(curve, "solved_between", in_vain)
-    # Shorter pieces close more periods, which mends something by itself.
+    # Shorter pieces close more periods, which already helps.
     monkeypatch.setattr(bounded, "CLOSES", 0.0)
     assert not Motion(stretched[1:]).certificate.certified
     assert 1 <= len(solved) <= 3
@@ -192,7 +194,7 @@ def test_only_the_piece_that_fails_is_divided(monkeypatch: pytest.MonkeyPatch) -
 
 
 def counted(monkeypatch: pytest.MonkeyPatch) -> list[int]:
-    """How many maps each proof of pieces is given."""
+    """The number of maps that each proof of pieces gets."""
     counts: list[int] = []
 
     def certify(maps: list[HarmonicMap]) -> Any:
@@ -204,7 +206,7 @@ def counted(monkeypatch: pytest.MonkeyPatch) -> list[int]:
 
 
 def test_forty_million_points_and_times_contradict_nothing_of_a_whole_motion() -> None:
-    """Of several pieces, with three holes and 200 times, at 2 x 10^5 points."""
+    """Several pieces, with three holes and 200 times, at 2 x 10^5 points."""
     maps = [turned(random_map("triple", 0.02, i), a) for i, a in enumerate((0, 1.5, 0.4))]
     motion = Motion(maps, [0, 1, 1.5], repeat="loop", tolerance=0.01)
     assert motion.certificate.certified
@@ -215,13 +217,13 @@ def test_forty_million_points_and_times_contradict_nothing_of_a_whole_motion() -
 
 
 def test_the_logarithm_of_f_z_has_one_branch_on_all_loops() -> None:
-    """Its value on a hole agrees with that along any other way through the domain."""
+    """Its value on a hole agrees with the values along any other path through the domain."""
     map = turned(random_map("triple", 0.05, 3), 2.9)
     boundary = boundary_of(map.domain)
     fz = boundary.first @ map.phi
     log = boundary.logarithm(map.phi, fz)
     assert np.abs(np.exp(log) - fz).max() < 1e-12
-    # The map is near a rotation by 2.9, so the argument is near it everywhere.
+    # The map is nearly a rotation by 2.9, so the argument is near 2.9 everywhere.
     assert np.abs(log.imag - log.imag[0]).max() < 1.5
 
 
@@ -236,7 +238,7 @@ def test_a_projection_gives_back_what_the_basis_holds() -> None:
 
 
 def test_loops_close_and_ping_pong_runs_back() -> None:
-    maps = poses("ell", 0, 2.2, 4.4)  # by the short way a full turn
+    maps = poses("ell", 0, 2.2, 4.4)  # a full turn by the short way
     loop = Motion(maps, [0, 1, 2, 3], repeat="loop")
     assert (loop.duration, loop.times) == (3, (0, 1, 2, 3))
     assert Motion(maps, [0, 1, 2], repeat="loop").times == loop.times
@@ -253,7 +255,7 @@ def test_loops_close_and_ping_pong_runs_back() -> None:
 
 
 def angles(motion: Motion, times: np.ndarray) -> np.ndarray:
-    """How far a point's surroundings are turned, along times that are close to each other."""
+    """The rotation of a point's surroundings, at times close to each other."""
     turned = [np.angle(motion(float(t)).wirtinger([[-1, -1]])[0][0]) for t in times]
     return np.unwrap(turned)
 
@@ -275,7 +277,8 @@ def test_many_turns_are_cut_into_as_many_pieces_as_they_need(turns: int) -> None
 
 @pytest.mark.parametrize("name", ["ell", "ring", "twin"])
 def test_a_motion_hardly_slows_down_at_its_keyframes(name: str) -> None:
-    """The shape swings evenly, so an even speed is right, but for what k and sigma_2 allow."""
+    """The shape swings evenly, so its speed should be even, except where k and sigma_2 forbid
+    it."""
     one, two = (random_map(name, 0.02, i) for i in (1, 2))
     rest = HarmonicMap.identity(domain(name))
 
@@ -292,7 +295,7 @@ def test_a_motion_hardly_slows_down_at_its_keyframes(name: str) -> None:
     for i, (ends, t) in enumerate(itertools.product(itertools.pairwise(worst), (0.2, 0.5, 0.8))):
         sigma2, k = extremes(curve.map(i // 3 + t))
         assert sigma2 >= 0.98 * min(s for s, _ in ends)
-        assert k <= 1.05 * max(k for _, k in ends)  # by 3 % these coarse bases miss what they fit
+        assert k <= 1.05 * max(k for _, k in ends)  # these coarse bases miss their fit by 3 %
 
 
 def test_a_motion_that_slows_down_does_not_spin() -> None:
@@ -382,7 +385,7 @@ def test_solved_motion_goes_through_certified_maps() -> None:
 
 
 def test_keyframes_that_turn_otherwise_are_refused() -> None:
-    """The ring turned inside out: no motion of locally injective maps leads there."""
+    """The ring turned inside out. No motion of locally injective maps leads there."""
     d = domain("ring")
     vertices = np.concatenate(d.offset_cage.loops_complex)
     phi = np.append(9 / (vertices - d.hole_points_complex[0]), 0)  # Cauchy's integral formula

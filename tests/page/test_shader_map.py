@@ -1,4 +1,4 @@
-"""A domain's maps as shaders take them."""
+"""A domain's maps in the form that shaders take."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The deformation editor's model: what the hand does, the thread behind it."""
+"""The model of the deformation editor, and its thread."""
 
 from __future__ import annotations
 
@@ -335,7 +335,7 @@ def test_the_status_says_how_far_the_solver_is_prepared(preparation: Preparation
     preparation.go_on("basis", "rows", "trace", "compile")
     assert sorted(set(seen)) == [0.0, 0.2, 0.3, 0.5, 1.0]
     assert deformation.status.text == "Preparing the solver… 50%"
-    handle = deformation.add_handle((2, 0))  # the hand can go on
+    handle = deformation.add_handle((2, 0))  # the user can go on
     deformation.drag(handle, to=(3, 0))
     assert deformation.busy
     deformation.close()
@@ -393,7 +393,7 @@ def test_an_interrupt_stops_the_solve_only(
     monkeypatch.setattr("glid_nb.session.live_solver.solve", slow)
     ring.drag(0, to=(4, 2))
     assert entered.wait(TIMEOUT)
-    # To the main thread, as a process is told: its wait is to end, not only what comes after.
+    # The signal goes to the main thread, as for a real process, so it ends the wait itself.
     main = threading.main_thread().ident
     assert main is not None
     timer = threading.Timer(0.2, lambda: signal.pthread_kill(main, signal.SIGINT))

@@ -1,4 +1,4 @@
-"""The tracer's model, driven as a hand would drive it."""
+"""The tracer's model, driven like the page drives it."""
 
 from __future__ import annotations
 
@@ -406,7 +406,7 @@ def test_a_document_brings_the_model_back(tmp_path: Path, edited: bool) -> None:
 
 @pytest.mark.slow
 def test_a_large_picture_follows_the_controls() -> None:
-    """Well within a second even on a busy machine; alone it is under 0.2 s (see benchmarks)."""
+    """Well within a second even on a busy machine. Alone it takes under 0.2 s (see benchmarks)."""
     from PIL import Image
 
     small = Image.fromarray(samples.image("teapot"))
@@ -429,7 +429,7 @@ POINTS = st.tuples(st.floats(-20, 180), st.floats(-20, 140))
 
 
 class Fuzz(RuleBasedStateMachine):
-    """Any actions in any order: a valid cage at all times, and undo is exact."""
+    """Any actions in any order: the cage is always valid, and undo is exact."""
 
     @initialize()
     def start(self) -> None:

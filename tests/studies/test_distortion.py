@@ -1,4 +1,4 @@
-"""Densities, and their mean over one area for maps of different kinds."""
+"""Densities, and their means over one area for maps of different kinds."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What is measured of motions between two poses."""
+"""The measurements of motions between two poses."""
 
 from __future__ import annotations
 

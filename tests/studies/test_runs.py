@@ -1,4 +1,4 @@
-"""What is kept of a run, and when a method counts as being there."""
+"""What is kept of a run, and when a method counts as converged."""
 
 from __future__ import annotations
 
@@ -67,7 +67,7 @@ def test_a_method_is_there_when_it_stays_there() -> None:
     moved = [0.0, far, near, far, near]
     found = reached(distance, moved, energy, 1.0, converged=False)
     assert found == {"energy": 4, "rest": 3, "map": 3}
-    # Kept iterates alone are known: the next one counts.
+    # Only kept iterates are known, so the next one counts.
     assert reached({0: far, 2: far, 4: near}, moved, energy, 1.0, False)["map"] == 4
 
 

@@ -1,4 +1,4 @@
-"""A solver that is prepared stage by stage, as a test tells it."""
+"""A solver whose preparation goes on stage by stage, as a test wants."""
 
 from __future__ import annotations
 
@@ -11,12 +11,12 @@ import pytest
 from glid_nb._runtime import stage
 
 FIRST_REPORT = "first report"
-"""A stage of ours: the solver is prepared, and calls back before its first iteration."""
+"""Another stage for `go_on`: the solver calls back before its first iteration."""
 _TIMEOUT = 120.0
 
 
 class Preparation:
-    """Stands in for ``solve``: it goes through the stages that it is told, and never ends."""
+    """Replaces ``solve``: it goes through the stages that it gets, and never ends."""
 
     def __init__(self) -> None:
         self._names, self._begun = Queue[str](), Queue[str]()

@@ -87,7 +87,7 @@ def open_notebook(
 
 @pytest.fixture
 def sent(monkeypatch: pytest.MonkeyPatch) -> list[Any]:
-    """What widgets send to the page from now on: pairs of data and buffers."""
+    """The messages that widgets send to the page from now on: pairs of data and buffers."""
     from comm import DummyComm
 
     messages: list[Any] = []

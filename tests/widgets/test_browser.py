@@ -1,4 +1,4 @@
-"""The browser tests' own tools: a fault must not go unnoticed."""
+"""The browser tests' own tools must not miss a fault."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Chapters of the course in a browser: they run from top to bottom and show their figures."""
+"""Chapters of the course in a browser run from top to bottom and show their figures."""
 
 from __future__ import annotations
 

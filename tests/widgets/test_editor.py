@@ -62,7 +62,7 @@ def bar() -> np.ndarray:
 
 @pytest.fixture(autouse=True)
 def no_cache(monkeypatch: pytest.MonkeyPatch) -> None:
-    """The process's JAX configuration stays as it is."""
+    """The process's JAX configuration stays unchanged."""
     monkeypatch.setattr("glid_nb.widgets.editor.enable_compilation_cache", lambda: None)
 
 
@@ -138,7 +138,7 @@ def test_the_headless_editor(editor: Editor, tmp_path: Path) -> None:
         assert "loop" not in picture.info  # the timeline plays once
     editor.load(path)
 
-    # Tracing anew is a step that undo takes back.
+    # Tracing again is a step that undo takes back.
     editor.trace(drop_holes=[[100.0, 50.0]])
     assert editor.deformation.state.domain.n_holes == 0
     assert editor.solve(TIMEOUT)
@@ -315,11 +315,12 @@ def test_the_canvas_shows_what_the_model_holds() -> None:
     assert "panels" in canvas.pane.scene.lines
     assert stage.panel_legend["title"] == "Certified σ₂ on the boundary"
     assert stage.panel_legend["ticks"] == ["≥ 0.5", "0.25", "0"]
-    canvas.overlay = "k"  # has a bar of its own
+    canvas.overlay = "k"  # k has its own colour bar
     assert stage.legend["title"] == "Dilatation k"
     assert stage.panel_legend
     assert stage.legend["colors"] != stage.panel_legend["colors"]
-    assert canvas.pane.scene.color_range[1] < 1  # a bend is seen, and the bar says so
+    # Even a bend is visible, and the bar shows the range.
+    assert canvas.pane.scene.color_range[1] < 1
     assert stage.legend["ticks"][-1] == f"{canvas.pane.scene.color_range[1]:g}"
     range_ = canvas.pane.scene.picture.material.uniforms["color_range"]["value"]
     assert range_ == list(canvas.pane.scene.color_range)
@@ -400,7 +401,7 @@ def test_the_first_canvas_waits_for_no_more_than_it_needs(tmp_path: Path) -> Non
 
 
 def columns(editor: Editor) -> tuple[Any, Any]:
-    """The canvas with all that is above and below it, and what is beside it."""
+    """The canvas with everything above and below it, and the column beside it."""
     left, right = editor.tabs.children[1].children[0].children
     return left, right
 
@@ -434,7 +435,7 @@ def test_the_numbers_come_when_the_first_gesture_has_ended(editor: Editor) -> No
     assert canvas is not None
     editor.deformation.paused = True
     where = {"x": -7.0, "y": 0.0, "button": 0, "shift": False, "reach": 0.3, "unit": 0.02}
-    for step in (0.0, 0.5, 1.0):  # nothing takes the processor from the first drag
+    for step in (0.0, 0.5, 1.0):  # so the first drag has the processor for itself
         canvas.handle([{**where, "type": "move" if step else "down", "x": where["x"] + step}])
         assert box.children == ()
     canvas.handle([{**where, "type": "up"}])
@@ -632,7 +633,7 @@ def test_the_panel_and_the_model_show_each_other() -> None:
         assert model.state.current.options.p2p_weight == 1e3
         panel.options.controls["hessian"].value = "projected"
         assert model.state.current.options.hessian == "projected"
-        # The method, its own settings, and which of the options count for it.
+        # The method, its own settings, and the options that matter for it.
         panel.method.value = "gauss-newton"
         assert "cannot minimise the energy" in panel.refusal.value
         assert panel.method.value == "newton"
@@ -679,7 +680,7 @@ def test_wrong_arguments_are_refused_and_leave_nothing(
     if "path" not in arguments:
         with pytest.raises(kind, match=message.replace("240", "100")):
             DeformCanvas(bar(), domain("ell"), **arguments)
-    gc.collect()  # what is dropped would complain here: warnings are errors
+    gc.collect()  # warnings are errors, so a dropped canvas that complains fails here
     assert _widgets() == before
 
 
@@ -773,7 +774,7 @@ def test_colour_ranges_fit_the_map_in_round_steps() -> None:
     one = np.ones(100)
 
     def end(name: str, stretch: float, **least: tuple[float, float]) -> float:
-        """Where the colours of a map end that stretches one direction."""
+        """The ends of the colours for a map that stretches one direction."""
         fz, fzb = one * (stretch + 1) / 2, one * (stretch - 1) / 2
         return color_range(name, energy, fz, fzb, **least)[1]
 
@@ -799,7 +800,7 @@ def test_a_cell_with_picture_and_file_can_run_again(tmp_path: Path) -> None:
 def test_a_cell_that_runs_again_stops_the_solver_of_its_first_editor(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    """From its beginning on; where it raises, the first editor goes on."""
+    """The new editor stops it from the beginning on. If that raises, the first editor goes on."""
     begun, may_end, busy, run = Queue[None](), Queue[None](), list[bool](), itertools.count()
 
     def prepared(*_: object, **__: object) -> None:

@@ -86,8 +86,8 @@ def test_what_comes_with_an_export_replaces_only_its_own(model: EditorModel) -> 
     export(model, "own.py")
     Path("e-source.png").write_bytes(Path("own-source.png").read_bytes())
     other = EditorModel(bar()[:, ::-1].copy())
-    export(other, "e.obj")  # what lies beside an OBJ file came with it
-    export(model, "e.py")  # the very picture
+    export(other, "e.obj")  # the other files of an OBJ were written with it
+    export(model, "e.py")  # the same picture
     other.close()
 
 
@@ -151,7 +151,7 @@ def test_a_file_of_others_is_replaced_by_a_second_click(panel: FilePanel) -> Non
     assert "Saved" in click(panel, panel.save_button)
     assert panel.save_button.description == "Save"
     glid.load_document(path)
-    assert "Saved" in click(panel, panel.save_button)  # now it is this editor's
+    assert "Saved" in click(panel, panel.save_button)  # now this editor has written it
 
 
 def test_the_question_is_forgotten_when_something_else_is_done(panel: FilePanel) -> None:
@@ -242,9 +242,9 @@ def test_it_says_where_changes_are_saved_by_themselves(model: EditorModel, tmp_p
     assert panel.path.value == str(path)
     assert f"Saved by itself to {path}" in panel.autosave.value
     kept.autosave()
-    kept.close()  # saves
+    kept.close()  # which saves
     assert path.exists()
-    assert "Saved" in click(panel, panel.save_button)  # its own file
+    assert "Saved" in click(panel, panel.save_button)  # the panel's own file
 
 
 def test_the_copied_lines_run(panel: FilePanel, sent: list[Any]) -> None:
@@ -264,7 +264,7 @@ def test_the_copied_lines_run(panel: FilePanel, sent: list[Any]) -> None:
     from_page.send(panel.clipboard, {"number": copy["number"], "copied": True})
     assert "in the clipboard" in panel.message.value
     from_page.send(panel.clipboard, {"number": copy["number"], "copied": False})
-    assert "in the clipboard" in panel.message.value  # another view of it
+    assert "in the clipboard" in panel.message.value  # another view of the widget
 
 
 def test_a_picture_of_others_is_not_replaced_by_copying(panel: FilePanel) -> None:
@@ -380,7 +380,7 @@ def test_the_motion_is_exported_in_the_background(model: EditorModel, tmp_path: 
     panel.export_button.click()
     assert motion.worker.wait(60)
     assert len(list(tmp_path.glob("*.sheet.*"))) == 2
-    # Stopped, it writes nothing.
+    # A stopped export writes nothing.
     panel.format.value, motion.rate.value = "motion.zip", 100
     motion.progress.observe(lambda _: motion.cancel.click(), ["value"])
     panel.export_button.click()
@@ -422,7 +422,7 @@ def test_the_last_export_is_chosen_again_in_the_next_session(model: EditorModel)
     again.format.value = ".obj"
     again.download_button.click()
     assert FilePanel(model).format.value == ".obj"
-    # What cannot be read, or chosen, counts for nothing.
+    # Settings that cannot be read or chosen are ignored.
     values = ('{"format": ".xyz", "view": "source", "more": 1}', '{"format": Infinity}', "[1]")
     for text in (*values, "{", "", "[" * 5000, "x" * 20_000):
         (last,) = Path(os.environ["GLID_NB_DATA"]).glob("last-export.json")

@@ -1,4 +1,4 @@
-"""The monitor: what it draws belongs together, and at rest it is the final certificate."""
+"""The monitor: its parts belong together, and at rest it shows the final certificate."""
 
 from __future__ import annotations
 
@@ -87,7 +87,7 @@ def test_closing_does_not_wait_for_plots_and_they_do_not_come_late(
     threads = NewThreads()
     monitor = SolverMonitor(model, 400, 300)
     assert drawing.wait(TIMEOUT)
-    threading.Timer(TIMEOUT / 10, closed.set).start()  # so that a close that waits comes back
+    threading.Timer(TIMEOUT / 10, closed.set).start()  # so a close that waits returns at last
     thread = threads.named("monitor")
     monitor.close()
     assert not closed.is_set()
@@ -165,7 +165,7 @@ def test_the_last_drawing_is_that_at_rest(
     monitor: SolverMonitor,
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    """The solver comes to rest after it told of its last frame, and tells nobody."""
+    """The solver comes to rest after it reported its last frame, without another report."""
     bent(model)
     assert monitor.refresh(TIMEOUT)
     model.drag(0, to=(3.5, 1.0))
@@ -235,7 +235,7 @@ def test_no_text_lies_over_data_or_other_text(n_holes: int, width: int):
         assert not any(a.overlaps(b) for a, b in itertools.combinations(boxes, 2))
         assert all(b.y0 >= 0 and b.y1 <= axes.figure.bbox.y1 for b in boxes)
         everything += [*boxes, *_tick_boxes(axes.xaxis), *_tick_boxes(axes.yaxis)]
-    if width < 460:  # less than any editor has: legends are wider than their plots
+    if width < 460:  # no editor is that narrow: legends are wider than their plots
         return
     assert not any(a.overlaps(b) for a, b in itertools.combinations(everything, 2))
     whole = plots.plots[0].axes.figure.bbox

@@ -1,4 +1,4 @@
-"""Motions as the page mixes them: the same maps as the kernel's."""
+"""Motions as the page interpolates them: the same maps as in the kernel."""
 
 from __future__ import annotations
 

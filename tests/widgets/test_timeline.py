@@ -1,4 +1,4 @@
-"""The timeline's kernel side: what the page is given, and what its events do."""
+"""The timeline's side in the kernel: what the page gets, and what its events do."""
 
 from __future__ import annotations
 
@@ -99,7 +99,7 @@ def test_the_page_is_given_what_is_proved_and_its_events_act(panel: TimelinePane
 
 
 def test_a_finer_cage_is_not_shown_the_motion_of_the_coarser(panel: TimelinePanel) -> None:
-    """It failed with an IndexError in the shader's coefficients."""
+    """The bug was an IndexError in the shader's coefficients."""
     model, coarse = panel.canvas.deformation, panel.canvas.deformation.state.domain
     model.add_handle((-6, 0))
     act(panel, "keep", time=0)

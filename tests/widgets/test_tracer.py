@@ -1,4 +1,4 @@
-"""The tracer without a browser: what the page is told, and what it may ask for."""
+"""The tracer without a browser: what the page gets, and what it may ask for."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ from ..support.drawing import DRAWING, IN_SMALL_DISC
 
 
 class Page:
-    """A page's end of the line."""
+    """The page's side."""
 
     def __init__(self, tracer: CageTracer, name: str = "page 1") -> None:
         self.tracer, self.name, self.sent = tracer, name, 0
@@ -45,7 +45,7 @@ class Page:
         return answer["refusal"]
 
     def point(self, kind: str, x: float, y: float, **more: Any) -> str | None:
-        """An event of the pointer at a pixel of the picture; the stage shows one in one."""
+        """An event of the pointer at a pixel of the picture. The stage shows them one to one."""
         event = {"x": float(x), "y": float(y), "reach": 9, "unit": 1, "button": 0}
         return self.ask(kind, **{**event, "shift": False, "time": 1e6 * self.sent, **more})
 
@@ -206,7 +206,7 @@ def test_a_problem_is_shown_with_its_place(tracer: CageTracer, page: Page) -> No
 
 
 def _disc(alpha: bool) -> np.ndarray:
-    """A disc on a transparent ground, or noise without any."""
+    """A disc on a transparent ground, or noise without transparency."""
     if not alpha:
         noise = np.random.default_rng(3).integers(0, 256, (60, 80, 3))
         return noise.astype(np.uint8)
@@ -251,7 +251,7 @@ def test_a_problem_is_told_in_plain_words(
     act(tracer.tracing_model)
     (problem,) = tracer.shown["problems"]
     assert words in problem["message"]
-    # No option, no coordinates, no value of code.
+    # The sentence names no option, no coordinates and no code.
     assert not re.search(r"[=_()]|'\w+'|\d\.\d|edges|exterior loop", problem["message"])
 
 
