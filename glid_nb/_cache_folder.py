@@ -6,7 +6,7 @@ import warnings
 from pathlib import Path
 
 _lock = threading.Lock()
-_refused = set[Path]()  # folders that this process no longer writes to
+refused = set[Path]()  # folders that this process no longer writes to
 
 
 class CacheWarning(RuntimeWarning):
@@ -16,9 +16,9 @@ class CacheWarning(RuntimeWarning):
 def refuse(folder: Path, why: str) -> None:
     """Stop writing to ``folder``, with one warning per process."""
     with _lock:
-        if folder in _refused:
+        if folder in refused:
             return
-        _refused.add(folder)
+        refused.add(folder)
     text = (
         f"compiled programs are not kept in {folder} ({why}), so every new process compiles them "
         "again; name a folder of your own in the environment variable GLID_NB_CACHE"
@@ -43,4 +43,4 @@ def can_write(folder: Path) -> bool:
 
 def is_refused(folder: Path) -> bool:
     """Whether this process has given up writing to ``folder``."""
-    return folder in _refused
+    return folder in refused

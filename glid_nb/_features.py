@@ -17,7 +17,7 @@ from threadpoolctl import OpenBLASController
 
 from glid_nb._jax import Array, CompiledOnUse, import_jax, incompatible, jax, lax
 
-_WANTED_OPTIONS: dict[str, Any] = {
+WANTED_OPTIONS: dict[str, Any] = {
     # XLA's older CPU emitters compile programs with many small fusions 1.6 times faster. JAX 0.11
     # and later no longer have them.
     "xla_cpu_use_fusion_emitters": False,
@@ -27,7 +27,7 @@ FACTORISE, SOLVE = "lapack_dpotrf_ffi", "lapack_dtrsm_ffi"
 """JAX's names, on a CPU, of LAPACK's Cholesky factorisation and triangular solve."""
 # Patterns of JAX's own calls of LAPACK, in the versions whose calls we know. The factorisation has
 # one matrix. The solve has a factor and right-hand sides; older versions have a third argument.
-_KNOWN_CALLS = (
+KNOWN_CALLS = (
     rf"@{FACTORISE}\(%\w+\) .*\{{uplo = 76 : ui8\}}",
     rf"@{SOLVE}\(%\w+, %\w+\) .*"
     r"\{diag = 78 : ui8, side = 76 : ui8, trans_x = 84 : ui8, uplo = 76 : ui8\}",
@@ -39,11 +39,12 @@ def enable_x64(enabled: bool = True) -> AbstractContextManager[None]:
 
     Before JAX 0.8 it is in ``jax.experimental``.
     """
-    return _enable_x64()(enabled)
+    return x64_context()(enabled)
 
 
 @functools.cache
-def _enable_x64() -> Any:
+def x64_context() -> Any:
+    """JAX's own function behind :func:`enable_x64`."""
     for module in ("jax", "jax.experimental"):
         if (found := getattr(import_jax(module), "enable_x64", None)) is not None:
             return found
@@ -58,12 +59,12 @@ def is_traced(value: Any) -> bool:
 @functools.cache
 def compiler_options() -> dict[str, Any]:
     """The XLA options that we want to set and that this version knows."""
-    return {name: value for name, value in _WANTED_OPTIONS.items() if _is_known(name, value)}
+    return {name: value for name, value in WANTED_OPTIONS.items() if _is_known(name, value)}
 
 
 def unknown_options() -> list[str]:
     """The XLA options that we want to set but that this version does not know."""
-    return sorted(set(_WANTED_OPTIONS) - set(compiler_options()))
+    return sorted(set(WANTED_OPTIONS) - set(compiler_options()))
 
 
 def _is_known(option: str, value: Any) -> bool:
@@ -98,7 +99,7 @@ def lapack_in_place() -> bool:
     with enable_x64():
         shapes = jax.ShapeDtypeStruct((2, 2), np.float64), jax.ShapeDtypeStruct((2, 1), np.float64)
         text = jax.jit(both).trace(*shapes).lower(lowering_platforms=("cpu",)).as_text()
-    return all(re.search(call, text) for call in _KNOWN_CALLS)
+    return all(re.search(call, text) for call in KNOWN_CALLS)
 
 
 def release_blas() -> None:

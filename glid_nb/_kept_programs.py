@@ -93,11 +93,12 @@ def _is_trusted(path: Path) -> bool:
 
     Loading a program executes it, so programs of other users must not be loaded.
     """
-    owners = _trusted_owners()
+    owners = trusted_owners()
     return owners is None or path.stat().st_uid in owners
 
 
-def _trusted_owners() -> set[int] | None:
+def trusted_owners() -> set[int] | None:
+    """The users whose programs are loaded; None if files have no owners here."""
     if not hasattr(os, "geteuid"):  # Windows keeps a user's folders from other users
         return None
     return {0, os.geteuid()}

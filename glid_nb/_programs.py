@@ -23,7 +23,7 @@ from glid_nb._jax import jax
 from glid_nb._kept_programs import KeptPrograms
 from glid_nb._runtime import default_device, jax_option, stage
 
-_MOST_LOADED = 4  # programs in memory, 15 MB each; one solve uses up to four
+MOST_LOADED = 4  # programs in memory, 15 MB each; one solve uses up to four
 
 
 class Program:
@@ -37,7 +37,7 @@ class Program:
     def __init__(
         self, function: Callable[..., Any], donated: int, may_keep: Callable[..., bool]
     ) -> None:
-        self._function, self._donated, self._may_keep = function, donated, may_keep
+        self.function, self.donated, self.may_keep = function, donated, may_keep
         # The last uses are recorded for programs in files only.
         self._ready, self._last_use = dict[Any, Any](), dict[Any, float]()
         self._locks: defaultdict[Any, threading.Lock] = defaultdict(threading.Lock)
@@ -55,14 +55,14 @@ class Program:
 
     def _loaded_or_made(self, key: Any, arguments: Any) -> Any:
         folder = jax_option("jax_compilation_cache_dir")
-        if folder is None or not can_keep_for(key[0]) or not self._may_keep(*arguments):
+        if folder is None or not can_keep_for(key[0]) or not self.may_keep(*arguments):
             lowered = self._lowered(arguments, "")
             stage("compile")
             return lowered.compile()
         self._make_room()
         self._last_use[key] = time.monotonic()
         programs = KeptPrograms(Path(folder))
-        alias = f"glid_nb_arguments_{_digest(repr((_package_files(), key)))}"
+        alias = f"glid_nb_arguments_{_digest(repr((package_files(), key)))}"
         if (known := programs.by_alias(alias)) is not None:
             return known
         # A unique name keeps the program out of JAX's own cache. A program from that cache would
@@ -82,16 +82,16 @@ class Program:
 
     def _make_room(self) -> None:
         latest = sorted(self._last_use.items(), key=lambda item: item[1], reverse=True)
-        for key, _ in latest[_MOST_LOADED - 1 :]:
+        for key, _ in latest[MOST_LOADED - 1 :]:
             self._ready.pop(key, None)
             self._last_use.pop(key, None)
 
     def _lowered(self, arguments: Any, name: str) -> Any:
         def program(*arguments: Any) -> Any:
-            return self._function(*arguments)
+            return self.function(*arguments)
 
-        program.__name__ = self._function.__name__ + name
-        jitted = jax.jit(program, donate_argnums=self._donated, compiler_options=compiler_options())
+        program.__name__ = self.function.__name__ + name
+        jitted = jax.jit(program, donate_argnums=self.donated, compiler_options=compiler_options())
         stage("trace")
         traced = jitted.trace(*arguments)
         stage("lower")
@@ -118,7 +118,8 @@ def _here() -> tuple[Any, ...]:
 
 
 @functools.cache
-def _package_files() -> list[tuple[Any, ...]]:
+def package_files() -> list[tuple[Any, ...]]:
+    """Name, size and time of change of each file of this package."""
     root = Path(__file__).parent
     files = [(str(path.relative_to(root)), path.stat()) for path in sorted(root.glob("**/*.py"))]
     return [(name, stat.st_size, stat.st_mtime_ns) for name, stat in files]

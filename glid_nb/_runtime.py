@@ -27,7 +27,7 @@ from glid_nb._jax import check_fork, jax
 P = ParamSpec("P")
 R = TypeVar("R")
 
-_CHUNK_ELEMENTS = 1 << 15
+CHUNK_ELEMENTS = 1 << 15
 
 _watcher: ContextVar[Callable[[str], None] | None] = ContextVar("watcher", default=None)
 
@@ -127,7 +127,7 @@ def in_chunks(
     The matrices have ``n_columns``. ``program`` returns a pytree of NumPy arrays with one row for
     each given row; there may be no rows. Overflows and undefined results give no warnings.
     """
-    size, parts = max(_CHUNK_ELEMENTS // n_columns, 1), []
+    size, parts = max(CHUNK_ELEMENTS // n_columns, 1), []
     # If SciPy's BLAS is not loaded, no solver is running.
     limited = single_blas_thread() if "scipy.linalg" in sys.modules else nullcontext()
     with np.errstate(all="ignore"), limited:

@@ -17,7 +17,7 @@ from PIL import Image
 from playwright.sync_api import Browser
 
 import glid_nb
-from tests.browser import JupyterServer, LabNotebook, launched_chromium, watched_page
+from tests.support.browser import JupyterServer, LabNotebook, launched_chromium, watched_page
 from tests.widgets.editor_page import Hand, line
 
 DOCS = Path(__file__).parent.parent / "docs"

@@ -17,12 +17,12 @@ from studies.store import Measurement
 from studies.study import Plan, Study, Task, on_cases
 from studies.tables import Row
 from studies.timing import timed
-from tests.reference_map import DenseCheck
+from tests.support.reference_map import DenseCheck
 
 QUARTERS = (0.25, 0.5, 0.75)
 _SIZES = (0.01, 0.02, 0.04)  # of what is added to the identity's coefficients
 _PAIRS = 12  # of random maps, with each number of holes
-_TIMES, _POINTS = 200, 200_000
+TIMES, _POINTS = 200, 200_000
 
 
 def extremes(maps: Any) -> np.ndarray:
@@ -34,7 +34,7 @@ def extremes(maps: Any) -> np.ndarray:
 
 def excess(motion: Motion, shares: Any) -> float:
     """By what share k or sigma_2 is worse on the way between two maps than at the worse one."""
-    curve, found = motion._curve, [0.0]
+    curve, found = motion.curve, [0.0]
     for pair, (start, end) in zip(pairwise(curve.maps), pairwise(curve.times), strict=True):
         ends, way = extremes(pair), extremes([curve.map(start + s * (end - start)) for s in shares])
         found += [way[:, 0].max() / ends[:, 0].max() - 1, 1 - way[:, 1].min() / ends[:, 1].min()]
@@ -53,14 +53,14 @@ def measure(case: Case, plan: Plan) -> Measurement:
         solved.append(solve(domain, pose.with_targets(targets), start=solved[-1]).map)
     back = solve(domain, pose.with_targets(1.6 * pose.handles - 0.6 * pose.targets)).map
     loop = Motion([*ends, back], [0, 1, 1.3, 3], repeat="loop")
-    proof, piece, curve = bounded.certificate, bounded.pieces[0], bounded._curve
+    proof, piece, curve = bounded.certificate, bounded.pieces[0], bounded.curve
     return {
         "size": f"{domain.n_coefficients - domain.n_holes}, {domain.n_holes}",
         "end": extremes(ends[1:]),
         "bounded": extremes([*map(curve.map, QUARTERS)]),
-        "coefficients": extremes([*map(linear._curve.map, QUARTERS)]),
+        "coefficients": extremes([*map(linear.curve.map, QUARTERS)]),
         "targets": extremes(solved[1:]),
-        "least, coefficients": extremes([*map(linear._curve.map, times)])[:, 1].min(),
+        "least, coefficients": extremes([*map(linear.curve.map, times)])[:, 1].min(),
         "excess": [excess(bounded, times), excess(loop, times)],
         "proved": [len(bounded.pieces), proof.k_upper, proof.sigma2_lower],
         "map": timed(lambda: HarmonicMap(domain, *curve.between(0, 0.37)), plan.repeats),
@@ -111,7 +111,7 @@ def attack(holes: int, plan: Plan) -> Row:
     dense = DenseCheck.on(*loops, domain.hole_points_complex, 2000 if plan.quick else _POINTS)
     for motion in (motions[0], Motion(pairs[0], between="linear")):
         proof = motion.certificate
-        for t in np.linspace(0, proof.until, _TIMES, endpoint=proof.certified):
+        for t in np.linspace(0, proof.until, TIMES, endpoint=proof.certified):
             coefficients = motion(t).phi, motion(t).psi
             f, g = (np.abs(np.concatenate(dense.derivative(c))) for c in coefficients)
             room = (f - g).min() - proof.sigma2_lower, proof.sigma1_upper - (f + g).max()

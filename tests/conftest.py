@@ -54,7 +54,7 @@ def pytest_configure(config: pytest.Config) -> None:
     cache = getattr(config, "cache", None)  # absent with -p no:cacheprovider
     if "GLID_NB_CACHE" not in os.environ and cache is not None:
         os.environ["GLID_NB_CACHE"] = str(cache.mkdir("glid_nb"))
-    # Editors keep their work there; nothing of the user's is touched.
+    # Editors save their work there. The user's own files are not touched.
     kept = tempfile.TemporaryDirectory(prefix="glid_nb-", ignore_cleanup_errors=True)
     config.add_cleanup(kept.cleanup)
     os.environ["GLID_NB_DATA"] = kept.name
@@ -72,7 +72,7 @@ def _compilation_cache() -> None:
 
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
-    # First, so that one process takes all that wait for a browser, and the others work meanwhile.
+    # Browser tests come first: one process takes them, and the others work meanwhile.
     items.sort(key=lambda item: item.get_closest_marker("browser") is None)
     options = {"reference": "--reference", "long": "--minutes", "install": "--install"}
     wanted = {name: config.getoption(option) for name, option in options.items()}

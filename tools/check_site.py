@@ -19,7 +19,7 @@ from playwright.sync_api import Browser, ConsoleMessage, Request
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 
-from tests.browser import launched_chromium
+from tests.support.browser import launched_chromium
 
 WIDTHS = {390: 844, 1280: 800}
 SEARCH = "winding"

@@ -166,7 +166,7 @@ def certify(
         raise ValueError(f"unknown kind of certificate {kind!r}; choose one of {', '.join(PROOFS)}")
     if not tightness > 0:
         raise ValueError(f"tightness is {tightness}; it must be positive")
-    evaluate = functools.partial(run_on, map, functools.partial(_kernel, kind=kind))
+    evaluate = functools.partial(run_on, map, functools.partial(known_on, kind=kind))
     if panels is not None:
         check_tiling(panels, map.domain.cage)
     panels = graded_panels(map.domain) if panels is None else panels
@@ -293,9 +293,10 @@ def _assembled(panels: Panels, bounds: PanelBounds, certified: bool, **more: Any
     return made
 
 
-def _kernel(
+def known_on(
     start: Any, end: Any, coefficients: Any, singularities: Singularities, kind: CertificateKind
 ) -> Known:
+    """What is known on panels of the map with these coefficients: bounds and values at the ends."""
     ends, slack, own = end_values(start, end, coefficients, singularities)
     fz, fzb_conj = (EndValues(*(values[k] for values in ends)) for k in (0, 1))
     proof = PROOFS[kind].on(start, end, singularities)

@@ -59,7 +59,7 @@ class Hermite(NamedTuple):
             e_f = e_f + rounding.BERNSTEIN * p_most  # rounding of u and of the products
         halves = [
             _piece_bounds(a, b, e_f, e_g)
-            for a, b in zip(_halves(p if direction is None else along), _halves(q), strict=True)
+            for a, b in zip(halved(p if direction is None else along), halved(q), strict=True)
         ]
         sigma2, sigma1, k = zip(*halves, strict=True)
         if direction is not None:
@@ -81,8 +81,8 @@ def _piece_bounds(p: Cubic, q: Cubic, e_f: PerPanel, e_g: PerPanel) -> tuple[Arr
     q_most = _greatest([modulus(point) for point in q])
     # Rounding errors of the computed coefficients.
     p_off, q_off = (rounding.BERNSTEIN * most**2 for most in (p_most, q_most))
-    p_square = [a - p_off for a in _squared_modulus(p)]
-    q_square = [b + q_off for b in _squared_modulus(q)]
+    p_square = [a - p_off for a in squared_modulus(p)]
+    q_square = [b + q_off for b in squared_modulus(q)]
 
     # |p| - |q| = (|p|^2 - |q|^2) / (|p| + |q|), and the control points bound the denominator.
     # If least is negative, |q|^2 <= |p|^2 - least gives |q| <= |p| + sqrt(-least).
@@ -112,7 +112,7 @@ def _control_points(f: EndValues) -> Cubic:
     return [f.start, f.start + f.slope_start / 3, f.end - f.slope_end / 3, f.end]
 
 
-def _halves(cubic: Cubic) -> tuple[Cubic, Cubic]:
+def halved(cubic: Cubic) -> tuple[Cubic, Cubic]:
     """De Casteljau's subdivision at the middle."""
     a, b, c, d = cubic
     ab, bc, cd = (a + b) / 2, (b + c) / 2, (c + d) / 2
@@ -121,7 +121,7 @@ def _halves(cubic: Cubic) -> tuple[Cubic, Cubic]:
     return [a, ab, abc, middle], [middle, bcd, cd, d]
 
 
-def _squared_modulus(cubic: Cubic) -> Sextic:
+def squared_modulus(cubic: Cubic) -> Sextic:
     """Bernstein coefficients of ``|cubic|^2``."""
 
     def dot(i: int, j: int) -> PerPanel:

@@ -120,7 +120,7 @@ def _video(frames: Frames, fps: float, suffix: str, transparent: bool) -> bytes:
         path, log = Path(folder) / f"frames{suffix}", Path(folder) / "log"
         program = get_ffmpeg_exe()
         command = [program, "-v", "error", *given, *_CODECS[suffix], *_COLORS, *pixels]
-        with log.open("wb") as told, _running([*command, str(path)], told) as ffmpeg:
+        with log.open("wb") as told, running([*command, str(path)], told) as ffmpeg:
             assert ffmpeg.stdin is not None
             try:
                 for frame in frames.pictures:
@@ -141,7 +141,8 @@ def _is_broken_pipe(error: BaseException) -> bool:
     return isinstance(error, OSError) and error.errno in (errno.EPIPE, errno.EINVAL)
 
 
-def _running(command: list[str], told: IO[bytes]) -> subprocess.Popen[bytes]:
+def running(command: list[str], told: IO[bytes]) -> subprocess.Popen[bytes]:
+    """The process of a command, which reads frames and writes its messages to ``told``."""
     try:
         return subprocess.Popen(command, stdin=subprocess.PIPE, stderr=told)
     except OSError as error:

@@ -36,7 +36,7 @@ _GRID_LINES = 20  # along the longer side
 _STEP = 2.5e-5
 _HEIGHT = 2.0**-16  # rounding of heights
 _MOST_STEPS = 2**28  # largest coefficient, in steps
-_LONGEST_CHAIN = 1024  # vectors that fit in a block of uniforms on every device
+LONGEST_CHAIN = 1024  # vectors that fit in a block of uniforms on every device
 # The text for each verdict on global injectivity.
 _OVERLAPS = {
     "yes": "no part lies over another",
@@ -119,7 +119,7 @@ def _shaders(mesh: MovingMesh, shown: HarmonicMap | Motion, step: float) -> dict
     domain = shown.domain
     shader = ShaderMap(domain)
     wire = shader.wire
-    if in_kernel := shader.n_chain > _LONGEST_CHAIN:
+    if in_kernel := shader.n_chain > LONGEST_CHAIN:
         points = FixedPoints(domain, mesh.vertices)
 
         def wire(map: HarmonicMap) -> bytes:

@@ -175,7 +175,7 @@ def triangulate(
         near = tree(inside).query_ball_point(wanted, _CLEARANCE * spacing)
         inside = np.delete(inside, sorted({i for found in near for i in found}), axis=0)
     vertices = np.concatenate([border, wanted, inside])
-    return Triangulation(vertices, _constrained_delaunay(vertices, loops), len(boundary))
+    return Triangulation(vertices, constrained_delaunay(vertices, loops), len(boundary))
 
 
 def _with_points(loop: Array, points: Array, tolerance: float) -> Array:
@@ -222,7 +222,7 @@ def _lattice(cage: Cage, spacing: float) -> Array:
     return points[shapely.intersects_xy(inner, points[..., 0], points[..., 1])]
 
 
-def _constrained_delaunay(vertices: Array, loops: list[Array]) -> Array:
+def constrained_delaunay(vertices: Array, loops: list[Array]) -> Array:
     """Triangles of the region bounded by the loops, whose points are the first vertices."""
     following = _loops.next_index(np.repeat(np.arange(len(loops)), [len(loop) for loop in loops]))
     # Any: numpy's stubs call an array a buffer from Python 3.12 on only.

@@ -66,7 +66,7 @@ def first_by_edges(z: Points, singularities: Singularities) -> Matrix:
     ``Log(B_{j+1} / B_j) / (2 pi i)`` for the edge from vertex ``j``, ``1 / (z - rho)`` for holes.
     A constant that is added to a loop's coefficients changes no slope, so it costs no accuracy.
     """
-    logarithms = _logarithms(singularities.vertices - z[:, None], singularities)
+    logarithms = edge_logarithms(singularities.vertices - z[:, None], singularities)
     rest = 1 / (z[:, None] - singularities.hole_points)
     return z.__array_namespace__().concat([logarithms / _TWO_PI_I, rest], axis=1)
 
@@ -127,10 +127,10 @@ def higher_derivative(
 def log_over_edge(b: Edges, singularities: Singularities) -> Edges:
     """``Log(B_{j+1} / B_j) / A_{j+1}``, one column per edge from vertex ``j`` to ``j + 1``."""
     vertices, following, _, _ = singularities
-    return _logarithms(b, singularities) / (vertices[following] - vertices)
+    return edge_logarithms(b, singularities) / (vertices[following] - vertices)
 
 
-def _logarithms(b: Edges, singularities: Singularities) -> Edges:
+def edge_logarithms(b: Edges, singularities: Singularities) -> Edges:
     """``Log(B_{j+1} / B_j)``, the principal branch, because an edge subtends an angle below pi.
 
     XLA's complex logarithm is off by 50 roundoffs near modulus 0.77, its real ``log`` and ``atan2``

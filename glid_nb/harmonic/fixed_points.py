@@ -7,8 +7,8 @@ from glid_nb._arrays import Array
 from glid_nb.geometry import Domain
 from glid_nb.harmonic.map import HarmonicMap, as_complex, basis_of
 
-_CHUNK = 1 << 21  # numbers at a time
-_MOST_KEPT = 1 << 26  # numbers, of 8 bytes each
+CHUNK = 1 << 21  # numbers at a time
+MOST_KEPT = 1 << 26  # numbers, of 8 bytes each
 
 
 class FixedPoints:
@@ -37,7 +37,7 @@ class FixedPoints:
         rows = [values - slopes * self._vertices[:, None], slopes, np.zeros_like(values)]
         rows = [rows, [holes, nothing, nothing], [nothing, nothing, holes]]
         factors = np.block(rows).astype(np.complex64)
-        size = max(1, _CHUNK // len(factors))
+        size = max(1, CHUNK // len(factors))
         images, derivatives = [], []
         for start in range(0, len(self._z), size):
             z = self._z[start : start + size, None]
@@ -59,6 +59,6 @@ class FixedPoints:
         away = z - self._domain.hole_points_complex
         parts = [logarithms, np.log(np.abs(away)), 1 / away]
         result = np.concatenate([part.astype(np.complex64) for part in parts], axis=1)
-        if start * result.shape[1] + result.size <= _MOST_KEPT:
+        if start * result.shape[1] + result.size <= MOST_KEPT:
             self._kept[start] = result
         return result

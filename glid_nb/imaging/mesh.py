@@ -14,7 +14,7 @@ from glid_nb.imaging.order import order_of
 from glid_nb.pose import Pose
 
 # Limits of refinement, because no mesh can follow a map close to its singularities.
-_MOST_VERTICES = 1_000_000
+MOST_VERTICES = 1_000_000
 _MOST_ROUNDS = 12
 
 _PER_EDGE = 4  # parts of each edge of the cage before refinement
@@ -101,7 +101,7 @@ def fine_mesh(
         fresh = np.flatnonzero(near & (edges.max(axis=1) >= first))
         middles, middle_images, bend = _halved(image, vertices, images, edges[fresh])
         bent = bend > tolerance
-        if not bent.any() or len(vertices) + bent.sum() > _MOST_VERTICES:
+        if not bent.any() or len(vertices) + bent.sum() > MOST_VERTICES:
             break
         first = len(vertices)
         new_vertex = np.full(len(edges), -1, np.int32)

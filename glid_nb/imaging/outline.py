@@ -21,8 +21,8 @@ _SPECK_SHARE, _SPECK = 1e-5, 4  # smaller holes, relative to the component and i
 _MOST_HOLES = 100
 # Limits on `_steps`. A drawing of 8,000 px has some 30,000 steps.
 # _NOISY: from this number on, small holes are filled before tracing.
-# _ROUGH: above this number, the outline is traced at a lower resolution.
-_NOISY, _ROUGH = 20_000, 100_000
+# ROUGH: above this number, the outline is traced at a lower resolution.
+_NOISY, ROUGH = 20_000, 100_000
 _LEAST_DIFFERENCE = 0.02  # between a pixel and the level, relative to the level
 
 
@@ -122,7 +122,7 @@ def find_outline(
     specks = _fill_specks(framed, least)
     part = framed[1:-1, 1:-1]
     block, coarse = 1, part
-    while _steps(coarse) > _ROUGH:
+    while _steps(coarse) > ROUGH:
         block, coarse = 2 * block, block_reduce(coarse, 2, np.max)  # stays connected
     if block == 1:
         field = _field(foreground.score[crop], foreground.level(threshold), framed)

@@ -19,8 +19,8 @@ from glid_nb.imaging.mesh import unique_edges
 from glid_nb.imaging.progress import Progress, report
 from glid_nb.imaging.texture import Sampler, Texture, affine, gradients, placed
 
-_TILE = 1 << 17  # pixels drawn at a time, to bound the memory
-_TILE_WIDTH = 512  # pixels; a compact tile needs only a small part of the picture
+TILE = 1 << 17  # pixels drawn at a time, to bound the memory
+TILE_WIDTH = 512  # pixels; a compact tile needs only a small part of the picture
 _MOST_THREADS = 8  # each thread needs some 50 MB
 SUBSAMPLES = 8  # rows and columns of the samples in an outline pixel
 
@@ -111,8 +111,8 @@ def render_nearest(
 def tiles(size: tuple[int, int]) -> list[Tile]:
     """The tiles of a picture of (w, h) pixels, row by row."""
     width, height = size
-    across = min(width, _TILE_WIDTH)
-    down = max(1, _TILE // across)
+    across = min(width, TILE_WIDTH)
+    down = max(1, TILE // across)
     return [
         Tile(left, top, min(across, width - left), min(down, height - top))
         for top in range(0, height, down)

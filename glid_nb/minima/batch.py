@@ -84,7 +84,7 @@ def solve_batch(
         try:
             with jax.default_device(device):
                 if len(members) > 1:
-                    return _in_lockstep(members)
+                    return in_lockstep(members)
                 return [replace(search.run(Newton(), one), factor=None) for one in members]
         finally:
             free.put(device)
@@ -117,7 +117,8 @@ def lockstep_groups(poses: Sequence[Pose], shares: int) -> list[list[int]]:
 
 
 @double_precision
-def _in_lockstep(group: list[Inputs]) -> list[Result]:
+def in_lockstep(group: list[Inputs]) -> list[Result]:
+    """The results of poses of one domain, solved together by one program, as on a GPU."""
     batch = [_Pose(Newton(), inputs) for inputs in group]
     with single_blas_thread():
         compile_time = _run(batch) / max(len(batch), 1)
@@ -182,7 +183,7 @@ def _call(chosen: list[_Pose], size: int) -> float:
     limits = [int(pose.settings().iterations) for pose in chosen]
     # Padding rows get the iteration limit 0.
     filled = [*chosen, *[first] * (size - len(chosen))]
-    state = _together(
+    state = together(
         first.problem,
         first.settings(),
         jnp.asarray(np.stack([pose.problem.positional.aims for pose in filled])),
@@ -198,9 +199,11 @@ def _call(chosen: list[_Pose], size: int) -> float:
 
 
 @solver_jit
-def _together(
+def together(
     problem: SubspaceProblem, settings: step.Settings, aims: Any, coefficients: Any, limits: Any
 ) -> step.State:
+    """Some iterations of each pose. The poses are the rows of the last three arguments."""
+
     def one(goals: Any, start: Any, limit: Any) -> step.State:
         state = step.iterations(
             problem._replace(positional=problem.positional._replace(aims=goals)),

@@ -91,20 +91,20 @@ class Boundary:
         ``log f_z``. That changes no ``|nu|``, so no k.
         """
         fz = np.exp(log)
-        gap, change = self._gap(fz, nu)
+        gap, change = self.gap(fz, nu)
         for _ in range(_CLOSINGS):
             if np.abs(gap).max(initial=0.0) <= _CLOSED:
                 break
             x = np.linalg.lstsq(change, -gap)[0]
             closer = fz * np.exp(self.holomorphic @ x)
             before = np.linalg.norm(gap)
-            gap, change = self._gap(closer, nu)
+            gap, change = self.gap(closer, nu)
             if not np.linalg.norm(gap) < before:
                 break  # too far for Newton's method; the projection shares the gap out
             fz = closer
         return fz
 
-    def _gap(self, fz: Array, nu: Array) -> tuple[Array, Array]:
+    def gap(self, fz: Array, nu: Array) -> tuple[Array, Array]:
         """(2 N,) what periods lack, and (2 N, m) its derivative by `holomorphic` functions."""
         a, b = self.periods * fz, self.periods * (nu * fz)
         gap: Any

@@ -26,7 +26,7 @@ _SHORTER = 0.8
 _MOST_STEPS, _ALONE = 12, 3  # after ALONE steps both tangents of a keyframe are shortened
 # Periods are closed only if this changes the logarithm of `|f_z|` halfway by less than CLOSES. A
 # larger change would lower sigma_2 between keyframes, and maps solved on the way would not help.
-_CLOSES = 0.3
+CLOSES = 0.3
 _PROBES = np.linspace(0, 1, 18)[1:-1]
 
 Coefficients = tuple[Array, Array]  # phi and psi
@@ -158,7 +158,7 @@ def _closes(boundary: Boundary, fields: Array) -> bool:
     """Whether closing the periods scales the fields by little."""
     log, nu = np.split(fields, 2)
     change = np.log(np.abs(boundary.closed(log, nu))) - np.real(log)
-    return bool(np.abs(change).max() < _CLOSES)
+    return bool(np.abs(change).max() < CLOSES)
 
 
 def _fitted(boundary: Boundary, fields: Array, closes: bool) -> Array:

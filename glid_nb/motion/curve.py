@@ -151,7 +151,7 @@ def _divided(
     for i, (start, end) in enumerate(itertools.pairwise(curve.times)):
         count = parts * curve.laps(i) if i in over else 1
         shares = np.arange(count) / count
-        maps += [_solved(curve, i, s, pose) if s else curve.maps[i] for s in shares]
+        maps += [solved_between(curve, i, s, pose) if s else curve.maps[i] for s in shares]
         times += (start + shares * (end - start)).tolist()
         turns += [curve.turns[i] if count == 1 else 0] * count
         of += [i] * count
@@ -159,7 +159,7 @@ def _divided(
     return Bounded.through(*through), [owners[i] for i in of]
 
 
-def _solved(curve: Bounded, piece: int, s: float, pose: Pose) -> HarmonicMap:
+def solved_between(curve: Bounded, piece: int, s: float, pose: Pose) -> HarmonicMap:
     """The map of least distortion whose handles are where the curve carries them."""
     map = HarmonicMap(curve.boundary.domain, *curve(piece, s))
     ends = sorted(curve.maps[piece : piece + 2], key=lambda end: certificate_of(end).sigma2_lower)

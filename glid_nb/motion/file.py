@@ -20,7 +20,7 @@ from glid_nb.motion.settings import LATEST, MotionError, checked
 
 Maps = list[HarmonicMap]
 
-_VERSION, _MOST_KNOTS = 1, 10_000
+_VERSION, MOST_KNOTS = 1, 10_000
 SETTINGS = ("easing", "repeat", "between", "tolerance", "turns")
 _REQUIRED = {
     **_json.keys("format", "version", *maps.DOMAIN_KEYS, *SETTINGS),
@@ -48,7 +48,7 @@ def texts(
     if (size := settings.get("image_size")) is not None:
         told["image_size_px"] = list(size)
     text = _json.json_text({"format": "glid_nb-motion", **shared, **told})
-    if len(knots) > _MOST_KNOTS or text.count(",") > _json.MOST_VALUES:
+    if len(knots) > MOST_KNOTS or text.count(",") > _json.MOST_VALUES:
         raise MotionError(f"no file holds {len(knots):,} maps like these; raise the tolerance")
     if not proofs:
         return (text,)
@@ -84,8 +84,8 @@ def read(path: str | Path) -> tuple[Maps, dict[str, Any], list[float], Maps]:
 
 def _knots(data: dict[str, Any]) -> tuple[list[float], list[HarmonicMap]]:
     given = data["knots"]
-    if not 2 <= len(given) <= _MOST_KNOTS:
-        raise MotionError(f'"knots" must hold 2 to {_MOST_KNOTS:,} maps, not {len(given)}')
+    if not 2 <= len(given) <= MOST_KNOTS:
+        raise MotionError(f'"knots" must hold 2 to {MOST_KNOTS:,} maps, not {len(given)}')
     times, found = [], []
     for i, knot in enumerate(given):
         with about(f"knots[{i}]", MotionError):

@@ -148,7 +148,7 @@ class Motion(Rebuilt):
     @property
     def ways(self) -> tuple[str, ...]:
         """What lies between each keyframe and the next: "bounded", "solved" or "linear"."""
-        return self._curve.ways
+        return self.curve.ways
 
     @functools.cached_property
     def pieces(self) -> tuple[Piece, ...]:
@@ -234,7 +234,8 @@ class Motion(Rebuilt):
         return {}
 
     @functools.cached_property
-    def _curve(self) -> Curve:
+    def curve(self) -> Curve:
+        """The smooth motion, which the pieces follow within the tolerance."""
         closed, intervals = self.repeat == "loop", range(len(self.times) - 1)
         maps = self.keyframes + self.keyframes[:closed]
         through = maps, self.times, self.easing
@@ -258,7 +259,7 @@ class Motion(Rebuilt):
 
     def _made(self, index: int) -> tuple[tuple[Piece, ...], tuple[PieceCertificate, ...]]:
         """The pieces of an interval, shorter ones where they are not proved, and their proofs."""
-        curve, boundary = self._curve, boundary_of(self.domain)
+        curve, boundary = self.curve, boundary_of(self.domain)
         times = curve.breaks(index, self.tolerance * self.domain.cage.longer_side)
         maps = [curve.map(time) for time in times]
         proofs = list(certify_pieces(maps))

@@ -55,7 +55,7 @@ class Animation(Observed):
         self._began: tuple[float, EditState] | None = None
         self._samples: list[tuple[float, NamedPose]] = []  # of the recorded drag
         prove = weakly(self._prove)
-        self._worker: LatestWins[EditState] = LatestWins(prove, self, "motion", waits=False)
+        self.worker: LatestWins[EditState] = LatestWins(prove, self, "motion", waits=False)
         self._stop = deformation.observe(weakly(self._on_model))
         self._on_model("state")
 
@@ -115,11 +115,11 @@ class Animation(Observed):
 
     def wait(self, timeout: float | None = None) -> bool:
         """Wait until all is proved or refused. Returns False after ``timeout`` seconds."""
-        return self.deformation.solve(timeout) and self._worker.wait(timeout)
+        return self.deformation.solve(timeout) and self.worker.wait(timeout)
 
     def close(self) -> None:
         self._stop()
-        self._worker.close()
+        self.worker.close()
 
     def _on_model(self, what: str) -> None:
         if what in ("selection", "hand"):
@@ -138,7 +138,7 @@ class Animation(Observed):
         """Start the proof once the edited pose is solved."""
         task = moment.state
         if not _same_motion(task, self._task):
-            self._worker.cancel()
+            self.worker.cancel()
             self._asked = False
             spans = _spans(task)
             if [(*s[:2], "computing") for s in spans] != [(*s[:2], s.status) for s in self._spans]:
@@ -147,7 +147,7 @@ class Animation(Observed):
         self._task = task
         if not self._asked and len(task.poses) > 1 and self.deformation.settled():
             self._asked = True
-            self._worker.submit(task)
+            self.worker.submit(task)
 
     # Recording
 
@@ -183,7 +183,7 @@ class Animation(Observed):
     def _prove(self, task: EditState, worker: LatestWins[EditState]) -> None:
         spans, told = list(_spans(task)), time.monotonic()
         reasons = [self.deformation.why_unsolved(pose) for pose in task.poses]
-        for i, span in _proved(task, reasons, worker):
+        for i, span in proved_spans(task, reasons, worker):
             spans[i] = span
             if time.monotonic() - told > _INTERVAL:
                 told = time.monotonic()
@@ -223,7 +223,7 @@ def motion_of(task: EditState, first: int = 0, last: int | None = None) -> Motio
     return Motion(chosen, times, easing=timeline.easing[first:last])
 
 
-def _proved(
+def proved_spans(
     task: EditState, reasons: list[str | None], worker: LatestWins[EditState]
 ) -> Iterator[tuple[int, Span]]:
     """Prove interval after interval.

@@ -95,7 +95,7 @@ class EditorModel(Observed):
         if path is not None:
             _check_place(Path(path))
         super().__init__()
-        self._autosave: autosave.Autosave | None = None
+        self.saving: autosave.Autosave | None = None  # what saves in the background, if anything
         self.save_error: Exception | None = None
         """Why the last save in the background failed; None if it succeeded.
 
@@ -128,13 +128,13 @@ class EditorModel(Observed):
     @property
     def autosave_path(self) -> Path | None:
         """The session file of the autosave, if any."""
-        saving = self._autosave if self._named_path is not None else None
+        saving = self.saving if self._named_path is not None else None
         return None if saving is None else saving.path
 
     @property
     def left_path(self) -> Path | None:
         """The file that the autosave gave up because another program changed it, if any."""
-        return None if self._autosave is None else self._autosave.left
+        return None if self.saving is None else self.saving.left
 
     def take_over_file(self) -> None:
         """Continue saving to the session file, although a closed editor wrote it last."""
@@ -229,7 +229,7 @@ class EditorModel(Observed):
         """
         if self.has_shape:
             self.deformation.finish()
-        saving, path = self._autosave, Path(path)
+        saving, path = self.saving, Path(path)
         if saving is not None and saving.path.resolve() == path.resolve():
             saving.write(self.document)
             self._saved(None)
@@ -256,13 +256,13 @@ class EditorModel(Observed):
         """Save soon, if there is something to save. Without a session file, work on handles is
         saved in the user's data folder."""
         with self.locked():
-            if self._autosave is None and self.unsaved:
+            if self.saving is None and self.unsaved:
                 try:
                     self._keep_in(autosave.new_kept_file(self.document.image))
                 except OSError as error:
                     self.not_kept(error)
-            if self._autosave is not None and self.has_shape:
-                self._autosave.submit(self.document)
+            if self.saving is not None and self.has_shape:
+                self.saving.submit(self.document)
 
     def recover(self) -> None:
         if self.kept is not None:
@@ -282,7 +282,7 @@ class EditorModel(Observed):
         """Save pending changes, with a warning if that fails, and end all threads."""
         with self.locked():
             self._observers.clear()
-            saving, self._autosave = self._autosave, None
+            saving, self.saving = self.saving, None
         if saving is not None:
             saving.close()
         if self._session is not None:
@@ -308,13 +308,13 @@ class EditorModel(Observed):
         image, done = self.document.image if own is None else None, weakly(self._saved)
         elsewhere = None if image is None else functools.partial(autosave.new_kept_file, image)
         known: Any = {"on_done": done, "own": own, "owner": self, "elsewhere": elsewhere}
-        self._autosave = autosave.Autosave(path, **known)
+        self.saving = autosave.Autosave(path, **known)
 
     def _end_keeping(self) -> Path | None:
-        if self._named_path is not None or self._autosave is None:
+        if self._named_path is not None or self.saving is None:
             return None
-        self._autosave.close()
-        path, self._autosave = self._autosave.path, None
+        self.saving.close()
+        path, self.saving = self.saving.path, None
         return path
 
     def _session_of(self, deformation: Deformation) -> _Session:
@@ -327,8 +327,8 @@ class EditorModel(Observed):
         session = next((s for s in self._shelf if s.image is self.tracing.image), None)
         if session is None:
             if self._named_path is not None and self._session is not None:
-                if self._autosave is not None:
-                    self._autosave.flush()  # then this file exists and the next gets another name
+                if self.saving is not None:
+                    self.saving.flush()  # then this file exists and the next gets another name
                 self._save_to(autosave.free_sibling(self._named_path))
             self._replace(Deformation(domain, begin=False))
             return
@@ -342,7 +342,7 @@ class EditorModel(Observed):
 
     def _save_to(self, path: Path) -> None:
         """Autosave to this file from now on. Pending changes are first saved to the old file."""
-        old = self._autosave
+        old = self.saving
         if old is not None:
             if old.path.resolve() == path.resolve():
                 self.own_files.note_session(path)

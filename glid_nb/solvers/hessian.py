@@ -22,7 +22,7 @@ Pair = tuple[Columns, Columns]
 
 # Elements of a basis matrix that are processed at once. Copies of more elements would take more
 # memory than the Hessian.
-_PIECE = 1 << 19
+PIECE = 1 << 19
 
 
 class LocalHessian(NamedTuple):
@@ -73,7 +73,7 @@ def _in_pieces(assembled: Callable[..., Array]) -> Callable[..., Array]:
     @functools.wraps(assembled)
     def summed(*arguments: Any) -> Array:
         nodes, count = arguments[0], arguments[0].shape[1]
-        pieces = -(-nodes.size // (2 * _PIECE))
+        pieces = -(-nodes.size // (2 * PIECE))
         if pieces == 1:
             return assembled(*arguments)
         length = -(-count // pieces)

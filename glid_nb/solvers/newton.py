@@ -43,7 +43,7 @@ _STALLED, _STALL_GAIN = 4, 1e-10
 # If each of these steps is shorter than this, a gain below this share of the energy is a stall.
 _CREEPING = 1e-6
 # Multiplications for Hessians in one call: some seconds. A callback can stop the solve afterwards.
-_WORK_PER_CALL = 10**10
+WORK_PER_CALL = 10**10
 # A solve begins without the steep coordinates (see whitening.py) and puts some of them back.
 # _GAIN: the coordinates that stay out would together gain less than this share of the energy.
 # _ROUGH: the first check is where the decrement predicts a decrease below this share.
@@ -150,7 +150,7 @@ class NewtonDescent(SubspaceDescent):
 
     def _most_at_once(self) -> int:
         rows, nodes = self.problem.matrices.whitened.shape
-        return max(_WORK_PER_CALL // (rows**2 * nodes), 1)
+        return max(WORK_PER_CALL // (rows**2 * nodes), 1)
 
     def advance(self, may_split: bool) -> Advance:
         """One compiled call. Without iterations left, it still evaluates the energies."""
@@ -215,7 +215,7 @@ class NewtonDescent(SubspaceDescent):
                 return Ending(Status.INDEFINITE)
             self.treatment = self.treatment.raised()
             return Ending(Status.BLOCKED) if self.treatment.ridge > _LARGEST_RIDGE else None
-        stalled = done.iterations and _has_stalled(self.history[self.treatment.full_since or 0 :])
+        stalled = done.iterations and has_stalled(self.history[self.treatment.full_since or 0 :])
         if not (done.outcome == line_search.NO_DECREASE or stalled) or self._take_full_hessian():
             return None
         hidden = _ROUNDING * abs(float(self.evaluated.energy))
@@ -270,7 +270,7 @@ class NewtonDescent(SubspaceDescent):
         return True
 
 
-_gradient = jit(evaluation.gradient)
+gradient = jit(evaluation.gradient)
 
 
 def _promised(problem: SubspaceProblem, point: Point, columns: Array, conformal: bool) -> Array:
@@ -283,7 +283,7 @@ def _promised(problem: SubspaceProblem, point: Point, columns: Array, conformal:
     x, y = evaluation.squares(point.samples.values)
     k = hessian.positive_part(hessian.local_hessian(problem.energy.differentials(x, y), x, y))
     weights = np.asarray(problem.matrices.weights)
-    g = np.asarray(_gradient(problem, point)).reshape(2, 2, -1)
+    g = np.asarray(gradient(problem, point)).reshape(2, 2, -1)
     slopes = np.abs((g[:, 0] + 1j * g[:, 1]) @ columns.conj()) ** 2
     along = (k.along_ff, k.across_f), (k.along_gg, k.across_g)
     means = [np.asarray(a + b) / 2 for a, b in along]
@@ -345,7 +345,8 @@ def _is_slow(history: Sequence[Iteration]) -> bool:
     return bool(last.step < _SLOW_STEP and gained < _SLOW_GAIN * last.energy)
 
 
-def _has_stalled(history: Sequence[Iteration]) -> bool:
+def has_stalled(history: Sequence[Iteration]) -> bool:
+    """Whether the last iterations lowered the energy too little to continue."""
     if len(history) <= _STALLED:
         return False
     before, *recent = history[-1 - _STALLED :]

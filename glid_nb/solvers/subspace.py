@@ -128,7 +128,7 @@ class SubspaceDescent(Descent):
         if self.proved is None and not self.start_proof.belongs_to(self.start):
             ending = Ending(Status.UNPROVED)
             coefficients = problem.real_coefficients(self.start_proof.map)
-            self.point = _evaluated(self.problem, coefficients)
+            self.point = evaluated_at(self.problem, coefficients)
         return super().result(ending, compile_time, solve_time)
 
     def split(self, refused: Array) -> int:
@@ -141,7 +141,7 @@ class SubspaceDescent(Descent):
         return count
 
 
-_evaluated = jit(evaluation.evaluated)
+evaluated_at = jit(evaluation.evaluated)
 
 
 def _starting_point(

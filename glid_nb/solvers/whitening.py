@@ -29,9 +29,9 @@ from glid_nb.harmonic.basis import Basis, column_bucket
 _RIDGE = 1e-13
 # Coordinates are scaled so that their slopes along the offset cage have the mean square 1. These
 # are limits on the root mean square of their derivatives over the boundary.
-# _STEEP: coordinates are left out only if some are below this; traced cages have 0.005 and more.
+# STEEP: coordinates are left out only if some are below this; traced cages have 0.005 and more.
 # _LEAST: then all below this are left out. They oscillate about as fast as the panels' nodes.
-_STEEP, _LEAST = 4.5e-3, 3e-2
+STEEP, _LEAST = 4.5e-3, 3e-2
 
 
 class Whitening(NamedTuple):
@@ -110,10 +110,10 @@ def _without_steep(
     own = basis.columns[basis.columns < len(vertices)]
     edges = np.abs(vertices - vertices[previous])[own]
     rises = (values[own] - values[previous[own]]) / np.sqrt(edges * edges.sum())[:, None]
-    if np.linalg.norm(rises) <= 1 / _STEEP:
+    if np.linalg.norm(rises) <= 1 / STEEP:
         return inverse, inverse[:0]
     squares, turn = scipy.linalg.eigh(rises.conj().T @ rises)
-    if squares[-1] <= _STEEP**-2:
+    if squares[-1] <= STEEP**-2:
         return inverse, inverse[:0]
     rows, first = turn.conj().T @ inverse, np.searchsorted(squares, _LEAST**-2, side="right")
     return rows[:first], rows[first:]

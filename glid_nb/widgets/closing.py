@@ -18,7 +18,7 @@ from glid_nb._arguments import check_keywords
 P = ParamSpec("P")
 
 # For each cell: its last run, and the widgets that this run made.
-_made: dict[str, tuple[str, weakref.WeakSet[Any]]] = {}
+widgets_of_cells: dict[str, tuple[str, weakref.WeakSet[Any]]] = {}
 
 
 class ClosingWidget(ipywidgets.Widget):
@@ -82,8 +82,8 @@ def one_a_cell(make: Callable[P, None]) -> Callable[P, None]:
     @functools.wraps(make)
     def made(*arguments: P.args, **named: P.kwargs) -> None:
         new: Any = arguments[0]
-        cell, run = _running_cell()
-        last_run, others = _made.get(cell, (run, weakref.WeakSet()))
+        cell, run = running_cell()
+        last_run, others = widgets_of_cells.get(cell, (run, weakref.WeakSet()))
         earlier = [] if last_run == run else list(others)
         with ExitStack() as going_on:
             for model in (old.model for old in earlier if old.model.has_shape):
@@ -98,7 +98,10 @@ def one_a_cell(make: Callable[P, None]) -> Callable[P, None]:
         if earlier:
             new.model.take_over_file()
         if cell:
-            _made[cell] = run, weakref.WeakSet([new, *(others if last_run == run else ())])
+            widgets_of_cells[cell] = (
+                run,
+                weakref.WeakSet([new, *(others if last_run == run else ())]),
+            )
 
     return made
 
@@ -113,7 +116,7 @@ def _forget(closed: Any) -> None:
                 del names[name]
 
 
-def _running_cell() -> tuple[str, str]:
+def running_cell() -> tuple[str, str]:
     """The identities of the cell and of its run; empty if the notebook does not provide them."""
     ipython = sys.modules.get("IPython")
     shell: Any = None if ipython is None else ipython.get_ipython()

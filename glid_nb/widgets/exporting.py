@@ -176,19 +176,19 @@ class MotionExport(ClosingWidget, ipywidgets.HBox):
         self.rate = ipywidgets.BoundedFloatText(25, min=1, max=100, tooltip=tip, layout=_NUMBER)
         self.progress = ipywidgets.IntProgress(layout={"width": "auto", "flex": "1 1 40px"})
         """The number of drawn frames; hidden without an export."""
-        self._worker: LatestWins[_Task] = LatestWins(weakly(self._draw), self, "export")
-        self.cancel = button("Cancel", "stop", "Stop drawing", self._worker.cancel)
+        self.worker: LatestWins[_Task] = LatestWins(weakly(self._draw), self, "export")
+        self.cancel = button("Cancel", "stop", "Stop drawing", self.worker.cancel)
         self._running = (self.progress, self.cancel)
         self._show(False)
         px, fps = (ipywidgets.Label(text, layout={"flex": "0 0 auto"}) for text in ("px", "fps"))
         layout = {"flex": "1 1 auto", "min_width": "0"}
         super().__init__([self.size, px, self.rate, fps, *self._running], layout=layout)
-        self._endings = (self._worker.close,)
+        self._endings = (self.worker.close,)
 
     def start(self, name: str, deliver: Callable[[dict[str, bytes]], str]) -> str:
         """Draw a file in the background, then deliver it. Returns a message at once."""
         self._show(True)
-        self._worker.submit((name, deliver))
+        self.worker.submit((name, deliver))
         return f"Drawing {name}…"
 
     def _draw(self, task: _Task, worker: LatestWins[_Task]) -> None:

@@ -24,7 +24,7 @@ from glid_nb.widgets import exporting
 from glid_nb.widgets.controls import REFUSED, button, paragraph
 
 _SUFFIX = ".glid"
-_DOUBLE_CLICK = 0.5  # seconds
+DOUBLE_CLICK = 0.5  # seconds
 _MOTION = "motion"  # prefix of the suffixes of motions in the menu
 _MOVING = {".html": ".motion", ".glb": ".motion", ".zip": ".frames"}  # inserted before these
 _LABEL = {"width": "58px", "flex": "0 0 auto"}
@@ -83,7 +83,7 @@ class Asking:
         def click() -> None:
             asked, _, at = self._asked
             # The second click of a double click is no confirmation.
-            sure = asked is made and time.monotonic() - at >= _DOUBLE_CLICK
+            sure = asked is made and time.monotonic() - at >= DOUBLE_CLICK
             self._show()
             try:
                 self._say(action(sure) or "")
@@ -204,10 +204,10 @@ class FilePanel(Asking, ipywidgets.VBox):
         look: Any = {"tooltip": tooltip, "layout": {"width": "76px", "flex": "0 0 auto"}}
         self.width = ipywidgets.BoundedIntText(width, min=1, max=most, **look)
         """Width of an exported picture in pixels; initially that of the original."""
-        self._height = ipywidgets.Label(layout={"flex": "0 0 auto"})
+        self.height = ipywidgets.Label(layout={"flex": "0 0 auto"})
         self.view = ipywidgets.Dropdown(options=_VIEWS, tooltip="What it shows", layout=_WIDE)
         """The view of an exported picture, as in `glid_nb.render`."""
-        self._picture = _row("Picture", self.width, self._height, self.view)
+        self.picture = _row("Picture", self.width, self.height, self.view)
         self.code = ipywidgets.Textarea(rows=9, layout={"width": "auto", "display": "none"})
         """The lines of "Copy as Python"."""
         self.clipboard = Clipboard()
@@ -219,7 +219,7 @@ class FilePanel(Asking, ipywidgets.VBox):
                 _row("Session", self.path, self.save_button, self.open_button),
                 _row("", self.autosave),
                 _row("Export", self.format, self.export_button, self.download_button),
-                self._picture,
+                self.picture,
                 self._moving,
                 _row("", self.code_button, self.clipboard),
                 self.message,
@@ -347,10 +347,10 @@ class FilePanel(Asking, ipywidgets.VBox):
     def _show(self, _: Any = None) -> None:
         """Update the controls from the model and each other. Stop asking for a confirmation."""
         super()._show()
-        self._picture.layout.display = "flex" if self.format.value == ".png" else "none"
+        self.picture.layout.display = "flex" if self.format.value == ".png" else "none"
         moving = str(self.format.value).startswith(_MOTION)
         self._moving.layout.display = "flex" if moving else "none"
-        self._height.value = f"× {self.size[1]} px"
+        self.height.value = f"× {self.size[1]} px"
         path = self.model.autosave_path
         text = _NO_AUTOSAVE if path is None else f"Saved by itself to {path.absolute()}"
         self.autosave.value = paragraph(text, "color:var(--jp-ui-font-color2,inherit)")

@@ -14,7 +14,7 @@ from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging.read import png
 from glid_nb.solvers import Iteration
 
-_DPI, _SCALE = 100, 1.5  # dots per inch; pixels of the picture per CSS pixel
+_DPI, SCALE = 100, 1.5  # dots per inch; pixels of the picture per CSS pixel
 
 
 class LivePlots:
@@ -29,22 +29,22 @@ class LivePlots:
         self, cage: Cage, width: int, height: int, places: Mapping[str, tuple[float, ...]]
     ) -> None:
         self.cage = cage
-        figure = Figure(figsize=(width / _DPI, height / _DPI), dpi=_DPI * _SCALE)
+        figure = Figure(figsize=(width / _DPI, height / _DPI), dpi=_DPI * SCALE)
         self._canvas = FigureCanvasAgg(figure)
         energy, steps, times, certificate = (
             figure.add_axes((left / width, 1 - (top + high) / height, wide / width, high / height))
             for left, top, wide, high in places.values()
         )
-        self._energy = EnergyPlot(energy, animated=True)
-        self._step = StepPlot(steps, animated=True)
-        self._time = TimePlot(times, animated=True)
-        self._certificate = CertificatePlot(certificate, cage, animated=True)
-        self._plots: tuple[Plot, ...] = self._energy, self._step, self._time, self._certificate
-        for plot, name in zip(self._plots, places, strict=True):
-            plot.entitle(name, *((2.0,) if plot is self._time else ()))
+        self.energy = EnergyPlot(energy, animated=True)
+        self.step = StepPlot(steps, animated=True)
+        self.time = TimePlot(times, animated=True)
+        self.certificate = CertificatePlot(certificate, cage, animated=True)
+        self.plots: tuple[Plot, ...] = self.energy, self.step, self.time, self.certificate
+        for plot, name in zip(self.plots, places, strict=True):
+            plot.entitle(name, *((2.0,) if plot is self.time else ()))
         # Steps and times share the horizontal axis below them.
-        self._step.axes.set_xlabel("")
-        self._step.axes.tick_params(labelbottom=False)
+        self.step.axes.set_xlabel("")
+        self.step.axes.tick_params(labelbottom=False)
         self._background: Any = None
 
     def draw(
@@ -63,17 +63,17 @@ class LivePlots:
         ``minimum`` is the least possible energy.
         """
         changed = [
-            self._energy.update(history, starts=starts, solving=solving, minimum=minimum),
-            self._step.update(history, starts, solving),
-            self._time.update(history),
-            self._certificate.update(certificate, map),
+            self.energy.update(history, starts=starts, solving=solving, minimum=minimum),
+            self.step.update(history, starts, solving),
+            self.time.update(history),
+            self.certificate.update(certificate, map),
         ]
         if self._background is None or any(changed):
             self._canvas.draw()
             self._background = self._canvas.copy_from_bbox(self._canvas.figure.bbox)
         else:
             self._canvas.restore_region(self._background)
-        for plot in self._plots:
+        for plot in self.plots:
             for artist in plot.artists:
                 plot.axes.draw_artist(artist)
         return png(np.asarray(self._canvas.buffer_rgba())[..., :3], compress_level=1)

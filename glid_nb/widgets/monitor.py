@@ -17,8 +17,8 @@ from glid_nb.session.status_line import StatusLine, describe
 from glid_nb.session.worker import LatestWins, weakly
 from glid_nb.widgets.closing import ClosingWidget
 
-_INTERVAL = 0.1  # least number of seconds between two drawings of the plots
-_REST = 1.0  # seconds without a change before work of low priority is done
+INTERVAL = 0.1  # least number of seconds between two drawings of the plots
+REST = 1.0  # seconds without a change before work of low priority is done
 _TONES = {"idle": GREY, "working": BLUE, "good": GREEN, "blocked": ORANGE, "error": VERMILION}
 _RATE_WINDOW = 1.0  # seconds over which frames are counted
 PLOTS = {  # for each plot: what it shows, and the section of the paper
@@ -84,13 +84,13 @@ class SolverMonitor(ClosingWidget, ipywidgets.VBox):
         empty, size = _placeholder(width, height), {"width": width, "height": height}
         self.image = ipywidgets.Image(value=empty, format="svg+xml", **size)
         """The plots; empty axes until the solver has begun."""
-        self.plots = ipywidgets.VBox([_guide(width, height), self.image])
+        self.plots = ipywidgets.VBox([guide(width, height), self.image])
         """The plots and their explanations."""
         self._size, self._with_plots = (width, height), plots
         self._plots = None  # `LivePlots`, once they are drawn
         self._frames: deque[float] = deque()
         self._changed = time.monotonic()
-        how: Any = {"interval": _INTERVAL, "waits": False}  # the thread may be importing matplotlib
+        how: Any = {"interval": INTERVAL, "waits": False}  # the thread may be importing matplotlib
         self._worker = LatestWins[None](weakly(self._update), self, "monitor", **how)
         self._drawn: Any = None
         super().__init__([self.line, self.plots] if plots else [self.line], **kwargs)
@@ -130,7 +130,7 @@ class SolverMonitor(ClosingWidget, ipywidgets.VBox):
                 f"<span>{html.escape(status.text)}</span></div>"
             )
         begun, moves = self.deformation.begun, moment.busy or moment.dragged
-        now_rests = begun and not moves and time.monotonic() - self._changed > _REST
+        now_rests = begun and not moves and time.monotonic() - self._changed > REST
         self.rested = self.rested or now_rests
         # The solver reports its last frame before it is at rest, so check again later.
         if moment.busy or (begun and not self.rested):
@@ -204,7 +204,7 @@ _GUIDE = """<style>
 </style>"""
 
 
-def _guide(width: int, height: int) -> ipywidgets.HTML:
+def guide(width: int, height: int) -> ipywidgets.HTML:
     """An overlay for plots of this size in CSS pixels. It explains each on hover and by a "?"."""
 
     def about(name: str, left: float, top: float, wide: float, high: float) -> str:

@@ -89,7 +89,7 @@ class Scene:
         self.frame, self._texture = frame, texture
         self._mesh = triangulate(self.domain.cage, n_vertices)
         self._order = order_of(self.domain.cage)
-        stacked = _stacked(self._mesh, self._order)
+        stacked = stacked_triangles(self._mesh, self._order)
         self.picture = self._layer("picture", self._textured_uniforms(), *stacked)
         self.lines: dict[str, Layer] = {}  # the lines of _LINES that have been shown
         self.comparison: Layer | None = None
@@ -143,9 +143,9 @@ class Scene:
         if order is self._order:
             return
         self._order = order
-        self.picture.stack(*_stacked(self._mesh, order))
+        self.picture.stack(*stacked_triangles(self._mesh, order))
         if self.comparison is not None:
-            self.comparison.stack(*_stacked(self._sources["comparison"], order))
+            self.comparison.stack(*stacked_triangles(self._sources["comparison"], order))
 
     def _show_comparison(self, map: MeshMap | None) -> None:
         layer, source = self.comparison, None if map is None else map.triangulation
@@ -153,7 +153,7 @@ class Scene:
             self._replaced.append(layer)
             layer = None
         if layer is None and map is not None:
-            stacked = _stacked(map.triangulation, self._order)
+            stacked = stacked_triangles(map.triangulation, self._order)
             layer = layers.comparison_layer(map, self._textured_uniforms(), *stacked)
         self.comparison, self._sources["comparison"] = layer, source
         if layer is not None:
@@ -238,7 +238,7 @@ def _uniforms(**values: Any) -> Uniforms:
     return {name: {"value": value} for name, value in values.items()}
 
 
-def _stacked(mesh: Triangulation, order: Order) -> tuple[Array, Array]:
+def stacked_triangles(mesh: Triangulation, order: Order) -> tuple[Array, Array]:
     """(v, 3) vertices with the order's heights as z, and (t, 3) triangles, the lower ones first.
 
     Within a level, the depth test orders the triangles. Lower levels must be drawn first, so that

@@ -63,7 +63,7 @@ class TimelinePanel(Pad):
         self._texture: Texture | None = None
         self._stacked: tuple[Any, ...] = ()
         draw = weakly(self._draw_thumbnails)
-        self._worker = LatestWins[tuple[NamedPose, ...]](draw, self, "thumbnails")
+        self.worker = LatestWins[tuple[NamedPose, ...]](draw, self, "thumbnails")
         super().__init__(stage=canvas.pane.stage.model_id, **kwargs)
         model = canvas.deformation
         actions = {
@@ -87,7 +87,7 @@ class TimelinePanel(Pad):
             model.observe(self._show),
             self.animation.observe(self._show),
             self.animation.close,
-            self._worker.close,
+            self.worker.close,
         )
         for what in ("state", "motion"):
             self._show(what)
@@ -122,7 +122,7 @@ class TimelinePanel(Pad):
             # Drawing needs JAX and the processor, and the first solve has priority.
             at_rest = moment.solved and not moment.dragged and self.canvas.drawn
             if what in ("state", "frame") and at_rest:
-                self._worker.submit(moment.state.poses)
+                self.worker.submit(moment.state.poses)
             if not moment.dragged:
                 self._show_heights(moment.state)
 

@@ -87,7 +87,7 @@ def _draw_folds(axes: Any, data: Measurement, name: str) -> None:
         # Folds can be slivers: their edges are wide enough not to be overlooked.
         turned = list(corners[map_.flipped])
         axes.add_collection(PolyCollection(turned, facecolors=INK, edgecolors=VERMILION, lw=1.2))
-    outline = list(images[_outline(triangles)])
+    outline = list(images[outline_of(triangles)])
     axes.add_collection(PolyCollection(outline, facecolors="none", edgecolors=INK, lw=HAIRLINE))
     targets = arrays["targets"]
     axes.scatter(targets[:, 0], targets[:, 1], s=9, color=CYAN, edgecolors=INK, lw=0.4, zorder=3)
@@ -97,7 +97,7 @@ def _draw_folds(axes: Any, data: Measurement, name: str) -> None:
     axes.set_axis_off()
 
 
-def _outline(triangles: Array) -> Array:
+def outline_of(triangles: Array) -> Array:
     """(e, 2) edges that belong to one triangle."""
     edges = np.sort(np.concatenate([triangles[:, [a, b]] for a, b in ((0, 1), (1, 2), (2, 0))]))
     unique, counts = np.unique(edges, axis=0, return_counts=True)

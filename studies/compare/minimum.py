@@ -27,7 +27,7 @@ Array = NDArray[Any]
 Constraints = Literal["soft", "hard"]
 
 _TOLERANCE = 1e-10
-_ITERATIONS = 150
+ITERATIONS = 150
 _ARMIJO, _SAFETY, _LEAST_STEP = 1e-4, 0.9, 1e-12
 
 
@@ -61,7 +61,7 @@ def mesh_minimum(
     if not np.isfinite(total):
         raise NoMinimumError("the start has inverted triangles")
     t, descent = 0.0, np.inf
-    for _ in range(_ITERATIONS):
+    for _ in range(ITERATIONS):
         # Far from the minimum the exact Hessian is hardly ever definite, and steps are cut short.
         direction, descent = problem.newton_step(w, fz, fzb, try_exact=t == 1)
         if descent / 2 <= _TOLERANCE * abs(total):
@@ -83,7 +83,7 @@ def mesh_minimum(
                 )
         w, fz, fzb = moved
     raise NoMinimumError(
-        f"Newton's method on the mesh has a decrement of {descent / 2:.2g} after {_ITERATIONS} "
+        f"Newton's method on the mesh has a decrement of {descent / 2:.2g} after {ITERATIONS} "
         "iterations"
     )
 

@@ -31,7 +31,7 @@ from glid_nb import samples
 from glid_nb.io import load_pose
 from studies.editor.frame_log import N_SAMPLES
 from studies.machine import machine
-from tests.browser import JupyterServer, LabNotebook, launched_chromium, watched_page
+from tests.support.browser import JupyterServer, LabNotebook, launched_chromium, watched_page
 from tests.widgets.editor_page import MANAGER, Hand
 
 RATE = 60

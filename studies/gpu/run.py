@@ -83,7 +83,7 @@ def solves(plan: GpuPlan, device: str, limit: float) -> Measurement:
         "repeats": plan.repeats,
         "reference": _text(plan.reference),
     }
-    return _lines(printed_by(["-m", "studies.gpu.solving"], given, limit, **_on(plan, device)))
+    return lines_of(printed_by(["-m", "studies.gpu.solving"], given, limit, **_on(plan, device)))
 
 
 def batches(plan: GpuPlan, device: str, limit: float) -> Measurement:
@@ -96,7 +96,7 @@ def batches(plan: GpuPlan, device: str, limit: float) -> Measurement:
         "lockstep": LOCKSTEP[: 1 if plan.quick else None] if device == "device" else [],
         "seconds": limit,
     }
-    return _lines(printed_by(["-m", "studies.gpu.batches"], given, limit, **_on(plan, device)))
+    return lines_of(printed_by(["-m", "studies.gpu.batches"], given, limit, **_on(plan, device)))
 
 
 def tests(plan: GpuPlan, device: str, limit: float) -> Measurement:
@@ -188,7 +188,7 @@ def _text(path: Path | None) -> str | None:
     return None if path is None else str(path)
 
 
-def _lines(printed: Printed) -> Measurement:
+def lines_of(printed: Printed) -> Measurement:
     # The last line of a process that was stopped may be cut off.
     whole = [line for line in printed.lines if line.endswith("\n") and line.startswith("{")]
     rows = [json.loads(line) for line in whole]

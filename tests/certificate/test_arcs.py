@@ -1,4 +1,4 @@
-"""The enclosures of images of panels hold, rounding included."""
+"""The enclosures of the images of panels are true, also with rounding."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from glid_nb.harmonic import HarmonicMap
 OUTLINE = [[0, 0], [4, 0], [4, 3], [2.1, 3], [2, 0.6], [1.9, 3], [0, 3]]
 HOLE = [[3, 1], [3, 2], [3.5, 2], [3.3, 1.2]]
 DOMAIN = Domain.from_cage(Cage(OUTLINE, [HOLE]), offset=0.03)
-RATIO = 2.0  # Twice as coarse as the panels in use, so that curvature is felt.
+RATIO = 2.0  # Panels twice as coarse as those in use make the curvature matter.
 
 
 def _random_map(seed: int, roughness: float) -> HarmonicMap:
@@ -29,7 +29,7 @@ def _random_map(seed: int, roughness: float) -> HarmonicMap:
 
 
 def _anchor(map: HarmonicMap) -> complex:
-    """What images are relative to."""
+    """The size that errors of images are relative to."""
     return complex(map.phi[0] + map.psi[0].conj())
 
 
@@ -59,13 +59,13 @@ def test_an_arc_stays_close_to_its_chord_and_its_tangents(seed: int, roughness: 
     along = step * panels.length[:, None]
     tangent = arcs.start[:, None] + along * arcs.tangent_start[:, None]
     assert (np.abs(image - tangent) <= arcs.bend[:, None] * along**2 / 2 + 1e-8).all()
-    if roughness:  # The bound is of the right size, not just large.
+    if roughness:  # The bound must not be far too large.
         used = np.abs(image - chord).max(axis=1) / arcs.sagitta
         assert 0.2 < used.max() <= 1
 
 
 def test_rounding_stays_within_its_bound() -> None:
-    # Where long double is double, this compares two ways to compute the same in double.
+    # Where long double is double, this compares two computations in double.
     extended = np.clongdouble
     map = _random_map(1, 0.3)
     panels, jets = _jets(map)

@@ -16,7 +16,7 @@ from hypothesis import strategies as st
 
 from glid_nb._errors import InputError
 from glid_nb.certificate import Certificate, certify, global_injectivity, rounding
-from glid_nb.certificate.certify import CertificateError, Known, _kernel, proof_text, split_panels
+from glid_nb.certificate.certify import CertificateError, Known, known_on, proof_text, split_panels
 from glid_nb.geometry import (
     Cage,
     Domain,
@@ -27,8 +27,8 @@ from glid_nb.geometry import (
 )
 from glid_nb.harmonic import HarmonicMap, run_on
 
-from ..domains import dense_check, domain, random_map, reference
-from ..reference_map import DenseCheck, Measured, cauchy_first
+from ..support.domains import dense_check, domain, random_map, reference
+from ..support.reference_map import DenseCheck, Measured, cauchy_first
 
 pytestmark = pytest.mark.slow  # most of the time is compiling
 
@@ -55,7 +55,7 @@ def check_sound(c: Certificate, truth: Measured) -> None:
         assert c.windings == truth.windings
         assert c.winding == 0
     elif "not locally injective: sigma_2" in c.reason:
-        assert truth.sigma2_boundary < 0.05 * truth.sigma1  # dense points may just miss the fold
+        assert truth.sigma2_boundary < 0.05 * truth.sigma1  # dense points may miss the fold
         assert c.sigma2_lower <= truth.sigma2_boundary + rounding
     elif "zeros" in c.reason:
         assert c.winding == sum(truth.windings) != 0
@@ -69,7 +69,7 @@ def test_certificates_are_true(kind: Any, name: str, size: float, seed: int) -> 
     map, truth = measured(name, size, seed)
     c = certify(map, kind)
     check_sound(c, truth)
-    # And complete: with refinement nothing but a real obstacle is in the way.
+    # With refinement, only a real obstacle prevents a proof.
     if truth.sigma2 > 0.02 and sum(truth.windings) == 0:
         assert c.certified, c.reason
     if truth.sigma2_boundary <= 0:
@@ -265,7 +265,7 @@ def test_without_refinement_the_given_panels_are_all_there_is(kind: Any) -> None
     np.testing.assert_array_equal(c.panels.start, panels.start)
     check_sound(c, truth)
     assert c.certified
-    # Few and long panels prove nothing, and say so.
+    # A few long panels prove nothing, and the reason says so.
     map, truth = measured("ring", 0.4, 3)
     coarse = uniform_panels(d.cage, 10)
     c = certify(map, kind, coarse, split=False)
@@ -275,7 +275,7 @@ def test_without_refinement_the_given_panels_are_all_there_is(kind: Any) -> None
     finer = certify(map, kind, coarse, split=True)
     check_sound(finer, truth)
     assert finer.certified
-    # However loose the bounds may be, panels are split until there is a proof.
+    # Even with loose bounds, panels are split until there is a proof.
     loose = certify(map, kind, coarse, tightness=5.0)
     check_sound(loose, truth)
     assert loose.certified
@@ -358,7 +358,7 @@ def test_panels_must_tile_the_boundary_of_the_map() -> None:
         "skipping a corner": replace(panels, start=nudged, end=nudged[panels.next]),
     }
     for name, one in wrong.items():
-        print(name)  # told where this fails
+        print(name)  # the sentence names the place
         with pytest.raises(GeometryError, match="do not tile the boundary"):
             certify(map, panels=one)
 
@@ -429,7 +429,7 @@ def test_rounding_that_falls_with_a_panels_length_hides_nothing() -> None:
 
 def test_what_was_proved_is_not_lost_to_finer_panels() -> None:
     map = random_map("ring", 0.05, 1)
-    evaluate = functools.partial(run_on, map, functools.partial(_kernel, kind="hermite"))
+    evaluate = functools.partial(run_on, map, functools.partial(known_on, kind="hermite"))
     panels = graded_panels(map.domain)
     known: Known = evaluate(panels.start, panels.end)
     assert known.proved
@@ -445,7 +445,7 @@ def test_what_was_proved_is_not_lost_to_finer_panels() -> None:
 
 
 def test_what_rounding_hides_is_not_searched_for() -> None:
-    """With a huge logarithm f_z and f_zbar agree to the last digit, on whatever panels."""
+    """A huge logarithm makes f_z and f_zbar agree to the last digit, on all panels."""
     map = HarmonicMap.identity(domain("twin"))
     phi, psi = np.array(map.phi), np.array(map.psi)
     phi[-1] = psi[-1] = 1e60

@@ -1,8 +1,8 @@
-"""What NumPy's and XLA's elementary functions may be off by on this machine, against Arb.
+"""Errors of NumPy's and XLA's elementary functions on this machine, compared with Arb.
 
-The proof of a map rests on these numbers (docs/proof.md). All 10^6 arguments are compared with
-extended precision where the machine has it, and a tenth and the worst of them with Arb; elsewhere
-all of them with Arb.
+The proof of a map rests on these numbers (docs/proof.md). If the machine has extended precision,
+all 10^6 arguments are compared with it, and a tenth and the worst of them with Arb. Otherwise all
+are compared with Arb.
 """
 
 from __future__ import annotations
@@ -94,7 +94,7 @@ def test_angles() -> None:
     def exact(i: int) -> arb:
         return acb(z[i].real, z[i].imag).log().imag
 
-    # On the negative axis Arb's branch is the upper one, whatever the sign of zero.
+    # On the negative axis, Arb takes the upper branch, whatever the sign of zero.
     z.imag[z.imag == 0] = 0.0
     for computed in (np.angle(z), compiled(jnp.angle, z)):
         check(computed, np.abs(wide) * np.sign(np.angle(z)), scale, exact, rounding.ELEMENTARY)
@@ -131,9 +131,9 @@ def test_the_logarithm_of_an_edge() -> None:
     none = np.array([], dtype=complex)
     edge = Singularities(np.zeros(2, complex), np.array([1, 0]), np.array([1, 0]), none)
     pairs = np.stack([b, after], axis=1)
-    computed = cauchy._logarithms(pairs, edge)[:, 0]
+    computed = cauchy.edge_logarithms(pairs, edge)[:, 0]
     wide = np.log(after.astype(np.clongdouble) / b.astype(np.clongdouble))
-    # Either side of the cut is right there; the certificate keeps away from it.
+    # Near the cut both branches are right. The certificate keeps away from it.
     away = np.abs(computed.imag) < np.pi * (1 - 2 * rounding.CUT)
     assert away.mean() > 0.7
     b, after, computed, wide = b[away], after[away], computed[away], wide[away]

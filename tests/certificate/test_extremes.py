@@ -1,6 +1,6 @@
-"""Domains of any size, far away, with offsets next to nothing: certified or refused, never wrong.
+"""Domains of any size, far from the origin, with tiny offsets: certified or refused, never wrong.
 
-The yardstick is f_z summed in Arb at points of the exact edges.
+The reference is f_z, summed by Arb at points of the exact edges.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from glid_nb.certificate import PROOFS, certify
 from glid_nb.geometry import Cage, Domain, GeometryError
 from glid_nb.harmonic import HarmonicMap
 
-from ..domains import circle
+from ..support.domains import circle
 
 pytestmark = pytest.mark.slow
 

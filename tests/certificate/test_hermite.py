@@ -18,8 +18,8 @@ from glid_nb.geometry import graded_panels
 from glid_nb.harmonic import basis_of, cauchy
 from glid_nb.harmonic.cauchy import Singularities
 
-from ..domains import random_map, reference
-from ..reference_map import cauchy_first, holomorphic_derivative
+from ..support.domains import random_map, reference
+from ..support.reference_map import cauchy_first, holomorphic_derivative
 from .panel_values import PANELS, T, change_of_argument, end_values, polynomials, seeds, values
 
 bounds_of = jax.jit(Hermite.bounds)
@@ -78,7 +78,7 @@ def test_a_known_turning_is_the_change_of_the_argument(
 
 
 def test_turning_is_known_where_little_turns() -> None:
-    """And unknown where f_z runs around 0, though its ends agree."""
+    """The winding is unknown if f_z runs around 0, even if its ends agree."""
     t = np.array([[1, 0.5j, 0, 0]] * PANELS)
     assert bounds(t, 0 * t, 0.1, 0.0).turning_known.all()
     loop = np.array([[1, -6 + 3j, 6 - 9j, 6j]] * PANELS)  # from 1 to 1 past -0.5
@@ -122,8 +122,8 @@ def test_bernstein_coefficients_are_those_of_the_squared_modulus() -> None:
         )
 
     with enable_x64():
-        square = hermite._squared_modulus(control)
-        halves = hermite._halves(control)
+        square = hermite.squared_modulus(control)
+        halves = hermite.halved(control)
     np.testing.assert_allclose(bernstein(square), np.abs(bernstein(control)) ** 2, rtol=1e-12)
     left, right = (bernstein(half) for half in halves)
     whole = [np.asarray(c) for c in control]
@@ -172,7 +172,7 @@ def panel_remainders(name: str, size: float, seed: int) -> tuple[np.ndarray, ...
 def test_the_interpolants_lie_within_the_remainder(name: str, size: float) -> None:
     errors, remainder = panel_remainders(name, size, 9)
     assert (errors <= remainder + 1e-11).all()
-    # On some panel the remainder is used to a good part, so that a smaller one would be wrong.
+    # On some panel most of the remainder is used, so a much smaller one would be wrong.
     assert (errors / remainder).max() > 0.1
 
 
@@ -203,7 +203,7 @@ FAR = [1e6, 1e6j, -1e6]
 def test_the_bound_on_derivatives_is_attained(
     order: int, vertices: list[complex], rho: list[complex], coefficients: list[float], gap: float
 ) -> None:
-    """Next to one singularity the constants leave no room: any smaller one is wrong."""
+    """Next to one singularity the constants are tight: any smaller one is wrong."""
     s = singularities(vertices, rho)
     near = -gap if rho == [] else gap
     start, end = np.full(4, near + 0j), np.full(4, near * 1.5 + 0j)

@@ -1,4 +1,4 @@
-"""Global injectivity: proofs, overlaps, and what can be neither."""
+"""Global injectivity: proofs, overlaps, and undecided cases."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ def _ring(n: int, radius: float) -> Array:
     return radius * np.stack([np.cos(angle), np.sin(angle)], axis=1)
 
 
-# The sizes are such that few programs are compiled.
+# These sizes need few compiled programs.
 LENGTH = 8.0
 BAR = Domain.from_cage(_strip(LENGTH, 0.4, 22), offset=0.1)
 ANNULUS = Domain.from_cage(Cage(_ring(30, 3.0), [_ring(16, 1.0)]), offset=0.1)
@@ -195,7 +195,7 @@ def test_a_map_that_is_not_certified_is_undecided() -> None:
 
 
 def test_too_few_panels_leave_it_undecided() -> None:
-    map = _spiral(-0.12478)  # Decided when panels may be split.
+    map = _spiral(-0.12478)  # This is decided only if panels may be split.
     assert global_injectivity(map).verdict == "yes"
     outcome = global_injectivity(map, max_panels=1)
     assert outcome.verdict == "undecided"
@@ -247,6 +247,6 @@ def test_an_affine_image_of_a_jagged_star_is_injective(
     radii: list[float], antiholomorphic: complex
 ) -> None:
     vertices = _ring(46, 1.0) * np.array(radii)[:, None]
-    star = Domain(Cage(vertices), Cage(1.02 * vertices))  # of one size, whatever its shape
+    star = Domain(Cage(vertices), Cage(1.02 * vertices))  # of one size for any shape
     outcome = global_injectivity(_holomorphic(star, lambda z: z, antiholomorphic))
     assert outcome.verdict == "yes", outcome.reason

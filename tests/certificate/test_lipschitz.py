@@ -86,7 +86,7 @@ def test_bounds_are_attained() -> None:
 
 
 def test_a_dip_between_flat_ends_is_not_missed() -> None:
-    """Only the bound on the second derivative knows of it."""
+    """Only the bound on the second derivative shows the dip."""
     dip = np.array([[1, 0, -12.8, 25.6, -12.8]] * PANELS, dtype=complex)
     true = np.abs(values(dip)).min()
     assert (bounds(dip, 0 * dip).sigma2_lower <= true).all()

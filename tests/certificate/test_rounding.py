@@ -1,4 +1,4 @@
-"""The allowance for rounding: large enough, and not wildly larger."""
+"""The allowance for rounding is large enough, and not far too large."""
 
 from __future__ import annotations
 
@@ -24,8 +24,8 @@ from glid_nb.solvers.problem import (
     unknowns_of,
 )
 
-from ..domains import domain, random_map
-from ..reference_map import cauchy_first, cauchy_second
+from ..support.domains import domain, random_map
+from ..support.reference_map import cauchy_first, cauchy_second
 
 scale_of = jax.jit(rounding.term_scale)
 panel_scale = jax.jit(rounding.panel_scale)
@@ -98,7 +98,7 @@ def test_the_slack_bounds_the_actual_rounding(
 
     loops, rho = extended(name)
     z = panels.start.astype(np.clongdouble)
-    # The extended sums would cancel too, were the translation not taken away from them.
+    # Without this translation, the sums in extended precision would cancel, too.
     phi = map.phi.astype(np.clongdouble)
     phi[:first] -= phi[0]
     exact = cauchy_first(z, loops, rho) @ phi
@@ -155,7 +155,7 @@ def test_more_columns_need_more_slack() -> None:
 @pytest.mark.slow
 @pytest.mark.parametrize("kind", ["hermite", "lipschitz"])
 def test_a_map_moved_far_away_is_decided_quickly(kind: str) -> None:
-    """Rounding alone keeps the bounds from the tightness asked; splitting cannot help it."""
+    """Rounding alone prevents the requested tightness. Splitting panels cannot help."""
     map = translated(HarmonicMap.identity(domain("ring")), 1e8)
     c = certify(map, kind)
     assert c.certified
@@ -164,7 +164,7 @@ def test_a_map_moved_far_away_is_decided_quickly(kind: str) -> None:
 
 
 def test_bounds_are_those_of_the_rounded_coefficients() -> None:
-    """So far away the coefficients know little of the identity, and the bounds say so."""
+    """So far from the origin, the coefficients are inaccurate, and the bounds show it."""
     map = translated(HarmonicMap.identity(domain("ring")), 1e15)
     c = certify(map)
     local = map.phi.copy()
@@ -186,7 +186,7 @@ def test_a_map_of_any_size_is_certified_or_refused(size: float) -> None:
 
 
 def test_fast_math_proves_nothing() -> None:
-    """Reassociated sums would not have the errors that are allowed for."""
+    """The allowed errors do not hold for sums in another order."""
     exact = jax.jit(rounding.allowance)
     options = {"xla_cpu_enable_fast_math": True}
     fast = jax.jit(rounding.allowance, compiler_options=options)

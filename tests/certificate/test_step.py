@@ -1,4 +1,4 @@
-"""A proved step passes locally injective maps only: against dense evaluation."""
+"""A proved step passes only locally injective maps, compared with a dense evaluation."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from glid_nb.certificate.certify import CertificateError
 from glid_nb.certificate.pieces import certify_pieces
 from glid_nb.harmonic import HarmonicMap
 
-from ..domains import NAMES, dense_check, domain, random_map
+from ..support.domains import NAMES, dense_check, domain, random_map
 
 TIMES = np.linspace(0, 1, 21)
 
@@ -61,7 +61,8 @@ def test_a_step_to_itself_is_proved_as_the_map_is() -> None:
 
 
 def test_a_step_on_which_f_z_vanishes_inside_is_not_proved() -> None:
-    """About z -> z^2: conformal on the boundary all the way, yet f_z vanishes at a point inside."""
+    """Around z -> z^2 the maps stay conformal on the boundary, but f_z vanishes at a point
+    inside."""
     ell = domain("ell")
     z = ell.offset_cage.loops_complex[0] + 0.5 + 0.5j
     first, last = (HarmonicMap(ell, size * z**2, 0 * z) for size in (1, 1.1))

@@ -1,4 +1,4 @@
-"""The independent checker: what it verifies, and every false claim that it must refuse."""
+"""The independent checker: what it verifies, and the false claims that it must refuse."""
 
 from __future__ import annotations
 
@@ -36,14 +36,14 @@ from glid_nb.minima import solve
 from glid_nb.pose import Pose
 from glid_nb.solvers import Options
 
-from ..domains import circle, dense_check, domain, random_map
-from ..reference_map import DenseCheck, Measured
+from ..support.domains import circle, dense_check, domain, random_map
+from ..support.reference_map import DenseCheck, Measured
 
 pytestmark = pytest.mark.slow
 
 SOURCE = Path(glid_check.__file__)
 COUNT = 20_000  # dense points
-# Claims are this close to what dense evaluation finds, so that one 1 % tighter is false.
+# Claims are so close to the dense evaluation that a claim 1 % tighter is false.
 SLACK = 8e-3
 BOUNDS = ("sigma2_lower", "sigma1_upper", "k_upper")
 LISTS = ("cage", "holes", "offset_cage", "offset_holes", "hole_points", "phi", "psi")
@@ -83,7 +83,7 @@ def places(data: Any, way: Place = ()) -> list[Place]:
 
 
 class Verdict(NamedTuple):
-    """The exit code and the words."""
+    """The exit code and the printed text."""
 
     code: int
     out: str
@@ -107,7 +107,7 @@ def check(files: Files) -> Verdict:
 
 
 def certificate(map: HarmonicMap, truth: Measured, panels: Panels | None = None) -> Certificate:
-    """A certificate that claims almost what dense evaluation finds, whatever that is."""
+    """A certificate whose claims are almost the values that dense evaluation finds."""
     panels = graded_panels(map.domain) if panels is None else panels
     per_panel = PanelCertificate(**vars(panels), **dict.fromkeys(BOUNDS, np.empty(0)))
     bounds = (truth.sigma2 * (1 - SLACK), truth.sigma1 * (1 + SLACK), truth.k * (1 + SLACK))
@@ -122,7 +122,7 @@ def files_of(certificate: Certificate) -> Files:
 
 @functools.cache
 def small() -> tuple[HarmonicMap, DenseCheck, Files]:
-    """A square with a triangular hole, bent, which is checked in a moment."""
+    """A bent square with a triangular hole, which is quick to check."""
     square, hole = circle(4, 3.0, turn=0.2), circle(3, 1.0)
     d = Domain(Cage(square, [hole]), Cage(square * 1.7, [hole * 0.4]), [[0.01, 0.02]])
     rng = np.random.default_rng(4)
@@ -152,8 +152,8 @@ def points(data: Any) -> np.ndarray:
 
 
 def is_true(files: Files, dense: DenseCheck) -> bool | None:
-    """Whether dense evaluation finds the claims true; None where it is too close to tell."""
-    # Threads only hinder products as small as these.
+    """Whether dense evaluation confirms the claims; None if it is too close to tell."""
+    # Threads slow down such small products.
     with np.errstate(all="ignore"), threadpool_limits(1):
         truth = dense.measure(points(files.map["phi"]), points(files.map["psi"]))
     s2, s1, k = (float.fromhex(files.proof[key]) for key in BOUNDS)
@@ -200,7 +200,7 @@ def test_a_cage_with_ten_holes_is_verified() -> None:
 
 @pytest.mark.skipif(not hasattr(signal, "SIGPIPE"), reason="nothing tells of a broken pipe there")
 def test_a_reader_that_has_seen_enough_is_no_error(tmp_path: Path) -> None:
-    """As `head` is: the pipe is closed before the checker writes."""
+    """Like `head`, this closes the pipe before the checker writes."""
     paths = [tmp_path / "map.json", tmp_path / "proof.json"]
     for path, data in zip(paths, small()[2], strict=True):
         path.write_text(json.dumps(data), encoding="utf-8")
@@ -220,7 +220,7 @@ def test_what_the_certificate_saves_is_verified(tmp_path: Path) -> None:
 
 
 def test_a_hard_pose_is_verified(tmp_path: Path) -> None:
-    """sigma_2 is 0.047 at least, the energy 33 times an isometry's; whatever kernel BLAS takes."""
+    """sigma_2 is at least 0.047, and the energy 33 times an isometry's, with any kernel of BLAS."""
     handles = np.array([[-2.5, 2.5], [2.5, -2.5], [-2.0, -2.0], [-0.5, -0.5]])
     targets = handles.copy()
     turned = 1.3 * np.exp(2.5j) * ((handles[1] - handles[2]) @ [1, 1j])
@@ -354,12 +354,12 @@ def test_a_moved_vertex_is_verified_only_if_the_claims_hold_there(
     if not is_domain(files.map):
         assert not check(files).verified
     elif (truth := is_true(files, dense_on(files.map, 4000))) is not None:
-        # Fewer dense points may miss a false claim by little.
+        # With fewer dense points, a slightly false claim may be missed.
         assert check(files).verified == truth or truth
 
 
 def is_domain(data: dict[str, Any]) -> bool:
-    """Whether cage and hole bound a domain that everything singular stays away from."""
+    """Whether cage and hole bound a domain with no singularity in it or on its boundary."""
     cage = shapely.Polygon(data["cage"], data["holes"])
     exterior, hole = shapely.Polygon(data["cage"]), shapely.Polygon(data["holes"][0])
     singular = [*map(shapely.LinearRing, (data["offset_cage"], data["offset_holes"][0]))]

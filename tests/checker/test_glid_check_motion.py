@@ -19,15 +19,15 @@ from glid_nb.certificate import certify
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.motion import MotionError
 
-from ..motion.test_pieces import turned
+from ..support.domains import turned
 from .test_glid_check import Files, Verdict, check, flipped, places, points, small
 
 pytestmark = pytest.mark.slow
 
-# What is claimed of a piece, and which way it is tightened.
+# The claims of a piece, and the direction in which each is tighter.
 TIGHTER = {0: 1.01, 1: 0.99, 2: 0.99}
 LISTS = ("cage", "holes", "offset_cage", "offset_holes", "hole_points")
-# Claims are this close to what dense evaluation finds, so that one 1 % tighter is false.
+# Claims are so close to the dense evaluation that a claim 1 % tighter is false.
 SLACK = 8e-3
 TIMES = np.linspace(0, 1, 21)
 
@@ -60,7 +60,7 @@ def bent() -> HarmonicMap:
 
 @functools.cache
 def claimed() -> Files:
-    """Two pieces, with claims that are almost what dense evaluation finds."""
+    """Two pieces whose claims are almost the values that dense evaluation finds."""
     knots = [small()[0], bent(), turned(small()[0], 0.9)]
     map = small()[2].map
     shared = {"knots": [{"time": float(t), "phi": None, "psi": None} for t in range(3)]}
@@ -100,7 +100,7 @@ def test_what_a_motion_saves_is_verified(between: Any, start: float, tmp_path: P
 def test_true_claims_are_verified_and_time_is_halved_where_that_takes_it() -> None:
     verdict = check(claimed())
     assert verdict.verified, verdict.out
-    # A turn by 170 degrees, blended: no direction serves both its ends.
+    # A blended turn by 170 degrees: no direction is right for both ends.
     map, files = small()[0], mutable()
     last = turned(map, np.pi * 17 / 18)
     s2, s1, k = seen(map, last)
@@ -180,7 +180,7 @@ def test_other_false_claims_are_refused(change: Any, message: str | None) -> Non
 
 
 def in_a_false_proof(first: HarmonicMap, last: HarmonicMap) -> Verdict:
-    """What is said of a motion that folds if mild bounds are claimed of it."""
+    """What the checker says of a motion that folds, if weak bounds are claimed."""
     files = mutable()
     del files.map["knots"][2:], files.proof["knots"][2:]
     for i, map in enumerate((first, last)):
@@ -200,9 +200,9 @@ def test_a_motion_that_folds_between_certified_frames_is_never_verified() -> Non
         motion.save("never.json", "never.proof.json")
     assert not Path("never.json").exists()
     verdict = in_a_false_proof(first, turned(first, np.pi))
-    assert not verdict.verified  # halfway all is a point, and no determinant negative
+    assert not verdict.verified  # halfway the image is a point, and no determinant is negative
     assert "at t = 0." in verdict.out
-    # Folded for a moment.
+    # It folds for a moment.
     psi = first.psi.copy()
     psi[:4] += 1.05 * first.phi[:4]
     folded = turned(HarmonicMap(first.domain, first.phi, psi), 1.5)

@@ -15,7 +15,7 @@ from glid_nb.cli import main, output
 
 
 class Outcome(NamedTuple):
-    """What a run of the command line left behind."""
+    """The result of a run of the command line."""
 
     code: int
     out: str
@@ -27,7 +27,7 @@ Run = Callable[..., Outcome]
 
 @pytest.fixture
 def run(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> Run:
-    """Runs ``glid-nb`` with the given words, without a word of progress on a slow machine."""
+    """Runs ``glid-nb`` with the given words. No progress is printed, even on a slow machine."""
     monkeypatch.setattr(output, "PATIENCE", 1e6)
 
     def run_command(*words: object) -> Outcome:

@@ -20,7 +20,7 @@ from glid_nb.session.document_file import save_document
 from glid_nb.session.timeline import Timeline
 from glid_nb.solvers import Options
 
-from ..export import shapes
+from ..support import shapes
 
 pytestmark = pytest.mark.slow
 
@@ -46,7 +46,7 @@ def session(tmp_path: Path) -> Path:
 
 
 def opened(path: Path) -> tuple[int, float, bool]:
-    """Frames of a GIF, seconds, and whether it goes on for ever."""
+    """Frames and seconds of a GIF, and whether it repeats for ever."""
     with Image.open(path) as read:
         seconds = 0.0
         for i in range(read.n_frames):
@@ -172,7 +172,7 @@ def test_a_saved_motion_refuses_a_picture_of_another_size(run: Any, tmp_path: Pa
     maps = [HarmonicMap.identity(shapes.domain()), shapes.bent()]
     Motion(maps, image_size=shapes.SIZE).save(tmp_path / "motion.json")
     other = tmp_path / "other.png"
-    Image.new("RGBA", (240, 200), (9, 9, 9, 255)).save(other)  # the cage would lie on it
+    Image.new("RGBA", (240, 200), (9, 9, 9, 255)).save(other)  # the cage would replace it
     words = ("animate", tmp_path / "motion.json", "--picture", other, *SMALL)
     outcome = run(*words, "--out", tmp_path / "a.gif")
     assert outcome.code == 1

@@ -1,4 +1,4 @@
-"""Bad input: exit code 1, exactly one line that names the file and the culprit, nothing written."""
+"""Bad input: exit code 1, one line that names file and culprit, and no file written."""
 
 from __future__ import annotations
 
@@ -213,7 +213,7 @@ def test_an_output_folder_that_is_a_file(run, picture: Path) -> None:
 def test_an_output_folder_in_which_the_result_would_replace_the_input(
     run, problem: Path, tmp_path: Path
 ) -> None:
-    """In a folder a result has the input's name."""
+    """In a folder, a result has the input's name."""
     before = problem.read_bytes()
     outcome = run("solve", problem, "--out", tmp_path)
     assert_refused(outcome, problem, "would be overwritten, but it is read too")

@@ -1,4 +1,4 @@
-"""Every command run for real, on small input."""
+"""Every command is run on small input."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ def read(path: Path) -> dict:
 
 
 def strict_json(text: str) -> dict:
-    """JSON without the NaN and Infinity that Python's reader would let pass."""
+    """Reads JSON without the NaN and Infinity that Python's reader accepts."""
 
     def refuse(name: str) -> float:
         raise AssertionError(f"{name} is not JSON")
@@ -219,7 +219,7 @@ def test_render_takes_a_size_and_a_view(run, picture: Path, solved: Path, tmp_pa
         box = warped.getchannel("A").getbbox()
     assert box is not None
     left, top, right, bottom = box
-    # Nothing is cut off, and one of the two directions is filled but for the margin.
+    # Nothing is cut off, and the picture fills one direction except for the margin.
     assert 0 < left < right < 200
     assert 0 < top < bottom < 90
     assert right - left > 170 or bottom - top > 75
@@ -278,7 +278,8 @@ def test_results_may_overwrite_results(run, problem: Path, tmp_path: Path) -> No
 def test_ctrl_c_keeps_the_last_certified_map(
     run, problem: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """The first one only asks: what was reached so far is written, and the exit code tells."""
+    """The first interrupt asks to stop. The result so far is written, and the exit code shows the
+    stop."""
     solve, before = glid_nb.solve, signal.getsignal(signal.SIGINT)
 
     def interrupted(*args, callback, **keywords):
@@ -331,7 +332,7 @@ def bar_with_a_turned_end() -> dict:
     ],
 )
 def test_a_hard_pose_is_solved(run, problem: Path, tmp_path: Path, words: tuple) -> None:
-    """Of conformal maps the first call takes no step, because panels must be split first."""
+    """For conformal maps, the first call takes no step, because panels must be split first."""
     problem.write_text(json.dumps(bar_with_a_turned_end()))
     out = tmp_path / "map.json"
     outcome = run("solve", problem, "--out", out, *words)

@@ -1,4 +1,4 @@
-"""Consoles and locales that are not UTF-8: nothing that is printed ends a command."""
+"""Consoles and locales without UTF-8: no printed text ends a command."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-pytestmark = pytest.mark.slow  # each run imports what traces a picture
+pytestmark = pytest.mark.slow  # each run imports the modules that trace a picture
 
 # A console of Windows in western Europe, and a server without a locale.
 CONSOLES = {

@@ -72,9 +72,10 @@ def test_a_folder_inside_one_that_is_closed_is_no_crash(
         return path.is_dir()
 
     monkeypatch.setattr(Path, "exists", exists)
-    found = _diagnosis._folder(closed / "cache", "GLID_NB_CACHE")
-    assert found["files"] == 0
-    assert found["path"] == str(closed / "cache")
+    monkeypatch.setenv("GLID_NB_CACHE", str(closed))
+    found = _diagnosis.diagnosis()["folders"]["compiled programs"]
+    assert (found["files"], found["writable"]) == (0, False)
+    assert found["path"] == str(closed / "compiled")
 
 
 def test_a_jax_that_does_not_work_is_told_beside_everything_else(

@@ -1,4 +1,4 @@
-"""Bad input is told from bugs, and said in one line."""
+"""Bad input is reported in one line; bugs keep their traceback."""
 
 from __future__ import annotations
 

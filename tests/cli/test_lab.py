@@ -31,7 +31,7 @@ def test_it_opens_a_copy_of_the_notebook(run, tmp_path: Path, started: list[list
     cells = nbformat.read(notebook, as_version=4).cells
     assert any("glid.Editor" in cell.source for cell in cells)
     assert started[0][1:] == ["-m", "jupyterlab", str(notebook), "--no-browser"]
-    # What somebody wrote there stays.
+    # A file that somebody wrote there stays.
     notebook.write_text("mine")
     assert run("lab", folder).code == 0
     assert notebook.read_text() == "mine"
@@ -64,7 +64,7 @@ def test_without_jupyterlab_it_says_what_to_install(
 @pytest.mark.slow
 @pytest.mark.skipif(os.name != "posix", reason="elsewhere a process of its own is started")
 def test_the_server_takes_the_place_of_the_command() -> None:
-    """So a terminal that closes, or a supervisor, ends the server too."""
+    """A terminal that closes, or a supervisor, ends the server, too."""
     server = [sys.executable, "-c", "import os; print(os.getpid())"]
     code = f"from glid_nb.cli.lab import become; become({server!r})"
     with subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE) as command:

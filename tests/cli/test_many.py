@@ -16,14 +16,14 @@ from PIL import Image
 from glid_nb import Cage, HarmonicMap
 from glid_nb.cli import main
 
-from ..export import shapes
+from ..support import shapes
 
 pytestmark = pytest.mark.slow
 
 
 @pytest.fixture
 def pictures(picture: Path, tmp_path: Path) -> list[Path]:
-    """Two that can be traced, and between them one that cannot."""
+    """Two pictures that can be traced, and between them one that cannot."""
     empty = tmp_path / "empty.png"
     Image.new("RGBA", (20, 20)).save(empty)
     other = tmp_path / "other.png"

@@ -1,4 +1,4 @@
-"""Progress speaks up only for what takes long."""
+"""Progress is printed only for steps that take long."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from glid_nb.cli import output
 
 @contextlib.contextmanager
 def step(doing: str, stream: io.StringIO, patience: float) -> Iterator[Callable[[str], None]]:
-    """A step that is told on a stream."""
+    """A step that is reported on a stream."""
     with (
         mock.patch.object(output, "PATIENCE", patience),
         contextlib.redirect_stderr(stream),
@@ -30,7 +30,7 @@ class Terminal(io.StringIO):
 
 
 class Recorder(io.StringIO):
-    """A stream that tells when something was written."""
+    """A stream that signals each write."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -85,4 +85,4 @@ def test_a_terminal_line_is_rewritten_and_erased() -> None:
     *_, shown, spaces, after = text.split("\r")
     assert spaces == " " * len(shown) != ""
     assert after == ""
-    assert "\x1b" not in text  # which older consoles of Windows print
+    assert "\x1b" not in text  # older consoles of Windows print these

@@ -1,4 +1,4 @@
-"""The check of the built site finds what it is there for."""
+"""The check of the built site finds planted errors."""
 
 from __future__ import annotations
 

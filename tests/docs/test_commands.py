@@ -1,7 +1,7 @@
-"""Every command that a page shows is run as it stands there, in a copy of the checkout.
+"""Every command on a page is run as printed, in a copy of the checkout.
 
-What installs from the network is not run: what it names must be there. `KINDS` says how commands
-are tried; one of a page that none of them knows fails.
+Commands that install from the network are not run; the packages that they name must exist. `KINDS`
+says how each kind of command is tried. A command of no kind fails.
 """
 
 from __future__ import annotations
@@ -28,13 +28,13 @@ from playwright.sync_api import Page
 
 import glid_nb as glid
 
-from ..browser import READY, Host, launched_chromium, watched_page
-from ..documented import PAGES, REPOSITORY, Command, checkout, commands, here, spoken
+from ..support.browser import READY, Host, launched_chromium, watched_page
+from ..support.documented import PAGES, REPOSITORY, Command, checkout, commands, here, spoken
 
 pytestmark = pytest.mark.slow
 
 COMMANDS = [command for path in PAGES for command in commands(path)]
-# Whether all of a page's Markdown pictures are there; None without any.
+# Whether all Markdown pictures of a page are loaded; None without pictures.
 PICTURES = """() => {
   const text = '.jp-RenderedMarkdown img, .jp-RenderedHTMLCommon img';
   const all = [...document.querySelectorAll(text)];
@@ -49,7 +49,7 @@ def clone(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture(scope="module")
 def work(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Where somebody works who has pictures, a pose, problems, maps, sessions and a motion."""
+    """A user's folder with pictures, a pose, problems, maps, sessions and a motion."""
     folder = tmp_path_factory.mktemp("work")
     image, pose = glid.samples.image("bar"), glid.samples.pose_path("bar", "gentle")
     domain = glid.Domain.from_cage(glid.trace(image).cage)
@@ -87,12 +87,12 @@ def work(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture
 def folder(work: Path, tmp_path: Path) -> Path:
-    """A copy of `work`, in which no other command has left what a glob would find."""
+    """A copy of `work` without files of other commands, which a glob would find."""
     return shutil.copytree(work, tmp_path / "work")
 
 
 def requirement(name: str, clone: Path) -> Requirement:
-    """What pip is asked for: a package, or by a path, ``.`` or ``./checker``, a project there."""
+    """The arguments of pip: a package, or the path of a project, ``.`` or ``./checker``."""
     path, *extras = re.split(r"(?=\[)", name, maxsplit=1)
     if path.startswith("."):
         about = tomllib.loads((clone / path / "pyproject.toml").read_text(encoding="utf-8"))
@@ -101,7 +101,7 @@ def requirement(name: str, clone: Path) -> Requirement:
 
 
 def is_there(command: Command, clone: Path) -> None:
-    """What an installation names exists: this package's extras, and packages that tests have."""
+    """The named packages exist: this package's extras, and packages that tests have."""
     words = command.words
     named = [word for word in words[words.index("install") + 1 :] if not word.startswith("-")]
     assert named
@@ -116,7 +116,7 @@ def has_target(command: Command, clone: Path) -> None:
 
 
 def in_shell(text: str, folder: Path) -> str:
-    """What a line prints, run by a shell in which this environment is active."""
+    """The output of a line, run by a shell in which this environment is active."""
     program, space, rest = text.partition(" ")
     path = f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"
     line = "".join([Path(program).name, space, rest])
@@ -134,7 +134,7 @@ def runs(command: Command, folder: Path) -> None:
         if flag in words:
             is_written(words[words.index(flag) + 1], printed, folder)
     for one in filters:
-        jq, key = shlex.split(one)  # jq itself need not be there
+        jq, key = shlex.split(one)  # jq may be missing
         assert jq == "jq"
         assert json.loads(printed)[key.removeprefix(".")]
 
@@ -148,7 +148,7 @@ def is_written(out: str, printed: str, folder: Path) -> None:
 
 
 def names_a_command(command: Command, folder: Path) -> None:
-    """A sentence speaks of a command that needs arguments, by its mere name."""
+    """A sentence may name a command that needs arguments without them."""
     assert command.in_sentence, f"{command}: the arguments are missing"
     assert "usage:" in in_shell(f"{command.text} --help", folder)
 
@@ -159,7 +159,7 @@ def makes_environment(command: Command, folder: Path) -> None:
 
 
 def collects(command: Command, clone: Path) -> None:
-    """The tests, which this is one of, are found."""
+    """The tests are found; this is one of them."""
     assert command.words[1:] == ["-m", "pytest"]
     more = ["--collect-only", "-q", "tests/geometry"]
     line = [*here(command.words), *more]
@@ -167,7 +167,7 @@ def collects(command: Command, clone: Path) -> None:
 
 
 def is_served(command: Command, clone: Path) -> None:
-    """What it serves opens in a browser, with all its pictures and, run, the editor."""
+    """The served page opens in a browser, with all pictures and, after it is run, the editor."""
     words = command.words
     own = clone.parent / f"{clone.name}-{abs(hash(tuple(words))):x}"
     host = Host(here(words), clone, own)
@@ -186,7 +186,7 @@ def is_served(command: Command, clone: Path) -> None:
 
 
 def notebook_of(words: list[str]) -> str:
-    """The editor's notebook, as the command shows it: opened, or in the folder that is served."""
+    """The editor's notebook, opened by the command or lying in the served folder."""
     if words[-1].endswith(".ipynb"):
         return Path(words[-1]).name  # the server's root is the folder of a named notebook
     return "editor.ipynb" if spoken(words) == ["glid-nb", "lab"] else "02_editor.ipynb"
@@ -243,7 +243,7 @@ def test_a_documented_command_works(command: Command, request: pytest.FixtureReq
 
 
 def test_the_cell_for_colab_runs() -> None:
-    """In IPython, with stand-ins for the installation and for Colab's own module."""
+    """In IPython, with substitutes for the installation and for Colab's own module."""
     page = (REPOSITORY / "docs" / "howto" / "hosts.md").read_text(encoding="utf-8")
     (cell,) = re.findall(r"^```python\n(%pip.*?)^```", page, re.DOTALL | re.MULTILINE)
     code = textwrap.dedent(f"""
@@ -271,7 +271,7 @@ def binder(clone: Path, tmp_path: Path) -> Iterator[Host]:
     python = tmp_path / "env" / "bin" / "python"
     (site,) = (tmp_path / "env").glob("lib/python*/site-packages")
     (site / "tests.pth").write_text(os.pathsep.join(p for p in sys.path if "site-packages" in p))
-    (site / "pip.py").write_text("")  # what it would install is here
+    (site / "pip.py").write_text("")  # the packages that it would install are here
     environment = {**os.environ, "PATH": f"{python.parent}{os.pathsep}{os.environ['PATH']}"}
     script = ["bash", "binder/postBuild"]
     subprocess.run(script, cwd=clone, env=environment, check=True, capture_output=True)

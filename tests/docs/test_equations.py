@@ -1,4 +1,4 @@
-"""The page of the paper's equations is complete, and names code that says so itself."""
+"""The page of the paper's equations is complete, and the named code cites the equations."""
 
 from __future__ import annotations
 
@@ -74,7 +74,7 @@ def resolved(name: str) -> Any:
         try:
             found = importlib.import_module(module)
         except ModuleNotFoundError as error:
-            if not module.startswith(str(error.name)):  # something else is missing there
+            if not module.startswith(str(error.name)):  # another import failed there
                 raise
             continue
         return functools.reduce(getattr, parts[length:], found)
@@ -86,7 +86,7 @@ def documentation(name: str) -> str:
 
 
 def names_its_place(text: str, row: Row) -> bool:
-    """Whether a docstring names the row's number or at least the part of the paper it is in."""
+    """Whether a docstring names the row's number, or at least its part of the paper."""
     label = "Algorithm 1" if row.label in (*LINES, "input") else row.label
     return label in text or row.section in text
 

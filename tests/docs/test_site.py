@@ -1,4 +1,4 @@
-"""What can be said of the site's pages without building them."""
+"""Checks of the site's pages that need no build."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ import pytest
 
 from glid_nb import figures, methods
 
-from ..test_public_face import public_names
+from ..foundation.test_public_face import public_names
 
 REPOSITORY = Path(__file__).resolve().parents[2]
 DOCS = REPOSITORY / "docs"
@@ -44,6 +44,6 @@ def test_every_name_of_the_reference_has_an_example(name: str) -> None:
 
 @pytest.mark.parametrize("page", sorted((DOCS / "reference").glob("*.md")), ids=lambda p: p.stem)
 def test_an_example_ends_with_an_empty_line(page: Path) -> None:
-    """Else doctest takes the fence for expected output."""
+    """Otherwise doctest takes the fence for expected output."""
     for fence in re.findall(r"```pycon\n(.*?)```", page.read_text(encoding="utf-8"), re.DOTALL):
         assert fence.endswith("\n\n")

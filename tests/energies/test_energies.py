@@ -28,7 +28,7 @@ from glid_nb.energies import (
     by_name,
 )
 
-# Table 1's second column, in singular values, written independently of the energies.
+# The second column of Table 1, in singular values, written independently of the energies.
 
 
 def iso(a: Any, b: Any) -> Any:
@@ -107,8 +107,10 @@ def test_densities_are_those_of_the_singular_values(
 
 
 def test_no_two_energies_are_one_to_a_compiled_program() -> None:
-    """jit finds its programs by the trees' structures: another class is another structure,
-    another parameter is not."""
+    """jit finds its programs by the structure of the trees.
+
+    Another class has another structure; another value of a parameter has not.
+    """
     one_each = {type(energy): energy for energy, _ in CLOSED}
     one_each[CustomEnergy] = CustomEnergy(lambda x, y: x + y)
     structures = [jax.tree.structure(energy) for energy in one_each.values()]
@@ -143,7 +145,8 @@ def test_alphas_and_betas_are_the_derivatives(
 @pytest.mark.parametrize("energy", [e for e, _ in CLOSED], ids=IDS)
 @pytest.mark.parametrize("gap", [1e-1, 1e-2])
 def test_near_degenerate_samples(energy: Energy, gap: float) -> None:
-    """x - y small and exactly representable, so that the formulas' own precision is seen."""
+    """x - y is small and exactly representable, so the test measures the formulas' own
+    precision."""
     x = np.full(COUNT, 1.0) + np.arange(COUNT) / 8
     gap = 2.0 ** np.round(np.log2(gap))
     y = x - gap
@@ -206,7 +209,7 @@ def test_a_custom_energy_may_be_unsymmetric_and_of_any_sign() -> None:
 # MIPS is least at every conformal map, isometric or not.
 @pytest.mark.parametrize("energy", [e for e, _ in CLOSED[:-1]], ids=IDS[:-1])
 def test_the_isometry_is_a_minimum(energy: Energy) -> None:
-    """In the singular values: stationary at (1, 1), and no neighbour is better."""
+    """In the singular values: stationary at (1, 1), and no neighbour is lower."""
     sigma1, sigma2 = (a.ravel() for a in np.meshgrid([0.9, 1, 1.1, 1.3], [0.7, 0.8, 0.9, 1]))
     x, y = squares(sigma1, sigma2)
     with enable_x64():

@@ -1,4 +1,4 @@
-"""The scripts in examples/ run as they stand, and write what they say."""
+"""The scripts in examples/ run unchanged, and print what they say."""
 
 from __future__ import annotations
 

@@ -14,7 +14,7 @@ from glid_nb.export import animation_bytes
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.pose import Pose
 
-from .shapes import bent, domain, picture, pose
+from ..support.shapes import bent, domain, picture, pose
 
 
 def drag(count: int = 4) -> tuple[list[HarmonicMap], list[Pose]]:
@@ -53,7 +53,7 @@ def test_every_map_is_a_frame(format: Any, name: str) -> None:
 
 @pytest.mark.slow
 def test_all_frames_show_the_same_part_of_the_plane() -> None:
-    """A map that does not change gives frames that do not, though others widen the view."""
+    """A map that does not change gives equal frames, even if other maps widen the view."""
     maps, _ = drag(2)
     _, shown = frames(animation_bytes(picture(), [maps[0], maps[1], maps[0]], format="apng"))
     np.testing.assert_array_equal(shown[0], shown[2])
@@ -66,7 +66,7 @@ def test_a_gif_keeps_the_background_as_it_is(color: tuple[int, int, int]) -> Non
     for shown in frames(data)[1]:
         corner = shown[:8, :8].reshape(-1, 3)
         np.testing.assert_array_equal(corner, np.broadcast_to(color, corner.shape))
-        assert (shown.std(axis=(0, 1)) > 10).all()  # the shape is there too
+        assert (shown.std(axis=(0, 1)) > 10).all()  # the shape is in this frame, too
 
 
 @pytest.mark.slow

@@ -37,7 +37,7 @@ from glid_nb.imaging.mesh import deformed_loops
 from glid_nb.imaging.render import render
 from glid_nb.motion import Motion
 
-from .shapes import SIZE, bent, domain, picture, pose
+from ..support.shapes import SIZE, bent, domain, picture, pose
 
 pytestmark = pytest.mark.slow  # most of the time is compiling
 
@@ -89,7 +89,7 @@ def material_of(mesh: trimesh.Trimesh) -> Any:
 
 class TestMesh:
     def check(self, read: trimesh.Trimesh, tolerance: float) -> None:
-        """Positions are images of the vertices that the texture coordinates name."""
+        """Positions are the images of the vertices that the texture coordinates name."""
         made = textured_mesh(picture(), bent(), 800)
         assert read.faces.shape == made.triangles.shape
         np.testing.assert_allclose(read.vertices, made.positions, atol=tolerance)
@@ -99,7 +99,7 @@ class TestMesh:
         world = PixelFrame(*SIZE).to_world(pixels)
         assert domain().cage.contains(world, tolerance=1e-4).all()
         np.testing.assert_allclose(bent()(world), read.vertices[:, :2], atol=2e-4)
-        # The shape's area, holes left out, is that of its boundary's image.
+        # The area of the shape without its holes is that of its boundary's image.
         exterior, *holes = deformed_loops(bent())
         area = shapely.Polygon(exterior, holes).area
         corners = read.vertices[read.faces][..., :2]
@@ -230,7 +230,7 @@ class TestSvg:
             images = frame.to_pixel(bent()(dense))
             gap = shapely.distance(ring, shapely.points(images)).max()
             assert gap * frame.units_per_pixel < 0.004
-            # and the cage's vertices are among the drawn points
+            # and the drawn points include the cage's vertices
             corners = frame.to_pixel(bent()(loop))
             near = np.abs(drawn[:, None] - corners[None]).max(axis=2).min(axis=0)
             assert near.max() < 1e-3

@@ -1,4 +1,4 @@
-"""Motions as files, opened again by programs that did not write them."""
+"""Motions as files, read by programs that did not write them."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ from glid_nb.imaging import PixelFrame
 from glid_nb.imaging.order import order_of
 from glid_nb.pose import Pose
 
-from .shapes import SIZE, bent, domain, picture, pose
+from ..support.shapes import SIZE, bent, domain, picture, pose
 
 pytestmark = pytest.mark.slow
 
@@ -123,7 +123,7 @@ def test_ffmpeg_reads_videos(kind: str, drawn: list[np.ndarray], tmp_path: Path)
 
 def test_a_video_may_be_transparent(drawn: list[np.ndarray], tmp_path: Path) -> None:
     (path,) = animate(tmp_path / "a.webm", picture(), motion(), background=None, **SMALL)
-    # ffmpeg's own decoder leaves the alpha out.
+    # ffmpeg's own decoder ignores alpha.
     data = decoded(path, "rgba", "-c:v", "libvpx-vp9")
     alpha = np.frombuffer(data, np.uint8).reshape(4, *drawn[0].shape)[..., 3]
     assert alpha[:, 0, 0].max() < 10
@@ -347,7 +347,7 @@ def test_an_ffmpeg_that_ends_early_is_named_by_its_log(
         def write(self, _: bytes) -> None:
             raise OSError(number, os.strerror(number))
 
-    monkeypatch.setattr(encode, "_running", Ended)
+    monkeypatch.setattr(encode, "running", Ended)
     with pytest.raises(OSError, match="exit code 3: no space on drive \N{REPLACEMENT CHARACTER}:"):
         motion_files("walk.mp4", picture(), motion(), **SMALL)
 

@@ -1,4 +1,4 @@
-"""The standalone page: whole, and without the network; see also tests/widgets."""
+"""The standalone page is complete and needs no network; see also tests/widgets."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from glid_nb.export import page_html
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.page import ShaderMap
 
-from .shapes import bent, domain, picture
+from ..support.shapes import bent, domain, picture
 
 
 def data_of(page: str) -> dict:
@@ -27,7 +27,7 @@ def data_of(page: str) -> dict:
 
 
 def unpacked(data: dict, width: int) -> np.ndarray:
-    """(n, width) what the page makes of packed values."""
+    """(n, width) values that the page computes from packed values."""
     planes = np.frombuffer(zlib.decompress(base64.b64decode(data["bytes"])), "u1").reshape(4, -1)
     folded = np.ascontiguousarray(planes.T).view("<u4").astype(np.int64).reshape(-1, width)
     fresh = (folded >> 1) ^ -(folded & 1)
@@ -35,7 +35,7 @@ def unpacked(data: dict, width: int) -> np.ndarray:
 
 
 def restored(data: dict, width: int) -> np.ndarray:
-    """(n, width) what the page makes of values that are sums of few rows."""
+    """(n, width) values that the page computes from sums of few rows."""
     shares = unpacked(data["shares"], len(data["sizes"])) / data["sizes"]
     return shares @ unpacked(data["rows"], data["rows"]["width"]).reshape(-1, width)
 
@@ -115,7 +115,7 @@ def test_a_page_that_moves_states_what_is_proved() -> None:
 @pytest.mark.slow
 @pytest.mark.parametrize(("poses", "turns", "least"), [(5, 3, 400), (40, 0, 150)])
 def test_long_motions_make_small_pages(poses: int, turns: int, least: int) -> None:
-    """Of 42 vertices; the knots come out as the page is to show them, whatever their number."""
+    """A shape of 42 vertices. The page gets all knots, whatever their number."""
     start, rng = HarmonicMap.identity(domain()), np.random.default_rng(1)
     bends = rng.normal(size=(poses, 4, 2)) @ [1, 1j]
     bases = np.stack([start.phi**n / 10 ** (n - 1) for n in (1, 2, 3)])
@@ -140,7 +140,7 @@ def test_long_motions_make_small_pages(poses: int, turns: int, least: int) -> No
 def test_a_cage_too_large_for_a_shader_is_evaluated_beforehand(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr("glid_nb.export.page._LONGEST_CHAIN", 10)
+    monkeypatch.setattr("glid_nb.export.page.LONGEST_CHAIN", 10)
     data = data_of(page_html(picture(), Motion([HarmonicMap.identity(domain()), bent()])))
     vertices = unpacked(data["source"], 2)
     images = restored(data["coefficients"], data["width"])[-1].reshape(-1, 6)[:, :2]

@@ -1,4 +1,4 @@
-"""The figures of the course: what they show, on small domains that other tests use too."""
+"""The figures of the course, on small domains that other tests use, too."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ from glid_nb.minima import solve
 from glid_nb.pose import Pose
 from glid_nb.solvers import Iteration, Options
 
-from ..domains import domain
+from ..support.domains import domain
 
 pytestmark = pytest.mark.slow
 
@@ -60,7 +60,7 @@ def test_sliders_in_a_notebook_do_not_change_how_figures_are_shown(
     shown: list[Any] = []
     monkeypatch.setattr("IPython.display.publish_display_data", lambda *data: shown.append(data))
     shell = InteractiveShell()
-    configure_inline_support(shell, "inline")  # as ipywidgets' interact does
+    configure_inline_support(shell, "inline")  # like ipywidgets' interact
     figure = figures.function([0, 1], {"line": [0, 1]})
     assert shell.display_formatter.format(figure) == ({}, {})
     ((data, size),) = shown

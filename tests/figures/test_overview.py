@@ -1,4 +1,4 @@
-"""The overview figure and its plots, on maps and histories made up for the purpose."""
+"""The overview figure and its plots, on maps and histories made for these tests."""
 
 from __future__ import annotations
 
@@ -167,7 +167,7 @@ def test_targets_are_cyan_and_joined_to_handles_that_miss_them(
 ):
     cyan = np.round(np.array(to_rgb(CYAN)) * 255)
     assert np.abs(pixel_at(figure, 1, pose.targets[2]) - cyan).max() <= 2
-    assert pixel_at(figure, 1, pose.targets[0]).max() < 40  # the image's dot lies on the disc
+    assert pixel_at(figure, 1, pose.targets[0]).max() < 40  # the dot of the image lies on the disc
     (lines,) = [c for c in figure.axes[1].collections if isinstance(c, LineCollection)]
     segments = np.array(lines.get_segments())
     np.testing.assert_allclose(segments, [[bent(pose.handles[2:])[0], pose.targets[2]]])
@@ -220,7 +220,7 @@ def test_the_energy_is_drawn_above_its_minimum_on_a_logarithmic_axis():
     assert plot.update(HISTORY, minimum=2.0)
     assert plot.axes.get_yscale() == "log"
     low, high = plot.axes.get_ylim()
-    # The targets' part falls out of the plot, the total stays in it.
+    # The targets' part leaves the plot; the total stays in it.
     assert 1e-2 < low < 0.2 < 1.3e3 < high
     p2p, iso, total, _, text = plot.artists
     np.testing.assert_allclose(p2p.get_ydata(), [r.energy_p2p for r in HISTORY])  # type: ignore[attr-defined]
@@ -233,7 +233,7 @@ def test_the_energy_is_drawn_above_its_minimum_on_a_logarithmic_axis():
 
 @pytest.mark.parametrize("energy", [np.nan, np.inf, 1e300, 2.0, 1.9, 0.0])
 def test_any_energy_is_drawn(energy: float):
-    """Also those of maps that fold, and of shapes that are not deformed."""
+    """Also for maps that fold, and for shapes that are not deformed."""
     for records in ([Record(1, energy, 0.0)], [*HISTORY, Record(7, energy, 0.0)]):
         plot = EnergyPlot(new_axes())
         plot.update(records, minimum=2.0)
@@ -303,17 +303,18 @@ def test_the_time_of_each_iteration_is_a_bar():
     corners = bars.get_xy()  # type: ignore[attr-defined]
     np.testing.assert_allclose(corners[:20].reshape(5, 4, 2)[:, 1, 1], [4, 8, 12, 16, 20])
     assert text.get_text() == "14 ms each"  # type: ignore[attr-defined]
-    # One that had to wait does not flatten the others.
+    # One iteration that had to wait does not flatten the others.
     assert 20 < plot.axes.get_ylim()[1] < 100
 
 
 @pytest.mark.parametrize("kind", [EnergyPlot, StepPlot])
 def test_during_a_drag_lines_join_the_ends_of_the_solves(kind: Any):
-    """Each target that moves makes a saw-tooth of iterations, which are faint dots."""
+    """Each moved target makes a saw-tooth of iterations, drawn as faint dots."""
     records = [Record(i, 2.0 + 10.0 ** (2 - 2 * (i % 3)), 2.0) for i in range(12)]
     plot = kind(new_axes())
     plot.update(records, starts=(3, 6, 9))
-    line, within = plot.artists[-3 if kind is EnergyPlot else 0], plot._within
+    line = plot.artists[-3 if kind is EnergyPlot else 0]
+    within = plot.artists[-2 if kind is EnergyPlot else -1]  # the faint dots
     np.testing.assert_array_equal(line.get_xdata(), [2, 5, 8, 11])
     np.testing.assert_array_equal(within.get_xdata(), [0, 1, 3, 4, 6, 7, 9, 10])
     if kind is EnergyPlot:
@@ -392,7 +393,7 @@ def test_the_certificate_plot_says_how_f_z_winds(bent: HarmonicMap, certificate:
 
 
 def test_every_loop_is_named_or_numbered():
-    """Where not even numbers fit, neighbours share the room of theirs."""
+    """If not even numbers fit, neighbours share their room."""
     squares = [
         [[x, y], [x, y + s], [x + s, y + s], [x + s, y]]
         for x, y, s in (
@@ -410,7 +411,7 @@ def test_every_loop_is_named_or_numbered():
         first, _, last = name.removeprefix("hole ").partition("\N{EN DASH}")
         numbers += range(int(first), int(last or first) + 1)
     assert numbers == [*range(1, 14)]
-    # What is written does not overlap.
+    # Texts do not overlap.
     plot.axes.figure.canvas.draw()
     boxes = [label.get_window_extent() for label in plot.axes.get_xticklabels()]
     assert all(left.x1 < right.x0 for left, right in itertools.pairwise(boxes))

@@ -1,4 +1,4 @@
-"""What a cage accepts, what it refuses with which words, and how it orients its loops."""
+"""What a cage accepts, how it refuses the rest, and how it orients its loops."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from hypothesis import given, settings
 
 from glid_nb.geometry import Cage, GeometryError, loop_name
 
-from .shapes import (
+from ..support.cages import (
     SQUARE,
     box,
     cages,
@@ -202,7 +202,7 @@ def test_a_bad_cage_is_refused_with_its_own_message(name: str) -> None:
 
 
 def test_indices_in_messages_are_those_of_the_input() -> None:
-    # Clockwise input: reversed inside, but the message must speak of the caller's vertices.
+    # Clockwise loops are reversed inside, but the message must count the caller's vertices.
     loop = [[0, 0], [0, 4], [2, 1], [2, -1], [4, 4], [4, 0]]
     with pytest.raises(GeometryError, match=r"edges 2-3 and 5-0 cross at \(2, 0\)"):
         Cage(loop)

@@ -1,4 +1,4 @@
-"""Offset cages get more vertices where edges are long against the shape's width."""
+"""Offset cages get more vertices where edges are long compared with the shape's width."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from glid_nb.geometry import Cage, Domain, GeometryError
 from glid_nb.geometry.offset import offset_cage
 from glid_nb.imaging import read_image, trace
 
-from .shapes import box, cages
+from ..support.cages import box, cages
 
 
 def bar(width: float) -> Cage:
@@ -71,6 +71,6 @@ def test_the_vertices_of_the_whole_offset_cage_are_among_the_others(cage: Cage) 
         places: Any = [np.flatnonzero((more == point).all(axis=1)) for point in loop]
         assert np.concatenate(places).tolist() == sorted(np.concatenate(places))
         assert all(len(place) == 1 for place in places)
-        # Along each edge, and in order: the loop is as long as before.
+        # The pieces lie along each edge, in order: the loop is as long as before.
         lengths = [np.linalg.norm(np.roll(p, -1, axis=0) - p, axis=1).sum() for p in (loop, more)]
         assert lengths[0] == pytest.approx(lengths[1], rel=1e-12)

@@ -1,4 +1,4 @@
-"""A domain's parts must fit together, and say so when they do not."""
+"""The parts of a domain must fit together; if not, the error says so."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from hypothesis import given, settings
 
 from glid_nb.geometry import Cage, Domain, GeometryError
 
-from .shapes import box, cages, comb
+from ..support.cages import box, cages, comb
 
 CAGE = Cage(box(0, 0, 10), [box(2, 2, 2), box(6, 6, 2)])
 AROUND = Cage(box(-1, -1, 12), [box(2.5, 2.5, 1), box(6.5, 6.5, 1)])

@@ -1,4 +1,4 @@
-"""The offset cage: what it promises, on orderly, nasty and random cages."""
+"""The offset cage keeps its promises, on orderly, nasty and random cages."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from glid_nb.geometry import Cage, GeometryError, Offset, hole_points, offset_cage
 from glid_nb.geometry.offset import CLEARANCE, MITRE_LIMIT
 
-from .shapes import (
+from ..support.cages import (
     SQUARE,
     blunt_notch,
     box,
@@ -30,7 +30,7 @@ def closed(loop: np.ndarray) -> np.ndarray:
 
 
 def check_promises(cage: Cage, offset: Offset, distance: float) -> None:
-    """Everything the docstring of offset_cage says, by other means than it uses."""
+    """Everything that the docstring of offset_cage promises, checked by other means."""
     domain = shapely.Polygon(cage.exterior, cage.holes)
     around = shapely.Polygon(offset.cage.exterior, offset.cage.holes)
     assert around.is_valid
@@ -44,7 +44,7 @@ def check_promises(cage: Cage, offset: Offset, distance: float) -> None:
         clearance = shapely.distance(edges, domain.boundary)
         needed = CLEARANCE * np.minimum(reached, np.roll(reached, -1))
         assert (clearance >= needed * (1 - 1e-6)).all()
-        # A mitre never runs away from an outer corner.
+        # Mitres of outer corners have a limited length.
         before, after = loop - np.roll(loop, 1, axis=0), np.roll(loop, -1, axis=0) - loop
         outer = before[:, 0] * after[:, 1] - before[:, 1] * after[:, 0] > 0
         far = np.hypot(*(moved - loop).T)
@@ -162,7 +162,7 @@ def test_a_tiny_edge_at_the_bottom_of_a_notch_shrinks_the_offset_there_only() ->
 
 
 def test_long_passages_are_seen_along_their_whole_length() -> None:
-    # Offsets of neighbouring turns that passed through each other would meet at the ends only.
+    # If offsets of neighbouring turns passed through each other, they would meet only at the ends.
     cage = Cage(spiral(6, 0.05, 48))
     distance = 0.12
     offset = offset_cage(cage, distance)

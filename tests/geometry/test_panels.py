@@ -1,4 +1,4 @@
-"""Which neighbouring panels one could stand for."""
+"""Neighbouring panels that one panel could replace."""
 
 import numpy as np
 import pytest
@@ -6,7 +6,7 @@ import pytest
 from glid_nb.geometry import graded_panels
 from glid_nb.geometry.panels import paired, point_distance
 
-from ..domains import NAMES, domain
+from ..support.domains import NAMES, domain
 
 
 @pytest.mark.parametrize("ratio", [0.5, 1.4, 3.0])

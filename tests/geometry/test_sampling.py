@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from glid_nb.geometry import Cage, GeometryError, uniform_panels
 
-from .shapes import cages
+from ..support.cages import cages
 
 
 def test_a_triangle_with_a_hole_counted_by_hand() -> None:

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from glid_nb.geometry import Cage, GeometryError, Triangulation, triangulate
 
-from .shapes import SQUARE, box, cages, comb, nasty_cages, regular
+from ..support.cages import SQUARE, box, cages, comb, nasty_cages, regular
 
 
 def areas(mesh: Triangulation) -> np.ndarray:

@@ -12,7 +12,7 @@ from glid_nb._features import enable_x64
 from glid_nb.geometry import Cage, Domain
 from glid_nb.harmonic import basis_of, cauchy
 
-from ..domains import NAMES, circle, domain
+from ..support.domains import NAMES, circle, domain
 
 
 def many_holes(n_exterior: int, n_holes: int) -> Domain:
@@ -91,7 +91,7 @@ def test_pad_puts_every_coefficient_in_its_column(n_exterior: int, n_holes: int)
 
 
 def test_padding_columns_are_finite_everywhere_in_the_domain() -> None:
-    """Zero times infinity would spoil a map: a padding column must never be infinite or NaN."""
+    """Zero times infinity would spoil a map, so no padding column may be infinite or NaN."""
     d = domain("triple")
     basis = basis_of(d)
     z = np.concatenate([*d.cage.loops_complex, [1e-3j]])

@@ -14,11 +14,11 @@ from hypothesis import strategies as st
 from glid_nb._features import enable_x64
 from glid_nb.harmonic import basis_of, cauchy
 
-from ..domains import NAMES, domain
-from ..reference_map import (
+from ..support.domains import NAMES, domain
+from ..support.reference_map import (
     cauchy as c_reference,
 )
-from ..reference_map import (
+from ..support.reference_map import (
     cauchy_first,
     cauchy_second,
     holomorphic_derivative,
@@ -27,12 +27,12 @@ from ..reference_map import (
 
 Array = np.ndarray
 
-# Fewer points than this differ from one program to the next only by padding.
+# For fewer points, programs differ only by their padding.
 COUNT = 50
 
 
 def parts(name: str) -> tuple[Any, Any, Array]:
-    """Offset loops, hole points and points of the domain, those near its boundary included."""
+    """Offset loops, hole points and points of the domain, some near its boundary."""
     d = domain(name)
     inside = points_inside(d.cage.loops_complex, COUNT, seed=1)
     corners = np.concatenate([loop[:4] for loop in d.cage.loops_complex])[:8]
@@ -41,7 +41,7 @@ def parts(name: str) -> tuple[Any, Any, Array]:
 
 
 def own_columns(kernel: Any, name: str, z: Array) -> Array:
-    """A basis matrix of the package, its padding columns left out."""
+    """A basis matrix of the package without its padding columns."""
     basis = basis_of(domain(name))
     with enable_x64():
         return np.asarray(jax.jit(kernel)(z, basis.singularities))[:, basis.columns]

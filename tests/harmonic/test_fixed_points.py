@@ -1,4 +1,4 @@
-"""Maps at points that stay: beside the maps themselves."""
+"""Maps at fixed points, compared with the maps themselves."""
 
 from __future__ import annotations
 
@@ -7,8 +7,8 @@ import pytest
 
 from glid_nb.harmonic import FixedPoints, HarmonicMap, fixed_points
 
-from ..domains import NAMES, domain, random_map, real
-from ..reference_map import points_inside
+from ..support.domains import NAMES, domain, random_map, real
+from ..support.reference_map import points_inside
 
 
 def assert_same(found: tuple[np.ndarray, np.ndarray], map: HarmonicMap, points: np.ndarray) -> None:
@@ -25,8 +25,8 @@ def assert_same(found: tuple[np.ndarray, np.ndarray], map: HarmonicMap, points: 
 def test_images_and_derivatives_are_the_maps(
     name: str, chunk: int, kept: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(fixed_points, "_CHUNK", chunk)
-    monkeypatch.setattr(fixed_points, "_MOST_KEPT", kept)
+    monkeypatch.setattr(fixed_points, "CHUNK", chunk)
+    monkeypatch.setattr(fixed_points, "MOST_KEPT", kept)
     d = domain(name)
     points = np.concatenate([real(points_inside(d.cage.loops_complex, 40)), *d.cage.loops])
     evaluate = FixedPoints(d, points)

@@ -1,4 +1,4 @@
-"""Maps as functions of JAX, and what they give outside their domain."""
+"""Maps as functions of JAX, also outside their domain."""
 
 from __future__ import annotations
 
@@ -12,11 +12,11 @@ from glid_nb._jax import jax, jnp
 from glid_nb.geometry import Cage, GeometryError, MeshMap, triangulate
 from glid_nb.harmonic.map import HarmonicMap, MapError
 
-from ..domains import random_map
+from ..support.domains import random_map
 
 pytestmark = pytest.mark.slow
 
-# Roundoffs of the values, which are a few units large, and of the derivatives.
+# In roundoffs of the values, which are a few units large, and of the derivatives.
 PRECISION = {False: 1e-5, True: 1e-13}
 
 
@@ -87,7 +87,7 @@ def test_outside_its_domain_a_map_gives_nan_where_asked() -> None:
     map = bent()
     points = np.concatenate([inside(map)[:2], [[50.0, 0], [0, 0]]])
     known = map.domain.cage.contains(points)
-    assert known.tolist() == [True, True, False, False]  # beside it, and in the hole
+    assert known.tolist() == [True, True, False, False]  # beside the domain, and in the hole
     for name in ("__call__", "sigma1", "sigma2", "k", "det", "wirtinger"):
         evaluate = getattr(map, name)
         extended = np.moveaxis(np.asarray(evaluate(points)), 0, -1)

@@ -21,8 +21,8 @@ from glid_nb.certificate import certificate_of
 from glid_nb.geometry import graded_panels
 from glid_nb.harmonic import HarmonicMap, MapError, as_complex
 
-from ..domains import NAMES, domain, random_map, real, reference
-from ..reference_map import points_inside
+from ..support.domains import NAMES, domain, random_map, real, reference
+from ..support.reference_map import points_inside
 
 
 @pytest.mark.slow
@@ -116,7 +116,7 @@ def test_chunks_do_not_show(count: int) -> None:
 
 @pytest.mark.slow
 def test_memory_is_bounded() -> None:
-    """A million points: 300 MB for each of D, its logarithms and so on if taken at once."""
+    """A million points: if evaluated at once, D, its logarithms and so on take 300 MB each."""
     source = """
 import resource, numpy as np
 from glid_nb.geometry import Cage, Domain
@@ -212,7 +212,7 @@ def test_a_point_that_is_not_finite_is_refused() -> None:
 
 
 def test_logarithms_that_are_not_exactly_tied_are_tied_without_changing_the_map() -> None:
-    """Else a proof would be of other coefficients than the map's values are."""
+    """Otherwise the proof would belong to other coefficients than the map's values."""
     exact = random_map("twin", 0.1, 1)
     psi = exact.psi.copy()
     psi[-2] += 4e-10 + 2e-10j

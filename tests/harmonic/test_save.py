@@ -1,4 +1,4 @@
-"""Maps as files: exact, complete, and refused with a sentence when they are not."""
+"""Maps as files: exact and complete; broken files are refused with a sentence."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 
 from glid_nb.harmonic import HarmonicMap, MapError
 
-from ..domains import domain, random_map
+from ..support.domains import domain, random_map
 
 Data = dict[str, Any]
 
@@ -63,7 +63,7 @@ def test_the_file_holds_what_the_format_promises(tmp_path: Path) -> None:
     np.testing.assert_array_equal(np.array(data["phi"]) @ [1, 1j], map.phi)
     np.testing.assert_array_equal(np.array(data["hole_points"]), map.domain.hole_points)
     assert [len(hole) for hole in data["holes"]] == [4, 4]
-    # Holes' logarithm coefficients come last and are conjugate.
+    # The logarithm coefficients of holes come last and are conjugate.
     np.testing.assert_array_equal(np.array(data["psi"][-2:]) @ [1, -1j], map.phi[-2:])
 
 
@@ -171,7 +171,7 @@ def test_an_offset_cage_is_never_made_up(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("key", ["offset_cage", "offset_holes"])
 def test_a_reversed_loop_does_not_change_the_map(tmp_path: Path, key: str) -> None:
-    """Loops are reoriented on loading; coefficients in the file's order would then be misplaced."""
+    """Loops are reoriented on loading. Coefficients in the file's order would then be misplaced."""
     map = random_map("ring", 0.3, 1)
     data = map.to_dict()
     n = len(data["offset_cage"])

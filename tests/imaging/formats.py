@@ -1,4 +1,5 @@
-"""The picture formats that the installed Pillow writes: the oldest allowed lacks AVIF and QOI."""
+"""The picture formats that the installed Pillow writes. The oldest one allowed lacks AVIF and
+QOI."""
 
 from __future__ import annotations
 
@@ -8,5 +9,5 @@ Image.init()
 
 
 def written(*kinds: str) -> list[str]:
-    """Those of ``kinds`` that this Pillow can write; the newest writes all."""
+    """The formats among ``kinds`` that this Pillow can write. The newest writes all."""
     return [kind for kind in kinds if kind.upper() in Image.SAVE]

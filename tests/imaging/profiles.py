@@ -27,7 +27,7 @@ def grey_profile(gamma: float | None = None) -> bytes:
 
 
 def cmyk_profile() -> bytes:
-    """Lightness falls with the ink in sum; cyan takes a* down, as no naive conversion does."""
+    """Lightness falls with the sum of the inks. Cyan lowers a*, which no naive conversion does."""
     head = struct.pack(">4s4xBBBx9i", b"mft1", 4, 3, 2, *(65536 * np.eye(3).ravel().astype(int)))
     straight, table = bytes(range(256)), b""
     for c, m, y, k in itertools.product((0, 1), repeat=4):

@@ -1,4 +1,4 @@
-"""Transparent texels have the colours of what is seen beside them."""
+"""Transparent texels have the colours of the visible texels beside them."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ def test_what_is_seen_stays_and_the_picture_itself() -> None:
 
 
 def test_the_rim_takes_its_own_colour() -> None:
-    """Of two halves each bleeds to its own side."""
+    """Each half bleeds to its own side."""
     image = disc(80, 25, (200, 0, 0))
     image[:, 40:, :3][image[:, 40:, 3] > 0] = (0, 0, 200)
     result = bled(image)

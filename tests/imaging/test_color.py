@@ -129,7 +129,7 @@ class TestProfiles:
         inks = Image.new("CMYK", (16, 16), (255, 0, 0, 0))
         plain = read_image(saved(inks, "JPEG", quality=100))[8, 8]
         image = read_image(saved(inks, "JPEG", quality=100, icc_profile=cmyk_profile()))[8, 8]
-        # L* = 195 of 255, a* = -30, b* = 0 as the profile has it; without one (0, 255, 255).
+        # L* = 195 of 255, a* = -30, b* = 0 by the profile; without a profile (0, 255, 255).
         expected = 255 * lab2rgb([195 / 2.55, -30.0, 0.0])
         assert np.abs(image[:3] - expected).max() <= 8
         assert np.abs(plain[:3].astype(int) - (0, 255, 255)).max() <= 4

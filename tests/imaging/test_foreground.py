@@ -55,7 +55,7 @@ class TestAlpha:
         low, high = (find(image, "alpha").mask(t).sum() for t in (0.1, 0.9))
         assert high < find(image, "alpha").mask().sum() < low
         assert agreement(~find(image, "alpha", invert=True).mask()) > 0.999
-        # A threshold means the same, inverted or not: alpha below it is foreground.
+        # A threshold means the same with and without inversion: alpha below it is foreground.
         inverted = find(image, "alpha", invert=True)
         np.testing.assert_allclose(inverted.mask(0.3).mean(), np.mean(disc() < 0.3), atol=1e-3)
 
@@ -83,14 +83,14 @@ def faint(color: tuple[float, float, float] = (0, 0, 0), most: float = 0.47):
 
 
 def half_seen():
-    """A black picture, transparent by parts only."""
+    """A black picture, only partly transparent."""
     image = np.zeros((SIZE, SIZE, 4))
     image[..., 3] = 0.6 + 0.4 * disc()
     return image
 
 
 class TestRemedies:
-    """What a refusal recommends works."""
+    """The advice of a refusal works."""
 
     @pytest.mark.parametrize(
         ("image", "options"),
@@ -151,7 +151,7 @@ class TestThreshold:
         assert agreement(found.mask()) > 0.995
         assert found.inverted == (shape < ground)
         assert any("than the border counts as foreground" in note for note in found.notes)
-        # Where two colours are separated equally well by any value between, the middle is best.
+        # If all values in between separate two colours equally well, the middle is best.
         assert abs(found.automatic_threshold - (shape + ground) / 2) < 0.01
 
     def test_manual_value(self):
@@ -295,7 +295,7 @@ class TestScribbles:
         assert agreement(found.mask(), coverage) > 0.99
 
     def test_a_photograph(self):
-        # Strokes over the cup and its saucer; the outline must follow the picture's edges.
+        # Strokes over the cup and its saucer. The outline must follow the picture's edges.
         strokes = [[(230, 150), (420, 180)], [(250, 250), (400, 250)], [(150, 230), (200, 330)]]
         around = [[(10, 10), (590, 10), (590, 390), (10, 390), (10, 10)]]
         found = find(data.coffee(), "scribbles", scribbles=Scribbles(strokes, around))

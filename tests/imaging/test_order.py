@@ -66,7 +66,7 @@ def overlap() -> tuple[Array, Array]:
 
 
 def in_front(picture: NDArray[np.uint8], frame: PixelFrame) -> Array:
-    """For each point of the overlap whether a picture shows the right end there."""
+    """For each point of the overlap, whether a picture shows the right end there."""
     x, y = frame.to_pixel(curled()(overlap()[1])).astype(int).T
     red, blue = picture[y, x, 0].astype(int), picture[y, x, 2].astype(int)
     assert (abs(red - blue) > 100).all()
@@ -110,7 +110,7 @@ def test_a_depth_spreads_around_its_pin_and_leaves_other_limbs_alone() -> None:
     along = np.stack([np.linspace(0, 8, 30), np.zeros(30)], axis=1)
     assert (np.diff(order.depths(along)) < 1e-9).all()
     assert order.depths([[9.0, 0.8]])[0] < -0.7
-    # Where no depth is, the order stays what it was.
+    # Without depths the order stays as it was.
     trunk = np.stack([np.linspace(-9, -3, 30), np.zeros(30)], axis=1)
     assert abs(order.depths(trunk)).max() < 0.005
     np.testing.assert_allclose(order(trunk), order_of(bar().cage)(trunk), atol=0.005)

@@ -18,7 +18,7 @@ QUAD = np.array([[0, 1, 2], [0, 2, 3]])
 
 
 def corners(width: float, height: float, x: float = 0, y: float = 0) -> NDArray[np.float64]:
-    """Of a rectangle whose upper left corner is (x, y)."""
+    """The corners of a rectangle whose upper left corner is (x, y)."""
     return np.array([[x, y], [x + width, y], [x + width, y + height], [x, y + height]], dtype=float)
 
 
@@ -38,7 +38,7 @@ def irregular_mesh(
 
 
 def assert_pictures_agree(result: NDArray[np.uint8], expected: NDArray[np.uint8]) -> None:
-    """Alpha to one level, colours to two where they can be seen."""
+    """Alpha agrees to one level. Visible colours agree to two."""
     difference = np.abs(result.astype(int) - expected.astype(int))
     assert difference[..., 3].max() <= 1
     seen = expected[..., 3] > 32
@@ -114,7 +114,7 @@ def test_a_zone_plate_minified_four_times_equals_area_averages():
 @pytest.mark.parametrize("angle", [0.0, 0.3])
 @pytest.mark.parametrize("factors", [(3.3, 3.3), (1.0, 6.0), (5.0, 1.5)])
 def test_minification_does_not_alias(factors: tuple[float, float], angle: float):
-    # Rings finer than the output can show must come out grey, rings it can show must stay.
+    # Rings finer than the output can show must become grey. Coarser rings must stay.
     n = 480
     plate = zone_plate(n)
     turn = np.array([[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]])
@@ -147,7 +147,7 @@ def test_hidden_colours_never_bleed(scale: float, hidden: int):
     points, triangles = irregular_mesh(80, 80, 40)
     positions = (points - 40) @ turn + 60
     result = render_mesh(image, points, positions, triangles, (120, 120))
-    seen = result[..., 3] > 4  # below, 8 bits of alpha leave the colour no precision
+    seen = result[..., 3] > 4  # with less alpha, 8 bits leave the colour no precision
     assert seen.any()
     assert np.abs(result[seen][:, :3].astype(int) - (200, 40, 90)).max() <= 1
 
@@ -297,8 +297,8 @@ def test_bands_change_nothing(monkeypatch: pytest.MonkeyPatch):
     points, triangles = irregular_mesh(60, 50, 100)
     positions = (points - 25) @ [[0.9, 0.5], [-0.4, 0.8]] + 40
     whole = render_mesh(image, points, positions, triangles, (90, 80))
-    monkeypatch.setattr(rasterise, "_TILE", 31 * 7)
-    monkeypatch.setattr(rasterise, "_TILE_WIDTH", 31)
+    monkeypatch.setattr(rasterise, "TILE", 31 * 7)
+    monkeypatch.setattr(rasterise, "TILE_WIDTH", 31)
     pieces = render_mesh(image, points, positions, triangles, (90, 80))
     np.testing.assert_array_equal(pieces, whole)
 

@@ -1,4 +1,4 @@
-"""Pictures of every kind end up as the same RGBA array."""
+"""All kinds of pictures become the same RGBA array."""
 
 from __future__ import annotations
 
@@ -188,7 +188,7 @@ class TestFiles:
 
     @pytest.mark.parametrize("orientation", range(1, 9))
     def test_exif_orientation(self, orientation):
-        # One bright quarter tells the orientation, whatever the compression does.
+        # One bright quarter shows the orientation, with any compression.
         stored = np.zeros((16, 32, 3), dtype=np.uint8)
         stored[:8, :16] = 255
         exif = Image.Exif()
@@ -332,7 +332,7 @@ class TestWrongFiles:
 
     def test_too_large_is_noticed_before_decoding(self):
         data = bytearray(encoded(Image.new("L", (10, 10)), "PNG"))
-        # Width and height in the header; its checksum is repaired.
+        # Width and height in the header. Its checksum is repaired.
         import zlib
 
         data[16:24] = (9000).to_bytes(4) + (20).to_bytes(4)

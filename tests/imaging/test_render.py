@@ -61,7 +61,7 @@ def coordinates_as_colours(width: int, height: int) -> NDArray[np.uint8]:
 
 
 def covered(domain: Domain, width: int, height: int, margin: float) -> NDArray[np.bool_]:
-    """Pixels whose centre lies in the cage, ``margin`` world units away from its boundary."""
+    """Pixels whose centre lies in the cage, at least ``margin`` world units from its boundary."""
     y, x = np.mgrid[:height, :width] + 0.5
     world = PixelFrame(width, height).to_world(np.stack([x, y], axis=-1))
     shifts = margin * np.array([[0, 0], [1, 1], [1, -1], [-1, 1], [-1, -1]])
@@ -181,7 +181,7 @@ def test_refinement_is_conforming_and_keeps_the_domain(bar: Domain):
 
 
 def test_a_tolerance_that_cannot_be_met_has_its_limit(bar: Domain, monkeypatch: pytest.MonkeyPatch):
-    monkeypatch.setattr("glid_nb.imaging.mesh._MOST_VERTICES", 600)
+    monkeypatch.setattr("glid_nb.imaging.mesh.MOST_VERTICES", 600)
     map = bent(bar, 0.3)
     mesh = deformed_mesh(map, 300, tolerance=1e-6)
     assert len(mesh.vertices) <= 600
@@ -217,7 +217,7 @@ def test_heights_grow_from_the_trunk_to_the_limbs(domain: Domain):
     lowest, highest = mesh.vertices[np.argmin(heights)], mesh.vertices[np.argmax(heights)]
     assert -4 < lowest[0] < 0
     assert abs(highest[0]) == 6
-    # Triangles come in that order, for those who paint them without heights.
+    # Triangles come in that order, for programs that paint them without heights.
     means = heights[mesh.triangles].mean(axis=1)
     assert (np.diff(means) >= 0).all()
 
@@ -254,7 +254,7 @@ def test_what_lies_far_outside_the_picture_is_not_refined(bar: Domain) -> None:
     frame = PixelFrame(200, 20)
     seen = deformed_mesh(large, 1000, 0.25 * frame.units_per_pixel, seen=frame.bounds)
     assert len(seen.vertices) < 5000
-    # Where it is seen it is as fine as any mesh.
+    # Visible parts are as fine as in any mesh.
     moderate = HarmonicMap(bar, 20 * curved.phi, 20 * curved.psi)
     image = coordinates_as_colours(200, 20)
     whole = deformed_mesh(moderate, 1000, 0.25 * frame.units_per_pixel)
@@ -345,8 +345,8 @@ def test_a_large_picture_is_drawn_in_tiles_on_threads_as_in_one(domain, monkeypa
     map = affine(domain, 0.9 * np.exp(0.4j), 0.3)
     whole = render(image, map)
     told: list[tuple[int, int]] = []
-    monkeypatch.setattr("glid_nb.imaging.rasterise._TILE", 64 * 32)
-    monkeypatch.setattr("glid_nb.imaging.rasterise._TILE_WIDTH", 64)
+    monkeypatch.setattr("glid_nb.imaging.rasterise.TILE", 64 * 32)
+    monkeypatch.setattr("glid_nb.imaging.rasterise.TILE_WIDTH", 64)
     monkeypatch.setattr("os.cpu_count", lambda: 3)
     pieces = render(image, map, progress=lambda *at: told.append(at))
     np.testing.assert_array_equal(pieces, whole)
@@ -356,8 +356,8 @@ def test_a_large_picture_is_drawn_in_tiles_on_threads_as_in_one(domain, monkeypa
 @pytest.mark.parametrize("cores", [1, 3])
 @pytest.mark.parametrize("interpolation", ["smooth", "nearest"])
 def test_progress_ends_a_drawing(domain, monkeypatch, interpolation, cores):
-    monkeypatch.setattr("glid_nb.imaging.rasterise._TILE", 32 * 32)
-    monkeypatch.setattr("glid_nb.imaging.rasterise._TILE_WIDTH", 32)
+    monkeypatch.setattr("glid_nb.imaging.rasterise.TILE", 32 * 32)
+    monkeypatch.setattr("glid_nb.imaging.rasterise.TILE_WIDTH", 32)
     monkeypatch.setattr("os.cpu_count", lambda: cores)
     told: list[int] = []
 

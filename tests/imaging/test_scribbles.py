@@ -1,4 +1,4 @@
-"""Scribbles: a random walker's probabilities, whatever the picture and the strokes before."""
+"""Scribbles: probabilities of a random walker, independent of earlier pictures and strokes."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ def test_a_large_picture_is_walked_on_at_40_000_pixels():
 
 
 def test_no_contrast_hinders_nowhere():
-    # The pixels differ by less than a step of 8 bits: the walker sees a picture of one colour.
+    # The pixels differ by less than a step of 8 bits, so the walker sees a picture of one colour.
     image = np.full((9, 9, 4), 257 * 100, dtype=np.uint16)
     image[3, 3, 0] += 1
     inner = np.zeros((9, 9), dtype=bool)
@@ -59,7 +59,7 @@ def test_no_contrast_hinders_nowhere():
 @pytest.mark.slow
 def test_a_picture_is_prepared_once_for_all_scribbles(monkeypatch: pytest.MonkeyPatch):
     prepared = []
-    module = importlib.import_module("glid_nb.imaging.trace")  # the name is the function's too
+    module = importlib.import_module("glid_nb.imaging.trace")  # the function has the same name
     monkeypatch.setattr(
         module, "scaled_picture", lambda image: prepared.append(image) or scaled_picture(image)
     )

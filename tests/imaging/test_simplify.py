@@ -159,7 +159,8 @@ class TestRepair:
         t = t[np.diff(t, append=7) > 1e-6]
         spokes = np.stack([np.cos(t), np.sin(t)], axis=1)
         outer = rng.uniform(40, 100, len(t))[:, np.newaxis] * spokes
-        # Chords of the spokes' inner ends stay inside: the angle between spokes is what matters.
+        # Chords of the spokes' inner ends stay inside, because only the angle between spokes
+        # matters.
         inner = 0.2 * outer
         loops = (outer, inner)
         if not (shapely.LinearRing(outer).is_simple and shapely.Polygon(outer, [inner]).is_valid):
@@ -214,7 +215,7 @@ class TestEnclosing:
     def test_holes_are_not_covered_by_less(self):
         outer, hole = circle(100), circle(50)
         result = simplify((outer, hole), 5.0)
-        # The cage's hole lies in the picture's: nothing of the shape around it is cut off.
+        # The cage's hole lies in the picture's hole, so nothing of the shape around it is cut off.
         kept = shapely.Polygon(result.holes[0])
         assert shapely.Polygon(hole).buffer(0.02).contains(kept)
 

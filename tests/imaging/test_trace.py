@@ -56,7 +56,7 @@ def polygon(tracing: Tracing) -> shapely.Polygon:
 
 
 def contained(tracing: Tracing, tolerance: float = 0.0) -> float:
-    """The part of the mask's pixels whose centres are in the cage, or as near as this to it."""
+    """The share of the mask's pixels whose centres lie in the cage, or this near to it."""
     rows, columns = np.nonzero(tracing.mask)
     region = polygon(tracing).buffer(tolerance) if tolerance else polygon(tracing)
     shapely.prepare(region)
@@ -149,7 +149,7 @@ class TestAccuracy:
 
 
 class TestAwkwardPictures:
-    """Whatever the picture, the result is a valid cage or a sentence."""
+    """For any picture, the result is a valid cage or a refusal in one sentence."""
 
     def test_a_bridge_one_pixel_wide(self):
         picture = np.zeros((40, 80))
@@ -162,7 +162,7 @@ class TestAwkwardPictures:
             assert contained(tracing) > 0.99
 
     def test_values_next_to_the_threshold_leave_no_hairline(self):
-        # A bridge of pixels that just pass: without care its outline would be 1e-6 pixels wide.
+        # A bridge of pixels just above the threshold. Without care its outline is 1e-6 pixels wide.
         picture = np.zeros((40, 80))
         picture[10:30, 5:30] = picture[10:30, 50:75] = 1
         picture[20, 30:50] = 0.5 + 1 / 65535
@@ -198,7 +198,7 @@ class TestAwkwardPictures:
         assert trace(picture).cage.n_vertices >= 3
 
     def test_a_very_rough_outline_is_traced_coarsely(self, monkeypatch):
-        monkeypatch.setattr("glid_nb.imaging.outline._ROUGH", 300)
+        monkeypatch.setattr("glid_nb.imaging.outline.ROUGH", 300)
         picture = disc(60, 150) * (np.random.default_rng(1).random((150, 150)) > 0.35)
         tracing = trace(with_alpha(picture))
         assert any("very rough: it was traced in blocks of" in note for note in tracing.notes)
@@ -445,7 +445,7 @@ class TestHoles:
         assert filled.cage.n_holes == 0
 
     def test_no_hole_outlives_its_wall(self):
-        # Walls one pixel thin between holes, which simplification must not move across.
+        # Walls between holes, one pixel thin. Simplification must not move across them.
         solid = np.ones((61, 61))
         for i in range(1, 60, 10):
             for j in range(1, 60, 10):
@@ -470,7 +470,7 @@ class TestOptions:
         tracing = trace(data.horse(), min_edge=8, max_edge=30)
         pixels = edges(tracing.cage) / tracing.frame.units_per_pixel
         assert pixels.max() <= 30.001
-        # Moving edges outwards and dividing long ones may leave some shorter than asked.
+        # Moving edges outwards and dividing long ones may leave some shorter than requested.
         assert np.quantile(pixels, 0.05) > 7
 
     def test_what_is_cut_off_is_said(self):
@@ -596,13 +596,13 @@ class TestBadPictures:
 
 
 class TestTracer:
-    """Only what a changed option needs is done again, and the result is the same."""
+    """Only the stages that depend on the changed option run again, and the result is the same."""
 
     @pytest.fixture
     def calls(self, monkeypatch) -> list[str]:
         """The names of the stages, as they run."""
         names: list[str] = []
-        module = importlib.import_module("glid_nb.imaging.trace")  # the name is the function's too
+        module = importlib.import_module("glid_nb.imaging.trace")  # the function has the same name
 
         def watch(name):
             function = getattr(module, name)

@@ -1,4 +1,4 @@
-"""What a file says is transparent is transparent, in every mode that PNG has, and elsewhere."""
+"""Transparent parts of a file stay transparent, in every mode of PNG and in other formats."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ def in_full(values: np.ndarray, depth: int) -> np.ndarray:
 def test_one_transparent_colour(depth: int, color_type: int, interlaced: bool) -> None:
     values = samples(depth, color_type)
     key = values[4, 5]
-    # Alike in the high bytes only: seen.
+    # Alike only in the high bytes, so they are visible.
     values[0, 0] = key ^ 1
     body = struct.pack(f">{len(key)}H", *key)
     image = read_image(png_file(values, depth, color_type, chunk(b"tRNS", body), interlaced))
@@ -109,7 +109,7 @@ def test_a_picture_that_pillow_opened_is_read_the_same(depth: int, color_type: i
 
 
 def test_a_shape_on_a_transparent_colour_is_traced() -> None:
-    """The background has a colour that the shape has nearly, so only tRNS tells them apart."""
+    """The background has almost the shape's colour, so only tRNS tells them apart."""
     values = np.full((60, 80, 3), 30000)
     values[15:45, 20:60] = 30001
     data = png_file(values, 16, RGB, chunk(b"tRNS", struct.pack(">3H", 30000, 30000, 30000)))
@@ -245,7 +245,7 @@ class TestDecoded:
 
 
 def test_masked_pixels_are_transparent() -> None:
-    masked_array: Any = np.ma.array  # its types know no masks
+    masked_array: Any = np.ma.array  # its types have no masks
     grey = np.full((2, 3), 200, np.uint8)
     image = read_image(masked_array(grey, mask=[[1, 0, 0], [0, 0, 0]]))
     assert image[..., 3].tolist() == [[0, 255, 255], [255, 255, 255]]

@@ -1,4 +1,4 @@
-"""Bounded distortion harmonic maps keep their bounds, by an evaluation of their own."""
+"""Bounded distortion harmonic maps keep their bounds, measured independently."""
 
 from __future__ import annotations
 
@@ -18,8 +18,8 @@ from glid_nb.methods.bdhm.program import MARGIN, BoundedProblem, DistortionBound
 from glid_nb.pose import Pose
 from glid_nb.solvers import MethodError, Progress, Result, Status
 
-from ..reference_map import DenseCheck, Measured
-from .problems import problem, run_method
+from ..support.problems import problem, run_method
+from ..support.reference_map import DenseCheck, Measured
 
 pytestmark = pytest.mark.slow  # most of the time is compiling
 
@@ -63,7 +63,7 @@ def test_the_bounds_hold_densely_and_are_certified(
 
 @pytest.mark.parametrize("name", ["ell", "ring"])
 def test_bounds_that_do_not_bind_leave_the_arap_minimum(name: str) -> None:
-    """Within wide bounds the alternation of frames and programs is ARAP's local/global method."""
+    """Within wide bounds, alternating frames and programs is ARAP's local/global method."""
     result = run_method("bdhm", *problem(name), tolerance=1e-8, max_iterations=100)
     assert result.status is Status.CONVERGED
     newton = run_method("newton", *problem(name), ARAP())
@@ -113,7 +113,7 @@ def test_it_goes_on_from_a_map_within_its_bounds() -> None:
     settings = {"align": False, "max_iterations": 0, **bounds}
     again = run_method("bdhm", *problem("ring"), start=tight.map, **settings)
     assert again.energy == pytest.approx(tight.energy, rel=1e-9)
-    # A map beyond the bounds gives way to the identity.
+    # A map beyond the bounds is replaced by the identity.
     beyond = {**settings, "sigma1": 1.2}
     anew = run_method("bdhm", *problem("ring"), start=tight.map, **beyond)
     assert anew.energy_distortion == pytest.approx(0.0, abs=1e-12)
@@ -138,7 +138,7 @@ def test_within_binding_bounds_it_finds_the_least_energy_up_to_the_margin() -> N
     assert isinstance(start, HarmonicMap)
     full, tightened = penalised(start, 1.0), penalised(start, 1 - MARGIN)
     assert full < tightened < 1.003 * full
-    # The penalty's own error, and what is left at the tolerance.
+    # The penalty's own error, and the rest at the tolerance.
     assert full < result.energy < (1 + 3e-4) * tightened
 
 
@@ -175,7 +175,7 @@ def penalised(start: HarmonicMap, share: float, weight: float = 1e4, count: int 
 def test_a_run_that_is_not_stationary_does_not_claim_to_have_converged(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    """No proof: the start is returned, and what stopped the method is said."""
+    """Without a proof, the start is returned, with what stopped the method."""
     started = DistortionBounds.hold
     calls = iter([True])
     monkeypatch.setattr(
@@ -195,14 +195,15 @@ def test_an_unmoved_pose_is_stationary_at_once() -> None:
 
 
 def test_a_map_that_has_used_up_the_margin_goes_on() -> None:
-    """sigma_1 binds along a whole side here, and no program that admits the map proves a step."""
+    """sigma_1 is active along a whole side here, and no program that admits the map proves a
+    step."""
     domain = Domain.from_cage(Cage([[0, 0], [4, 0], [4, 2], [0, 2]]))
     pose = Pose([[0.5, 1], [2, 1], [3.5, 1]], [[0.5, 1], [2, 1.3], [3.4, 0.8]])
     result = run_method("bdhm", domain, pose, k=0.4, sigma1=2.0, sigma2=0.6)
     assert result.status is Status.CONVERGED, result.message
     energies = [step.energy for step in (result.initial, *result.history)]
     assert all(b <= a for a, b in itertools.pairwise(energies))
-    # Where it was blocked without them.
+    # The place where it was blocked without them.
     assert result.energy < 0.99 * 50.98
     assert result.certificate is not None
     assert result.certificate.sigma1_upper <= 2.0

@@ -1,4 +1,4 @@
-"""Linear baselines: they interpolate, reproduce what they should, and fold."""
+"""Linear baselines: they interpolate, reproduce simple maps, and fold."""
 
 from __future__ import annotations
 
@@ -20,8 +20,8 @@ from glid_nb.methods.linear import (
 from glid_nb.pose import Pose
 from glid_nb.solvers import Status
 
-from ..domains import real
-from .problems import problem, run_method
+from ..support.domains import real
+from ..support.problems import problem, run_method
 
 pytestmark = pytest.mark.slow  # most of the time is compiling
 
@@ -113,7 +113,7 @@ def test_cauchy_coordinates_solve_a_least_squares_problem_by_quadrature(weight: 
     expected = hats_by_quadrature(loop, as_complex(inside), 0) @ solution
     map = cauchy_point_to_point(shape, pose, weight)
     np.testing.assert_allclose(as_complex(map(inside)), expected, atol=1e-7)
-    # It is no rigid motion, so the weight matters.
+    # It is not a rigid motion, so the weight matters.
     assert np.abs(expected - as_complex(inside)).max() > 1
 
 

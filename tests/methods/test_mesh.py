@@ -1,4 +1,4 @@
-"""Methods on a triangle mesh: they fold nothing, go down, and meet at one minimum."""
+"""Methods on a triangle mesh: they flip no triangle, descend, and reach the same minimum."""
 
 from __future__ import annotations
 
@@ -25,8 +25,8 @@ from glid_nb.methods.mesh.operators import MeshOperators, Pinned
 from glid_nb.pose import Pose
 from glid_nb.solvers import MethodError, Result, Status
 
-from ..domains import domain
-from .problems import problem, run_method
+from ..support.domains import domain
+from ..support.problems import problem, run_method
 
 pytestmark = pytest.mark.slow  # most of the time is compiling
 
@@ -115,7 +115,7 @@ def test_energies_are_those_of_the_singular_values(method: str, energy: Energy) 
 
 
 def strained(name: str) -> tuple[Domain, Pose]:
-    """Many handles and targets that no conformal map and no isometry comes close to."""
+    """Many handles, with targets far from any conformal map and any isometry."""
     shape = domain(name)
     rng = np.random.default_rng(3)
     chosen: list[Array] = []
@@ -153,12 +153,12 @@ def unbalance(result: Result, energy: Energy, weight: float) -> float:
 def test_slim_minimises_our_energy_with_our_lambda(
     energy: Energy, name: str, weight: float
 ) -> None:
-    """libigl tells no energy, but where it ends our own total gradient vanishes."""
+    """libigl reports no energy, but at its end our own total gradient vanishes."""
     pytest.importorskip("igl")
     settings = {"n_vertices": 300, "tolerance": 1e-14, "max_iterations": 400}
     result = run_method("slim", *strained(name), energy, p2p_weight=weight, **settings)
     assert unbalance(result, energy, weight) < 1e-4
-    # Another parameter, weight or energy would be noticed.
+    # Another parameter, weight or energy would make a difference.
     assert unbalance(result, energy, 1.01 * weight) > 5e-3
     assert unbalance(result, ExponentialSymmetricDirichlet(1.9), weight) > 5e-3
 
@@ -313,7 +313,7 @@ def test_a_method_goes_on_from_a_map_of_its_mesh() -> None:
     more = run("slim", "bent", start=few.map, align=False)
     assert more.initial.energy == pytest.approx(few.energy, rel=1e-9)
     assert more.energy < few.energy
-    # SLIM cannot begin with a triangle turned over; it begins at rest then.
+    # SLIM cannot start with a flipped triangle; then it starts at rest.
     folded = MeshMap(mesh, mesh.vertices * [-1, 1])
     anew = run("slim", "bent", start=folded, max_iterations=0)
     assert anew.initial.energy_distortion == pytest.approx(2.0)

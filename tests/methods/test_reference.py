@@ -8,7 +8,7 @@ import pytest
 
 from glid_nb.session.problem import Problem
 
-from .problems import run_method
+from ..support.problems import run_method
 
 pytestmark = [pytest.mark.slow, pytest.mark.reference]
 

@@ -19,8 +19,8 @@ from glid_nb.minima import solve
 from glid_nb.pose import Pose, PoseError
 from glid_nb.solvers import MethodError, OptionError, Options, StartError
 
-from ..domains import domain
-from .problems import problem, run_method
+from ..support.domains import domain
+from ..support.problems import problem, run_method
 
 
 def test_every_method_says_what_it_is() -> None:

@@ -1,4 +1,4 @@
-"""Every method stops at any iteration: the state it has reached is a whole result."""
+"""Every method can be stopped at any iteration and then returns a complete result."""
 
 from __future__ import annotations
 
@@ -13,12 +13,12 @@ from glid_nb.harmonic import HarmonicMap
 from glid_nb.methods import METHODS
 from glid_nb.solvers import Progress, Result, Status
 
-from .problems import problem, run_method
+from ..support.problems import problem, run_method
 
 pytestmark = pytest.mark.slow
 
 ITERATIVE = [name for name, method in METHODS.items() if method.family != "linear"]
-# Newton's compiled loop is first seen after a call.
+# Newton's compiled loop is visible only after a call.
 COMPILED = ("newton", "newton-paper", "newton-unmodified")
 LINEAR = [name for name, method in METHODS.items() if method.family == "linear"]
 WEIGHT = 1e3
@@ -39,7 +39,7 @@ def points_of(map: HarmonicMap | MeshMap) -> NDArray[Any]:
 
 
 def check(result: Result, iterations: int) -> None:
-    """The history ends with the map that is returned, and what the method promises of it holds."""
+    """The history ends with the returned map, and the map has what the method promises."""
     method = result.method
     assert result.message.endswith(".")
     assert result.iterations == iterations
@@ -95,7 +95,7 @@ def test_when_the_callback_says_so(name: str, iterations: int) -> None:
     assert len(last.history) == len(result.history)
     assert last.energy == pytest.approx(result.energy, rel=1e-12)
     np.testing.assert_array_equal(points_of(last.map), points_of(result.map))
-    # It was asked after the start and after every iteration.
+    # The callback was called after the start and after every iteration.
     first = 1 if name in COMPILED else 0
     assert {len(progress.history) for progress in seen} == set(range(first, iterations + 1))
     assert all(progress.initial == result.initial for progress in seen)

@@ -1,4 +1,4 @@
-"""Methods in the harmonic subspace: one minimum, whichever way leads there."""
+"""Methods in the harmonic subspace reach one minimum, each in its own way."""
 
 from __future__ import annotations
 
@@ -18,8 +18,8 @@ from glid_nb.pose import Pose
 from glid_nb.solvers import Options, Result, Status
 from glid_nb.solvers.method import Inputs
 
-from ..reference_map import DenseCheck
-from .problems import problem, run_method
+from ..support.problems import problem, run_method
+from ..support.reference_map import DenseCheck
 
 pytestmark = pytest.mark.slow
 
@@ -56,10 +56,10 @@ def test_one_minimum(method: str, name: str) -> None:
 
 @pytest.mark.parametrize("method", ["gradient-descent", "lbfgs"])
 def test_first_order_methods_reach_the_minimum_where_targets_are_soft(method: str) -> None:
-    """A heavy weight makes the energy too stiff for the negative gradient."""
+    """With a heavy weight, the energy is too stiff for the negative gradient."""
     settings = {"p2p_weight": 1.0, "max_iterations": 2000}
     result, ours = run(method, "ell", **settings), run("newton", "ell", **settings)
-    # L-BFGS may end where double precision shows no lower energy, before its tolerance.
+    # L-BFGS may end before its tolerance, if double precision shows no lower energy.
     assert result.status.ok, result.message
     closeness = 1e-6 if result.status is Status.CONVERGED else 1e-11
     assert result.energy == pytest.approx(ours.energy, rel=closeness)
@@ -114,7 +114,7 @@ def test_least_squares_reaches_newtons_arap(method: str) -> None:
 @pytest.mark.parametrize("method", ["gauss-newton", "levenberg-marquardt"])
 @pytest.mark.parametrize("handles", [0, 1, 4])
 def test_least_squares_knows_a_perfect_map(method: str, handles: int) -> None:
-    """ARAP's least energy is 0, with which nothing compares relatively."""
+    """ARAP's least energy is 0, so a relative comparison makes no sense."""
     domain, pose = problem("ell")
     still = Pose(pose.handles[:handles], pose.handles[:handles])
     result = run_method(method, domain, still)
@@ -124,7 +124,7 @@ def test_least_squares_knows_a_perfect_map(method: str, handles: int) -> None:
 
 @pytest.mark.parametrize("method", ["gauss-newton", "levenberg-marquardt"])
 def test_least_squares_ends_where_it_creeps(method: str) -> None:
-    """No barrier keeps ARAP from folding: steps shrink, each proved on more panels."""
+    """No barrier keeps ARAP from folding: steps shrink, and each is proved on more panels."""
     domain, pose = problem("ell")
     far = pose.with_targets(pose.handles * [8.0, -5.0])
     result = run_method(method, domain, far, align=False)
@@ -166,7 +166,7 @@ def test_energy_decreases(method: str) -> None:
 def test_lbfgs_direction_is_that_of_dense_bfgs() -> None:
     """While its memory holds every pair, L-BFGS is BFGS with the textbook's matrix update.
 
-    The textbook's inverse loses digits to a heavy weight, so that this one is light.
+    With a heavy weight, the textbook's inverse loses digits, so this weight is light.
     """
     at = started(LBFGS(memory=5), "ring", p2p_weight=1e3)
     inverse = np.linalg.inv(at.p2p_hessian + np.diag(np.where(at.free > 0, 2e-4 / at.unit**2, 1.0)))
@@ -190,7 +190,7 @@ def test_lbfgs_direction_is_that_of_dense_bfgs() -> None:
 
 
 def test_the_problem_is_set_up_in_double_precision() -> None:
-    """Also where JAX's own default is single: handles' images agree with the map's."""
+    """Also if JAX's default precision is single: the handles' images agree with the map's."""
     domain, pose = problem("ring")
     at = started(NewtonStaged(), "ring")
     phi = at.discretisation.basis.pad(HarmonicMap.identity(domain).phi)

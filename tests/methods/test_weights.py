@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from glid_nb.geometry import Triangulation, triangulate
 from glid_nb.methods.linear import bounded_biharmonic_weights, harmonic_weights
 
-from .problems import problem
+from ..support.problems import problem
 
 pytest.importorskip("igl")
 
@@ -77,7 +77,7 @@ def test_harmonic_weights_solve_the_laplace_equation(name: str, power: int) -> N
 
 @pytest.mark.parametrize("name", ["ell", "ring"])
 def test_harmonic_weights_have_their_extremes_at_handles(name: str) -> None:
-    """The maximum principle, which holds for Delaunay triangulations, and only of order 1."""
+    """The maximum principle holds for Delaunay triangulations, and only for order 1."""
     mesh, handles = mesh_and_handles(name)
     inside = np.setdiff1d(np.arange(len(mesh.vertices)), handles)
     w = harmonic_weights(mesh, handles.tobytes(), 1)
@@ -108,7 +108,7 @@ def test_bounded_biharmonic_weights_are_those_of_a_quadratic_program(name: str) 
         solution = solver.solve()
         assert str(solution.status) == "Solved"
         expected[:, k] = solution.x
-    # Each is bounded for itself; that they add up to 1 is made so afterwards.
+    # Each weight is bounded separately. They are normalised to the sum 1 afterwards.
     assert np.abs(expected.sum(axis=1) - 1).max() > 0.01
     expected /= expected.sum(axis=1, keepdims=True)
     w = bounded_biharmonic_weights(mesh, handles.tobytes())
@@ -116,5 +116,5 @@ def test_bounded_biharmonic_weights_are_those_of_a_quadratic_program(name: str) 
     np.testing.assert_allclose(w.sum(axis=1), 1, atol=1e-12)
     assert w.min() >= 0
     assert w.max() <= 1
-    # The bound does something: without it weights are negative here.
+    # The bounds matter: without them some weights are negative here.
     assert harmonic_weights(mesh, handles.tobytes(), 2).min() < -0.01

@@ -1,4 +1,4 @@
-"""Many poses at once: the same maps as one by one, on several devices too."""
+"""Many poses at once give the same maps as one by one, also on several devices."""
 
 from __future__ import annotations
 
@@ -21,8 +21,8 @@ from glid_nb.pose import Pose, PoseError
 from glid_nb.solvers import Options, Status
 from glid_nb.solvers.method import Inputs
 
-from ..domains import domain
-from ..solvers.checks import check_certified
+from ..support.checks import check_certified
+from ..support.domains import domain
 
 HANDLES = np.array([[-2.5, 2.5], [2.5, -2.5], [-2.0, -2.0]])
 
@@ -59,7 +59,7 @@ def test_poses_in_lockstep_are_the_poses_one_by_one() -> None:
         for goal in goals
     ]
     with enable_x64():
-        results = batch._in_lockstep(given)
+        results = batch.in_lockstep(given)
     alone = [solve(ell, Pose(HANDLES, goal)) for goal in goals]
     np.testing.assert_allclose([r.energy for r in results], [r.energy for r in alone], rtol=1e-6)
     for goal, result in zip(goals, results, strict=True):
@@ -217,7 +217,7 @@ def test_under_jax_distributed_every_host_solves_its_share() -> None:
             shares.append(json.loads(process.stdout.read()))
         assert process.returncode == 0
     for host, (count, elsewhere, energies, certified) in enumerate(shares):
-        assert (count, elsewhere) == (2, 1)  # they know of one another
+        assert (count, elsewhere) == (2, 1)  # they know each other
         assert certified == [True] * len(goals[host::2])
         poses = [Pose(HANDLES, goal) for goal in goals[host::2]]
         alone = [solve(shape, pose, options=Options(restarts=0)).energy for pose in poses]

@@ -1,4 +1,4 @@
-"""Poses that no sane hand would make: the solver ends, the map is certified, nothing is NaN."""
+"""Extreme poses: the solver ends, the map is certified, and nothing is NaN."""
 
 from __future__ import annotations
 
@@ -23,10 +23,10 @@ from glid_nb.minima.known import SAME_ENERGY
 from glid_nb.pose import Pose
 from glid_nb.solvers import Options, Progress, Status
 
-from ..domains import NAMES, circle, domain, real
-from ..geometry.shapes import KINDS as CAGES
-from ..geometry.shapes import random_cage
-from ..solvers.checks import Turn, check_certified, turned
+from ..support.cages import KINDS as CAGES
+from ..support.cages import random_cage
+from ..support.checks import Turn, check_certified, turned
+from ..support.domains import NAMES, circle, domain, real
 
 pytestmark = pytest.mark.slow  # most of the time is compiling
 
@@ -67,7 +67,7 @@ def test_absurd_targets_end_certified(name: str, kind: str, seed: int) -> None:
 def test_tangled_domains_end_certified(cage_kind: str, seed: int, holes: int, kind: str) -> None:
     cage = random_cage(cage_kind, seed, holes)
     shape = Domain.from_cage(cage)
-    # Larger ones share no compiled program, and compiling is most of the time.
+    # Larger shapes share no compiled program, and compiling takes most of the time.
     assume(shape.n_coefficients <= 60)
     rng = np.random.default_rng(seed)
     low, high = np.reshape(cage.bounds, (2, 2))
@@ -86,10 +86,10 @@ def bar() -> Domain:
 
 @pytest.mark.parametrize("per_call", [1, 4, 7])
 def test_a_bar_tied_into_a_loop_splits_panels_and_meets_its_targets(per_call: int) -> None:
-    """The ends change places: far from the identity, yet a certified map exists.
+    """The ends swap places: far from the identity, but a certified map exists.
 
-    On the way the Hessian is singular to rounding and takes an epsilon, which must not stay: the
-    minimum has soft directions.
+    On the way, the Hessian is singular to rounding and needs an epsilon. This must not stay,
+    because the minimum has soft directions.
     """
     handles = np.array([[-7.5, 0], [-3, 0], [3, 0], [7.5, 0]])
     targets = np.array([[5, 1], [-2, 3], [2, 3], [-5, 1]])
@@ -102,7 +102,7 @@ def test_a_bar_tied_into_a_loop_splits_panels_and_meets_its_targets(per_call: in
 
 
 def test_a_coarse_certificate_does_not_end_a_solve() -> None:
-    """Panels that refuse a step are split, and the solve goes on to its minimum."""
+    """Panels that refuse a step are split, and the solve continues to its minimum."""
     handles = np.array(INSIDE["ell"])
     targets = np.random.default_rng(0).normal(size=handles.shape) * 4
     iterations: list[int] = []
@@ -115,7 +115,7 @@ def test_a_coarse_certificate_does_not_end_a_solve() -> None:
     assert result.status.ok
     assert result.panels_split > 0
     check_certified(result)
-    # The callback is also asked after a call that took no step, so that splitting can be stopped.
+    # The callback is also called after a call without a step, so splitting can be stopped.
     assert any(before == after for before, after in itertools.pairwise(iterations))
 
 
@@ -133,7 +133,7 @@ def test_restarts_keep_the_best_attempt() -> None:
 
 
 def test_ends_that_turn_over_do_so_in_opposite_directions_where_that_is_better() -> None:
-    """Both ends upside down: the direct way and turning both alike end 8 % higher."""
+    """Both ends are upside down. The direct way, and turning both alike, end 8 % higher."""
     domain = Domain.from_cage(Cage([[-10, -1], [10, -1], [10, 1], [-10, 1]]))
     handles = np.array([[-9, -0.5], [-9, 0.5], [9, -0.5], [9, 0.5]])
     energies: list[float] = []
@@ -143,7 +143,7 @@ def test_ends_that_turn_over_do_so_in_opposite_directions_where_that_is_better()
     assert result.energy * (1 - SAME_ENERGY) < min(reached.values())
     assert result.energy < 0.95 * reached["direct"]
     check_certified(result)
-    # It can be stopped on another way; then the first way's end is the best so far.
+    # It can be stopped on another way. Then the first way's result is the best so far.
     starts: list[float] = []
 
     def stop(progress: Progress) -> bool:
@@ -158,7 +158,7 @@ def test_ends_that_turn_over_do_so_in_opposite_directions_where_that_is_better()
 
 
 def test_a_squeezed_bar_bends_instead() -> None:
-    """Aligned with its targets it stays straight, for nothing tells it to which side to bend."""
+    """Aligned with its targets, the bar stays straight, because no side is preferred."""
     domain = Domain.from_cage(Cage([[-10, -0.5], [10, -0.5], [10, 0.5], [-10, 0.5]]))
     end = np.array([2.851, 6.8829])
     pose = Pose([[-9.5, 0], [0, 0], [9.5, 0]], [-end, [0, 0], end])
@@ -175,7 +175,7 @@ def sample(name: str) -> tuple[Domain, np.ndarray]:
 
 
 def test_a_limb_that_curls_is_led_along_an_arc() -> None:
-    """The frog's arm turns by -122 degrees, and its hand by 66 less, not as far again."""
+    """The frog's arm turns by -122 degrees, and its hand by 66 degrees less, not as far again."""
     domain, _ = sample("frog")
     ends = [2.74 - 6.64j, -2.45 + 5.53j, 4.27 + 0.24j, -1.84 - 1.88j, 2.43 + 4.47j, -1.84 - 6.11j]
     handles = real(np.array([*ends, -0.01 + 1.3j]))
@@ -186,7 +186,7 @@ def test_a_limb_that_curls_is_led_along_an_arc() -> None:
 
 
 def test_a_limb_that_is_wound_up_is_led_along_no_arc() -> None:
-    """The teapot's spout, turned by 120 degrees: its line turns by 92, its tip by -36."""
+    """The teapot's spout is turned by 120 degrees: its line turns by 92, its tip by -36."""
     domain, handles = sample("teapot")
     z = handles @ np.array([1, 1j])
     body = z[np.argmin(np.abs(z - z.mean()))]
@@ -199,7 +199,7 @@ def test_a_limb_that_is_wound_up_is_led_along_no_arc() -> None:
 
 
 def bent_c() -> tuple[Domain, np.ndarray, list[Turn], float]:
-    """Two lines that meet at the root turn by 129 and 145 degrees against each other."""
+    """Two lines that meet at the root turn by 129 and 145 degrees relative to each other."""
     out, handles = np.linspace(-2.6, 2.6, 25), 8.5 * np.exp(1j * np.linspace(-2.4, 2.4, 7))
     outline = np.concatenate([10 * np.exp(1j * out), 7 * np.exp(-1j * out)])
     ends = [
@@ -219,7 +219,7 @@ def bent_ring() -> tuple[Domain, np.ndarray, list[Turn], float]:
 
 
 def bent_frog() -> tuple[Domain, np.ndarray, list[Turn], float]:
-    """Hands, legs and body: lines that turn alike go the other way round together."""
+    """Hands, legs and body: lines that turn alike are reversed together."""
     domain, handles = sample("frog")
     z = handles @ np.array([1, 1j])
     turns = [([0, 1], z[2], 133.85), ([6, 7], z[5], -113.33)]
@@ -227,20 +227,21 @@ def bent_frog() -> tuple[Domain, np.ndarray, list[Turn], float]:
 
 
 def bent_teapot() -> tuple[Domain, np.ndarray, list[Turn], float]:
-    """The handle turns by 143 degrees, and as short a part costs less by 217."""
+    """The handle turns by 143 degrees. For such a short part, 217 degrees the other way cost
+    less."""
     domain, handles = sample("teapot")
     return domain, handles, [([5], handles[1] @ np.array([1, 1j]), 142.5626)], 4.0723
 
 
 def wound_frog() -> tuple[Domain, np.ndarray, list[Turn], float]:
-    """The first way winds up a hand; with the same turns of the lines there is a better map."""
+    """The first way twists a hand. A better map exists with the same turns of the lines."""
     domain, handles = sample("frog")
     turns = [([7], -0.0675 + 4.1325j, 162.6), ([3], 0.6j, -154.7), ([6, 7], 1.16j, -131.8)]
     return domain, handles, turns, 12.013
 
 
 def bent_ell() -> tuple[Domain, np.ndarray, list[Turn], float]:
-    """One arm turns twice: its end where it is held, and half of it at the corner."""
+    """One arm turns twice: once at its held end, and half at the corner."""
     outline = [
         [-10, -8],
         [8, -8],
@@ -266,7 +267,7 @@ def test_limbs_bent_by_over_100_degrees_end_near_the_best_minimum_known(bent: An
 
 
 def test_after_a_gain_turns_that_may_cost_a_little_more_are_still_tried() -> None:
-    """A C closes to the other side: its second best way round is found first."""
+    """A C closes to the other side. Its second best way is found first."""
     out = np.linspace(-2.4, 2.4, 25)
     outline = np.concatenate([10 * np.exp(1j * out), 7 * np.exp(-1j * out)])
     handles = [(-5.66, -6.34), (6.12, -5.9), (6.12, 5.9), (-5.66, 6.34)]
@@ -277,7 +278,7 @@ def test_after_a_gain_turns_that_may_cost_a_little_more_are_still_tried() -> Non
 
 
 def test_what_the_better_map_winds_up_is_led_the_other_way_round_too() -> None:
-    """An arm of an L turns twice; the first map winds up neither of its ends."""
+    """An arm of an L turns twice. The first map twists neither of its ends."""
     domain, *_ = bent_ell()
     handles = [(-9.4, 7.63), (7.45, -5.92), (-7.29, -7.48), (-8.19, 0.34), (-0.07, -7.48)]
     targets = [handles[0], (-4.73, -3.74), *handles[2:4], (-5.84, -11.34), (-9.4, -3.83)]
@@ -321,7 +322,7 @@ def test_values_are_immutable() -> None:
 
 
 def test_arap_meets_its_targets_where_the_direct_way_is_blocked() -> None:
-    """No barrier keeps ARAP's Newton steps from the limit of injectivity; a detour does."""
+    """No barrier keeps ARAP's Newton steps from the limit of injectivity. A detour does."""
     pose = Pose([[-7.5, 0], [-3, 0], [3, 0], [7.5, 0]], [[2, 0], [-3, 0], [3, 0], [-2, 0]])
     direct = solve(bar(), pose, "arap", Options(restarts=0))
     result = solve(bar(), pose, "arap", Options(restarts=1))
@@ -335,7 +336,7 @@ def test_arap_meets_its_targets_where_the_direct_way_is_blocked() -> None:
 
 
 def test_mips_meets_its_targets_where_the_direct_way_is_blocked() -> None:
-    """Nothing keeps it from shrinking a limb to nothing on the way; then other ways end lower."""
+    """A limb may shrink to nothing on the way. Then other ways end lower."""
     pose = Pose([[-8, 0], [0, 0], [8, 0]], [[7.5, 3.0], [0, 0], [8, 0]])
     direct = solve(bar(), pose, "mips", Options(restarts=0))
     result = solve(bar(), pose, "mips")
@@ -357,8 +358,10 @@ def test_an_end_that_is_wound_up_is_led_the_other_way_round() -> None:
 
 
 def test_a_wanted_angle_is_met_from_the_map_without_it_where_that_is_better() -> None:
-    """Turned by 127 degrees at the tip of a limb that folds back: from which side, tells the map
-    that is free there; the direct way ends 15 % higher."""
+    """Turned by 127 degrees at the tip of a limb that folds back.
+
+    The map that is free there tells from which side. The direct way ends 15 % higher.
+    """
     along = np.exp(2j * np.pi * (np.arange(3) / 3 + 0.25))[:, None]
     star = (along * [1.8 - 1j, 10 - 1j, 10 + 1j, 1.8 + 1j]).ravel()
     domain = Domain.from_cage(Cage(np.stack([star.real, star.imag], axis=1)))

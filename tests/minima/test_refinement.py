@@ -1,4 +1,4 @@
-"""Finer bases on the same cage: the same map at first, then a lower minimum."""
+"""Finer bases on the same cage: at first the same map, then a lower minimum."""
 
 from __future__ import annotations
 
@@ -18,8 +18,8 @@ from glid_nb.session.report import build_report
 from glid_nb.solvers import Options
 from glid_nb.solvers.method import MethodError
 
-from ..domains import domain, random_map
-from ..solvers.checks import check_certified
+from ..support.checks import check_certified
+from ..support.domains import domain, random_map
 
 
 @pytest.mark.parametrize("name", ["ell", "ring", "twin"])

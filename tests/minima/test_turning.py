@@ -55,7 +55,7 @@ def half_turned() -> tuple[Pose, HarmonicMap]:
 @pytest.mark.slow
 @pytest.mark.parametrize("back", [0, 90, -150])
 def test_a_line_turns_by_as_much_as_the_map_turns_it(back: float) -> None:
-    """However the shape as a whole is turned; the other way round leads to the same targets."""
+    """However the whole shape is turned, the reversed way leads to the same targets."""
     pose, map = half_turned()
     pose = pose.with_targets(turned(pose.targets, back))
     turning = handle_turns(aligned(map, pose), pose)
@@ -68,7 +68,7 @@ def test_a_line_turns_by_as_much_as_the_map_turns_it(back: float) -> None:
     z, w = BAR @ np.array([1, 1j]), pose.targets @ np.array([1, 1j])
     for lines in ((), reversed):
         way = [BAR, *(waypoint.targets for _, waypoint in waypoints(turning, lines)), pose.targets]
-        # The line that turns, against one at the end that does not.
+        # The turning line, compared with a line at the end that does not turn.
         line, body = (
             np.array([points[i] - points[j] for points in way]) @ np.array([1, 1j])
             for i, j in ((4, 2), (2, 0))
@@ -97,7 +97,7 @@ def test_waypoints_lead_evenly_to_the_targets(seed: int, count: int) -> None:
 
 @pytest.mark.slow
 def test_turns_cost_what_the_solver_finds_while_they_are_small() -> None:
-    """Two ends of a bar, turned by degrees; reversed they would turn by nearly 360."""
+    """Two ends of a bar, turned by these degrees. Reversed, they would turn by nearly 360."""
     energies, costs = list[float](), list[float]()
     for degrees in (1, 2):
         targets = BAR.copy()
@@ -138,13 +138,13 @@ def test_a_line_is_squeezed_where_its_targets_are_closer_and_it_stays_straight()
 
 
 def test_other_handles_of_a_shape_need_no_other_mesh(monkeypatch: pytest.MonkeyPatch) -> None:
-    made, delaunay = list[int](), meshes._constrained_delaunay
+    made, delaunay = list[int](), meshes.constrained_delaunay
 
     def counted(vertices: np.ndarray, loops: list[np.ndarray]) -> np.ndarray:
         made.append(len(vertices))
         return delaunay(vertices, loops)
 
-    monkeypatch.setattr(meshes, "_constrained_delaunay", counted)
+    monkeypatch.setattr(meshes, "constrained_delaunay", counted)
     identity = HarmonicMap.identity(Domain.from_cage(Cage([[0, 0], [3, 0], [3, 1], [0, 1]])))
     for handles in ([[1, 0.5]], [[1, 0.5], [2, 0.5]], [[2, 0.5], [2.5, 0.4]]):
         handle_turns(identity, Pose(handles, handles))

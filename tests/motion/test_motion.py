@@ -1,4 +1,4 @@
-"""Motion as a value: what it passes through, how it is proved, what it refuses, its file."""
+"""Motion as a value: where it passes, its proof, its refusals, and its file."""
 
 from __future__ import annotations
 
@@ -22,8 +22,8 @@ from glid_nb.io import load_pose
 from glid_nb.motion import MotionError, bounded, curve
 from glid_nb.motion.boundary import boundary_of
 
-from ..domains import MANY_HOLES, NAMES, circle, dense_check, domain, random_map
-from .test_pieces import check, turned
+from ..support.domains import MANY_HOLES, NAMES, circle, dense_check, domain, random_map, turned
+from .test_pieces import check
 
 pytestmark = pytest.mark.slow
 
@@ -75,7 +75,7 @@ def test_nothing_between_two_keyframes_is_worse_than_the_worse_one(
     maps = [random_map(name, size, seeds[0]), turned(random_map(name, size, seeds[1]), angle)]
     if not all(certificate_of(map).certified for map in maps):
         return
-    curve = Motion(maps)._curve
+    curve = Motion(maps).curve
     ends = [extremes(map) for map in maps]
     for t in (0.25, 0.5, 0.75):
         sigma2, k = extremes(curve.map(t))
@@ -85,7 +85,8 @@ def test_nothing_between_two_keyframes_is_worse_than_the_worse_one(
 
 @pytest.fixture(scope="module")
 def stretched() -> list[HarmonicMap]:
-    """The frog at rest and pulled far in two ways, between which its plain interpolation folds."""
+    """The frog at rest and pulled far in two ways. The plain interpolation between the two
+    folds."""
     d = Domain.from_cage(trace(samples.image("frog")).cage)
     pose = load_pose(samples.pose_path("frog", "extreme"))
     first = (
@@ -114,14 +115,14 @@ def test_maps_solved_on_the_way_mend_what_the_projection_loses(
         assert way == "solved" or {*chosen[i : i + 2]} != {1, 2}
         worse = ends[i : i + 2, 0].min(), ends[i : i + 2, 1].max()
         for s in np.linspace(0, 1, 24):
-            map = motion._curve.map(times[i] + s * (times[i + 1] - times[i]))
+            map = motion.curve.map(times[i] + s * (times[i + 1] - times[i]))
             sigma2, k = extremes(map, points)
             assert sigma2 >= 0.985 * worse[0]
             assert k <= 1.015 * worse[1]
 
 
 def bent_ring() -> HarmonicMap:
-    """A thin ring whose three handles bend it: k is small, but parts of it turn far."""
+    """A thin ring, bent by three handles: k is small, but parts of it turn far."""
     outer, hole = circle(50, 3.0), circle(30, 2.5)
     handles = [[2.63, -0.81], [-0.73, 2.65], [-0.35, -2.73]]
     targets = [[0.19, -1.14], [1.07, 3.42], [0.79, -2.45]]
@@ -132,7 +133,8 @@ def bent_ring() -> HarmonicMap:
 
 
 def test_periods_around_holes_are_closed_without_distortion() -> None:
-    """Were the gap only shared out, k between would be up to a quarter above the worse end's."""
+    """If the gap were only distributed, k in between would exceed the worse end's by up to a
+    quarter."""
     end = bent_ring()
     motion = Motion([HarmonicMap.identity(end.domain), end])
     assert motion.ways == ("bounded",)
@@ -140,7 +142,7 @@ def test_periods_around_holes_are_closed_without_distortion() -> None:
     points = uniform_panels(end.domain.cage, 4000).start
     sigma2, k = extremes(end, points)
     for s in np.linspace(0, 1, 17):
-        now = extremes(motion._curve.map(s), points)
+        now = extremes(motion.curve.map(s), points)
         assert now[0] >= 0.98 * sigma2
         assert now[1] <= 1.02 * k
 
@@ -150,9 +152,9 @@ def test_closing_changes_f_z_alone_and_leaves_a_thousandth_of_the_gap() -> None:
         boundary, end = boundary_of(domain(name)), poses(name, 0.4)[-1]
         fz, fzb_conj = boundary.first @ end.phi, boundary.first @ end.psi
         log, nu = 0.5 * boundary.logarithm(end.phi, fz), 0.5 * fzb_conj / fz
-        open_gap = np.abs(boundary._gap(np.exp(log), nu)[0]).max()
+        open_gap = np.abs(boundary.gap(np.exp(log), nu)[0]).max()
         closed = boundary.closed(log, nu)
-        assert np.abs(boundary._gap(closed, nu)[0]).max() <= 1e-3 * open_gap
+        assert np.abs(boundary.gap(closed, nu)[0]).max() <= 1e-3 * open_gap
         phi, _ = boundary.fitted(closed, nu * closed)
         missed = np.abs(boundary.first @ phi - closed).max() / np.abs(closed).max()
         assert missed < 0.05, name
@@ -167,9 +169,9 @@ def test_solving_ends_where_it_mends_nothing(
         solved.append(s)
         return HarmonicMap(stretched[0].domain, *between(piece, s))
 
-    monkeypatch.setattr(curve, "_solved", in_vain)
-    # Shorter pieces close more periods, which mends something by itself.
-    monkeypatch.setattr(bounded, "_CLOSES", 0.0)
+    monkeypatch.setattr(curve, "solved_between", in_vain)
+    # Shorter pieces close more periods, which already helps.
+    monkeypatch.setattr(bounded, "CLOSES", 0.0)
     assert not Motion(stretched[1:]).certificate.certified
     assert 1 <= len(solved) <= 3
 
@@ -193,7 +195,7 @@ def test_only_the_piece_that_fails_is_divided(monkeypatch: pytest.MonkeyPatch) -
 
 
 def counted(monkeypatch: pytest.MonkeyPatch) -> list[int]:
-    """How many maps each proof of pieces is given."""
+    """The number of maps that each proof of pieces gets."""
     counts: list[int] = []
 
     def certify(maps: list[HarmonicMap]) -> Any:
@@ -205,7 +207,7 @@ def counted(monkeypatch: pytest.MonkeyPatch) -> list[int]:
 
 
 def test_forty_million_points_and_times_contradict_nothing_of_a_whole_motion() -> None:
-    """Of several pieces, with three holes and 200 times, at 2 x 10^5 points."""
+    """Several pieces, with three holes and 200 times, at 2 x 10^5 points."""
     maps = [turned(random_map("triple", 0.02, i), a) for i, a in enumerate((0, 1.5, 0.4))]
     motion = Motion(maps, [0, 1, 1.5], repeat="loop", tolerance=0.01)
     assert motion.certificate.certified
@@ -216,13 +218,13 @@ def test_forty_million_points_and_times_contradict_nothing_of_a_whole_motion() -
 
 
 def test_the_logarithm_of_f_z_has_one_branch_on_all_loops() -> None:
-    """Its value on a hole agrees with that along any other way through the domain."""
+    """Its value on a hole agrees with the values along any other path through the domain."""
     map = turned(random_map("triple", 0.05, 3), 2.9)
     boundary = boundary_of(map.domain)
     fz = boundary.first @ map.phi
     log = boundary.logarithm(map.phi, fz)
     assert np.abs(np.exp(log) - fz).max() < 1e-12
-    # The map is near a rotation by 2.9, so the argument is near it everywhere.
+    # The map is nearly a rotation by 2.9, so the argument is near 2.9 everywhere.
     assert np.abs(log.imag - log.imag[0]).max() < 1.5
 
 
@@ -237,7 +239,7 @@ def test_a_projection_gives_back_what_the_basis_holds() -> None:
 
 
 def test_loops_close_and_ping_pong_runs_back() -> None:
-    maps = poses("ell", 0, 2.2, 4.4)  # by the short way a full turn
+    maps = poses("ell", 0, 2.2, 4.4)  # a full turn by the short way
     loop = Motion(maps, [0, 1, 2, 3], repeat="loop")
     assert (loop.duration, loop.times) == (3, (0, 1, 2, 3))
     assert Motion(maps, [0, 1, 2], repeat="loop").times == loop.times
@@ -254,7 +256,7 @@ def test_loops_close_and_ping_pong_runs_back() -> None:
 
 
 def angles(motion: Motion, times: np.ndarray) -> np.ndarray:
-    """How far a point's surroundings are turned, along times that are close to each other."""
+    """The rotation of a point's surroundings, at times close to each other."""
     turned = [np.angle(motion(float(t)).wirtinger([[-1, -1]])[0][0]) for t in times]
     return np.unwrap(turned)
 
@@ -276,7 +278,8 @@ def test_many_turns_are_cut_into_as_many_pieces_as_they_need(turns: int) -> None
 
 @pytest.mark.parametrize("name", ["ell", "ring", "twin"])
 def test_a_motion_hardly_slows_down_at_its_keyframes(name: str) -> None:
-    """The shape swings evenly, so an even speed is right, but for what k and sigma_2 allow."""
+    """The shape swings evenly, so its speed should be even, except where k and sigma_2 forbid
+    it."""
     one, two = (random_map(name, 0.02, i) for i in (1, 2))
     rest = HarmonicMap.identity(domain(name))
 
@@ -286,14 +289,14 @@ def test_a_motion_hardly_slows_down_at_its_keyframes(name: str) -> None:
 
     turns = 2 * np.pi * np.arange(5) / 5
     maps = [HarmonicMap(domain(name), swung(a, "phi"), swung(a, "psi")) for a in turns]
-    curve = Motion(maps, repeat="loop")._curve
+    curve = Motion(maps, repeat="loop").curve
     speeds = [curve.map(t % 5).distance(curve.map(t + 1e-4)) for t in np.arange(0, 5, 0.5) - 5e-5]
     assert np.mean(speeds[::2]) > 0.75 * np.mean(speeds[1::2])
     worst = [extremes(map) for map in (*maps, maps[0])]
     for i, (ends, t) in enumerate(itertools.product(itertools.pairwise(worst), (0.2, 0.5, 0.8))):
         sigma2, k = extremes(curve.map(i // 3 + t))
         assert sigma2 >= 0.98 * min(s for s, _ in ends)
-        assert k <= 1.05 * max(k for _, k in ends)  # by 3 % these coarse bases miss what they fit
+        assert k <= 1.05 * max(k for _, k in ends)  # these coarse bases miss their fit by 3 %
 
 
 def test_a_motion_that_slows_down_does_not_spin() -> None:
@@ -333,7 +336,7 @@ def test_pieces_follow_the_curve_within_the_tolerance() -> None:
     maps = poses("twin", 0, 1.5, 0.3)
     for tolerance in (0.01, 0.001):
         motion = Motion(maps, tolerance=tolerance)
-        curve, size = motion._curve, motion.domain.cage.longer_side
+        curve, size = motion.curve, motion.domain.cage.longer_side
         times = np.linspace(0, 2, 23)
         off = max(motion(t).distance(curve.map(float(t)), 100) for t in times)
         assert off <= 1.5 * tolerance * size
@@ -383,7 +386,7 @@ def test_solved_motion_goes_through_certified_maps() -> None:
 
 
 def test_keyframes_that_turn_otherwise_are_refused() -> None:
-    """The ring turned inside out: no motion of locally injective maps leads there."""
+    """The ring turned inside out. No motion of locally injective maps leads there."""
     d = domain("ring")
     vertices = np.concatenate(d.offset_cage.loops_complex)
     phi = np.append(9 / (vertices - d.hole_points_complex[0]), 0)  # Cauchy's integral formula
@@ -453,7 +456,7 @@ def test_saving_loses_nothing(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -
     for proof in (path, str(path), link):
         with pytest.raises(MotionError, match="the proof would overwrite the motion"):
             motion.save(path, proof)
-    monkeypatch.setattr("glid_nb.motion.file._MOST_KNOTS", 2)
+    monkeypatch.setattr("glid_nb.motion.file.MOST_KNOTS", 2)
     with pytest.raises(MotionError, match=r"no file holds \d+ maps"):
         motion.save(path)
     assert path.read_text() == "before"

@@ -1,4 +1,4 @@
-"""Proofs of linear pieces against dense evaluation of points and times."""
+"""Proofs of linear pieces, compared with dense evaluation in space and time."""
 
 from __future__ import annotations
 
@@ -13,22 +13,14 @@ from glid_nb.certificate.panels import EndValues
 from glid_nb.certificate.pieces import PieceCertificate, certify_pieces
 from glid_nb.harmonic import HarmonicMap
 
-from ..domains import NAMES, dense_check, domain, random_map
-from ..reference_map import DenseCheck
-
-
-def turned(map: HarmonicMap, angle: float, by: complex = 0) -> HarmonicMap:
-    """The map, then a rotation and a translation."""
-    turn, phi = np.exp(1j * angle), map.phi.copy()
-    phi *= turn
-    phi[: len(map.domain.offset_cage.exterior)] += by
-    return HarmonicMap(map.domain, phi, map.psi / turn)
+from ..support.domains import NAMES, dense_check, domain, random_map, turned
+from ..support.reference_map import DenseCheck
 
 
 def check(
     proof: PieceCertificate, first: HarmonicMap, last: HarmonicMap, dense: DenseCheck, times: int
 ) -> None:
-    """Nothing proved is contradicted by the points of ``dense`` at many times."""
+    """The points of ``dense``, at many times, contradict nothing that is proved."""
     fz, fzb = (
         [np.concatenate(dense.derivative(getattr(map, name))) for map in (first, last)]
         for name in ("phi", "psi")
@@ -118,7 +110,7 @@ def test_a_rotation_by_almost_half_a_turn_needs_halves_of_time() -> None:
 @pytest.mark.slow
 @pytest.mark.parametrize(("name", "size", "seed"), [("ell", 1.4675, 3), ("ring", 0.2625, 2)])
 def test_where_f_z_turns_within_a_panel_it_is_halved(name: str, size: float, seed: int) -> None:
-    """Almost folded, so no direction serves the whole panel, whatever time does."""
+    """Almost folded, so no direction works for the whole panel, even for a short time."""
     map = random_map(name, size, seed)
     (still,), (swung,) = (certify_pieces([map, turned(map, angle)]) for angle in (0, 2.0))
     assert still.certified
@@ -157,7 +149,7 @@ def test_along_one_direction_bounds_hold_at_every_time(seed: int, spread: float)
 
 
 def test_maps_between_are_as_good_as_the_exact_ones() -> None:
-    """A motion far from the origin, where coefficients are rounded most."""
+    """A motion far from the origin, where the coefficients' rounding is largest."""
     first, last = (turned(random_map("ring", 0.02, i), i, 1e5) for i in (1, 2))
     (proof,) = certify_pieces([first, last])
     near = [turned(map, 0, -1e5 + 1) for map in (first, last)]

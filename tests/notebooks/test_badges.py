@@ -1,4 +1,4 @@
-"""The line that says where a notebook runs, and the cell for Colab."""
+"""The line about where a notebook runs, and the cell for Colab."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
-"""The course: what is saved in its notebooks, and whether the checks of its exercises can tell.
+"""The course: saved notebooks, and the checks of the exercises.
 
-A chapter's cells are run once, in one namespace and without figures; where a check stands, it is
-run on the skeleton, on the solution and on the wrong answers of `notebooks/solutions`.
+A chapter's cells are run once, in one namespace and without figures. Each check is run on the
+skeleton, the solution and the wrong answers of `notebooks/solutions`.
 """
 
 from __future__ import annotations
@@ -86,20 +86,23 @@ def outcomes(path: Path) -> tuple[Outcome, ...]:
 
 
 def assigned(code: str) -> set[str]:
-    """The names that a cell leaves behind."""
+    """The names that a cell leaves."""
     names = symtable.symtable(code, "cell", "exec").get_symbols()
     return {name.get_name() for name in names if name.is_assigned() or name.is_imported()}
 
 
 def mentioned(table: symtable.SymbolTable) -> set[str]:
-    """The chapter's names that a cell assigns or reads, in its functions too."""
+    """The chapter's names that a cell assigns or reads, also in its functions."""
     outside = table.get_type() == "module"
     own = {name.get_name() for name in table.get_symbols() if outside or name.is_global()}
     return own.union(*map(mentioned, table.get_children()))
 
 
 def inlined(code: str) -> set[str]:
-    """The variables of a cell's comprehensions alone: from Python 3.12 on they are the module's."""
+    """The variables that occur only in a cell's comprehensions.
+
+    From Python 3.12 on, they are symbols of the module.
+    """
     tree = ast.parse(code)
     loops = [node for node in ast.walk(tree) if isinstance(node, ast.comprehension)]
     targets = [name for loop in loops for name in ast.walk(loop.target)]
@@ -114,7 +117,7 @@ def inlined(code: str) -> set[str]:
 
 @pytest.fixture
 def without_figures(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Figures and sliders draw nothing: nbval runs the notebooks with them."""
+    """Figures and sliders draw nothing here, because nbval runs the notebooks with them."""
     for name in figures.__all__:
         monkeypatch.setattr(figures, name, lambda *_, **__: MagicMock())
     monkeypatch.setattr(course, "interact", lambda *_, **__: None)

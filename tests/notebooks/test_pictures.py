@@ -1,4 +1,4 @@
-"""Pictures in the text of notebooks are there wherever the notebook is."""
+"""Pictures in the text of notebooks are part of the notebook."""
 
 from __future__ import annotations
 
@@ -22,7 +22,8 @@ def shown(path: Path) -> list[tuple[nbformat.NotebookNode, str]]:
 
 @pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)
 def test_a_picture_in_the_text_is_attached_to_its_cell(path: Path) -> None:
-    """By a path it is missing in a copy, and Voila refuses a page with one outside its folder."""
+    """A picture by its path is missing in a copy. Voila refuses a page with one outside its
+    folder."""
     for cell, place in shown(path):
         assert place.startswith("attachment:"), f"{path.name} shows {place} by its path"
         attached = cell.get("attachments", {})

@@ -1,4 +1,4 @@
-"""The sessions prepared for a lecture: they open, and each holds a method that fails."""
+"""The sessions prepared for a lecture open, and each holds a method that fails."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the tests marked `install` share: building distributions, and environments of their own."""
+"""Helpers of the tests marked `install`: they build distributions and make environments."""
 
 from __future__ import annotations
 
@@ -23,7 +23,8 @@ class Built(NamedTuple):
 
 
 def run(*command: object, folder: Path, **variables: str) -> str:
-    """What a program prints, in a folder, without variables that lead to files of this checkout."""
+    """The output of a program in a folder, without variables that lead to files of this
+    checkout."""
     hidden = {"PYTHONPATH", "PYTHONHOME", "VIRTUAL_ENV", "PYTEST_ADDOPTS", "GLID_NB_CACHE"}
     kept = {name: value for name, value in os.environ.items() if name not in hidden}
     done = subprocess.run(
@@ -40,7 +41,7 @@ def run(*command: object, folder: Path, **variables: str) -> str:
 
 
 def copy_of_the_checkout(to: Path) -> Path:
-    """The files that a clone has and an installation reads, without anything that was built."""
+    """The files of a clone that an installation reads, without anything that was built."""
     for name in _SOURCES:
         shutil.copytree(CHECKOUT / name, to / name, ignore=shutil.ignore_patterns("__pycache__"))
     for name in _FILES:
@@ -49,21 +50,21 @@ def copy_of_the_checkout(to: Path) -> Path:
 
 
 def build(source: Path, into: Path) -> Built:
-    """The sdist of a source folder, and the wheel that is built from this sdist."""
+    """The sdist of a source folder, and the wheel built from this sdist."""
     run(sys.executable, "-m", "build", "--outdir", into, source, folder=into)
     (wheel,), (sdist,) = into.glob("*.whl"), into.glob("*.tar.gz")
     return Built(wheel, sdist)
 
 
 class Environment:
-    """A virtual environment with nothing in it but what is installed."""
+    """An empty virtual environment."""
 
     def __init__(self, folder: Path) -> None:
         run(sys.executable, "-m", "venv", folder, folder=folder.parent)
         self.folder = folder
 
     def program(self, name: str) -> Path:
-        """Where a program of the environment is."""
+        """The path of a program of the environment."""
         scripts = Path(sysconfig.get_path("scripts", "venv", {"base": str(self.folder)}))
         return scripts / (f"{name}.exe" if os.name == "nt" else name)
 
@@ -72,7 +73,7 @@ class Environment:
         run(*pip, "install", "--quiet", *requirements, folder=self.folder)
 
     def packages(self) -> set[str]:
-        """The names of what is installed, besides pip and what venv itself brings."""
+        """The names of the installed packages, except pip and those of venv itself."""
         command = "import importlib.metadata as m; print(*(d.name for d in m.distributions()))"
         names = run(self.program("python"), "-c", command, folder=self.folder).split()
         return {name.lower() for name in names} - {"pip", "setuptools"}

@@ -15,7 +15,7 @@ _OWN = Path(__file__).resolve()
 
 
 def forbid_files_below(checkout: Path) -> None:
-    """Refuse every file of the checkout but this script; what is read is remembered too."""
+    """Refuse every file of the checkout except this script. Opened files are remembered."""
     root = os.path.realpath(checkout) + os.sep
 
     def audit(event: str, arguments: tuple[object, ...]) -> None:

@@ -1,4 +1,4 @@
-"""The chapters, in an environment made by exactly the line that the course's page prints."""
+"""The chapters, in an environment made by the line on the course's page."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ def extras() -> dict[str, list[str]]:
 
 
 def parts_of_course() -> set[str]:
-    """The extras that the extra `course` is made of."""
+    """The extras that the extra `course` consists of."""
     names = re.search(r"glid-nb\[(.*?)\]", " ".join(extras()["course"]))
     assert names is not None
     return set(names[1].split(","))
@@ -56,7 +56,7 @@ def test_colab_gets_all_of_the_extra_but_the_server_that_it_has() -> None:
 
 @pytest.fixture(scope="module")
 def installed(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A copy of the checkout in which the page's lines were run, but for the last: it opens Lab."""
+    """A copy of the checkout after the page's lines, except the last one, which opens Lab."""
     copy = copy_of_the_checkout(tmp_path_factory.mktemp("course") / "checkout")
     *install, last = commands()
     assert last == ".venv/bin/jupyter lab notebooks"
@@ -79,7 +79,7 @@ def test_the_line_of_the_page_brings_jupyterlab(installed: Path) -> None:
 def test_a_chapter_runs_and_prints_what_it_printed_when_it_was_saved(
     installed: Path, path: Path
 ) -> None:
-    """By nbval, as the lecturers' page does; without the settings of our own tests."""
+    """By nbval, like the lecturers' page, without the settings of our own tests."""
     (installed / "empty.ini").write_text("[pytest]\n", encoding="utf-8")
     python, notebook = installed / ".venv/bin/python", Path("notebooks") / path.name
     nbval = ("-m", "pytest", "-c", "empty.ini", "-p", "no:cacheprovider", "--nbval", notebook)

@@ -1,4 +1,4 @@
-"""What a release checks before it uploads, and that workflows name what is here."""
+"""The checks before an upload, and the files that workflows name."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What users get: the wheels, alone in environments of their own, far from the checkout."""
+"""The wheels, each installed alone in its own environment, far from the checkout."""
 
 from __future__ import annotations
 
@@ -46,7 +46,8 @@ def verifier(checker: Built, tmp_path_factory: pytest.TempPathFactory) -> Enviro
 
 @pytest.fixture(scope="module")
 def work(user: Environment, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A folder in which the commands were run, one after the other, from the wheel alone."""
+    """A folder in which the commands were run one after the other, with only the wheel
+    installed."""
     folder = tmp_path_factory.mktemp("work")
 
     def glid_nb(*words: object) -> str:

@@ -1,4 +1,4 @@
-"""What the package hands to the browser: bundles, style sheets and shaders."""
+"""The files that the package sends to the browser: bundles, style sheets and shaders."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A domain's maps as shaders take them."""
+"""A domain's maps in the form that shaders take."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ import pytest
 
 from glid_nb.page import ShaderMap, vertex_shader
 
-from ..domains import NAMES, domain, random_map
+from ..support.domains import NAMES, domain, random_map
 
 
 def test_the_chain_holds_every_loop_closed() -> None:

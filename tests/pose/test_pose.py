@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 from glid_nb.geometry import Cage, Domain
 from glid_nb.pose import Pose, PoseError
 
-from ..domains import domain
+from ..support.domains import domain
 
 coordinates = st.floats(-1e6, 1e6)
 

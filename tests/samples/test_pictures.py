@@ -1,4 +1,4 @@
-"""The bundled pictures: what a cage tracer and a teacher need from them."""
+"""The bundled pictures have what a cage tracer and a teacher need."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ HOLES = {"gecko": 0, "teapot": 1, "frog": 2, "monstera": 8, "gingerbread": 0, "b
 
 
 def distance_inside(mask: NDArray[np.bool_]) -> NDArray[np.float64]:
-    """From every pixel of a mask to the nearest one outside it, pixels."""
+    """The distance from each pixel of a mask to the nearest pixel outside it, in pixels."""
     return np.asarray(ndimage.distance_transform_edt(mask), dtype=np.float64)
 
 
@@ -26,7 +26,7 @@ def components(mask: NDArray[np.bool_], connectivity: int) -> NDArray[np.int64]:
 
 
 class Silhouette(NamedTuple):
-    """The shape's pixels, inside a frame of background, and its holes' by label."""
+    """The shape's pixels inside a frame of background, and the labels of its holes."""
 
     shape: NDArray[np.bool_]
     holes: NDArray[np.int64]
@@ -84,7 +84,7 @@ def test_holes_are_open_and_wide(silhouette: Silhouette) -> None:
 
 @pytest.mark.slow
 def test_parts_are_thick(silhouette: Silhouette) -> None:
-    """All that a disc of 3 % of the width cannot reach are the round ends of limbs."""
+    """A disc of 3 % of the width reaches everything except the round ends of limbs."""
     radius = 0.015 * silhouette.width
     core = distance_inside(silhouette.shape) >= radius
     reached = distance_inside(~core) < radius + 1
@@ -94,7 +94,7 @@ def test_parts_are_thick(silhouette: Silhouette) -> None:
 
 @pytest.mark.slow
 def test_limbs_keep_their_distance(silhouette: Silhouette) -> None:
-    """No limb touches another when everything grows by 1.25 % of the width."""
+    """No limbs touch if everything grows by 1.25 % of the width."""
     reach = 0.0125 * silhouette.width
     free = components(distance_inside(~silhouette.shape) > reach, 1)
     bays = np.count_nonzero(np.bincount(free.ravel())[1:] > reach**2)

@@ -20,17 +20,18 @@ from glid_nb.minima import solve
 from glid_nb.pose import Pose
 from glid_nb.solvers import Options, Status
 
-from ..domains import divided
+from ..support.domains import divided
 
 pytestmark = pytest.mark.slow
 
-# Of all poses, with room: a retouched picture or solver may change the figures, not the verdict.
+# The limits hold for all poses with a margin, so small changes of pictures or solver keep the
+# verdict.
 MOST_ENERGY = {"gentle": 2.4, "extreme": 3.2}
 LEAST_SIGMA2 = {"gentle": 0.5, "extreme": 0.25}
 
 
 def boundary_image(map: HarmonicMap) -> shapely.Polygon:
-    """The image of the cage, thirty points an edge."""
+    """The image of the cage, thirty points per edge."""
 
     def ring(loop: NDArray[np.float64]) -> NDArray[np.float64]:
         t = np.linspace(0, 1, 30, endpoint=False)[:, None]

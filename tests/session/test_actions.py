@@ -17,7 +17,7 @@ from glid_nb.session.document import Solution
 from glid_nb.session.edit_state import EditError, EditState
 from glid_nb.solvers import OptionError, Status
 
-from ..domains import domain
+from ..support.domains import domain
 
 
 @pytest.fixture
@@ -101,7 +101,7 @@ def test_reset_goes_back_to_the_undeformed_shape(state: EditState) -> None:
     new = actions.reset(turned)
     assert new.pose.targets.tolist() == state.pose.handles.tolist()
     np.testing.assert_allclose(new.map([[2, 0]]), [[2, 0]], atol=1e-9)
-    np.testing.assert_array_equal(new.pose.angles, [0, np.nan])  # what was free stays so
+    np.testing.assert_array_equal(new.pose.angles, [0, np.nan])  # free pins stay free
     np.testing.assert_array_equal(new.pose.scales, [np.nan, 1])
 
 

@@ -1,4 +1,4 @@
-"""What lies between the poses of a deformation, proved in the background."""
+"""The motion between the poses of a deformation, proved in the background."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from glid_nb.session.deformation import Deformation
 from glid_nb.session.document import AS_SEEN, NamedPose
 from glid_nb.session.edit_state import EditError, EditState
 
-from ..domains import domain
+from ..support.domains import domain
 
 pytestmark = pytest.mark.slow
 
@@ -55,7 +55,7 @@ def as_seen(pose: NamedPose, map: HarmonicMap) -> NamedPose:
 
 
 def seen(state: EditState) -> NamedPose:
-    """A pose whose map is far from its targets, as that of a recorded frame may be."""
+    """A pose whose map is far from its targets, like a recorded frame."""
     targets = np.array(state.pose.targets) + 0.3
     pose = state.pose.with_targets(targets)
     return replace(state.current, pose=pose, solution=AS_SEEN)
@@ -87,7 +87,7 @@ def test_all_is_proved_once_the_poses_have_come_to_rest(
         assert shown is not None
         np.testing.assert_array_equal(shown.phi, motion(time).phi)
     assert animation.at(2.5) is None
-    # A drag makes it stale, and the solved pose proves it again.
+    # A drag makes the proof stale. The solved pose is proved again.
     model.begin_drag([0])
     model.drag_to((2.8, 0))
     assert model.solve(TIMEOUT)
@@ -103,7 +103,7 @@ def test_all_is_proved_once_the_poses_have_come_to_rest(
 
 
 def misses(model: Deformation) -> list[float]:
-    """How far the worst handle of each pose is from its target."""
+    """The largest distance of a handle from its target, for each pose."""
     poses = model.state.poses
     return [np.abs(pose.map(pose.pose.handles) - pose.pose.targets).max() for pose in poses]
 
@@ -120,14 +120,14 @@ def test_poses_that_were_left_before_they_were_solved_are_solved_first() -> None
         assert max(misses(model)) < 1e-3
         assert statuses(animation) == ["proved"]
         assert len(model.history.past) == steps
-        # So they are when undo brings back what was not solved, but not while paused.
+        # The same after undo brings back an unsolved pose, but not while paused.
         model.undo()
         assert animation.wait(TIMEOUT)
         assert max(misses(model)) < 1e-3
         model.paused = True
         model.drag(0, (2.2, 0.5))
         model.go_to_pose(0)
-        assert animation._worker.wait(TIMEOUT)
+        assert animation.worker.wait(TIMEOUT)
         assert misses(model)[1] > 0.1
         assert statuses(animation) == ["refused"]
         assert "'Pose 2' is not solved, for the solver is paused" in animation.spans[0].reason
@@ -182,7 +182,7 @@ def test_what_lies_between_is_kept_where_it_is_proved(
     assert model.state.timeline.times == (0, 0.25, 1)
     assert model.state.active == 1
     np.testing.assert_allclose(model.pose.targets, shown(POSE.handles))
-    animation.keep(0.25)  # a pose already: a copy follows
+    animation.keep(0.25)  # a pose stands there already, so a copy follows
     assert model.state.timeline.times == (0, 0.25, 0.625, 1)
     assert animation.wait(TIMEOUT)
     animation.keep(0.5000000810054317)
@@ -203,11 +203,11 @@ def test_poses_that_wind_otherwise_are_not_joined_and_the_others_are() -> None:
     phi = np.append(9 / (vertices - d.hole_points_complex[0]), 0)  # Cauchy's integral formula
     identity, inverse = HarmonicMap.identity(d), HarmonicMap(d, phi, np.zeros_like(phi))
     with Deformation(d, begin=False) as model:
-        model.paused = True  # nothing moves the maps that are put there
+        model.paused = True  # so the maps that are put there stay
         animation = Animation(model)
         put(model, identity, inverse, inverse)
         model.set_repeat("loop")
-        assert animation._worker.wait(TIMEOUT)
+        assert animation.worker.wait(TIMEOUT)
         assert statuses(animation) == ["refused", "proved", "refused"]
         reason = animation.spans[0].reason
         assert reason.startswith("'Pose 1' and 'Pose 2' cannot be joined without folding")
@@ -227,7 +227,7 @@ def test_a_motion_that_folds_stops_where_its_proof_does(monkeypatch: pytest.Monk
         model.paused = True
         animation = Animation(model)
         put(model, identity, turned)
-        assert animation._worker.wait(TIMEOUT)
+        assert animation.worker.wait(TIMEOUT)
         (span,) = animation.spans
         assert span.status == "fails"
         assert span.reason.startswith("Proved up to 0.49")
@@ -265,7 +265,7 @@ def test_a_recorded_drag_becomes_keyframes_in_one_step(
     assert set(statuses(animation)) == {"proved"}
     model.undo()
     assert model.state is before
-    # A drag that is cancelled leaves nothing, and ends the recording.
+    # A cancelled drag leaves nothing, and ends the recording.
     animation.record(True)
     model.begin_drag([0])
     model.drag_to((2.4, 0))
@@ -284,13 +284,13 @@ def test_closing_does_not_wait_for_a_proof(
         assert closed.wait(TIMEOUT)
         yield from ()
 
-    monkeypatch.setattr("glid_nb.session.animation._proved", proved)
+    monkeypatch.setattr("glid_nb.session.animation.proved_spans", proved)
     model.save_pose()
     animation = Animation(model)
     assert proving.wait(TIMEOUT)
-    threading.Timer(TIMEOUT / 10, closed.set).start()  # so that a close that waits comes back
+    threading.Timer(TIMEOUT / 10, closed.set).start()  # so a close that waits returns at last
     animation.close()
     assert not closed.is_set()
     closed.set()
-    animation._worker.thread.join(TIMEOUT)
-    assert not animation._worker.thread.is_alive()
+    animation.worker.thread.join(TIMEOUT)
+    assert not animation.worker.thread.is_alive()

@@ -1,4 +1,4 @@
-"""Autosaving: the latest document wins, not too often, and nothing is lost."""
+"""Autosaving: the latest document is saved, not too often, and nothing is lost."""
 
 from __future__ import annotations
 

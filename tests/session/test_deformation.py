@@ -1,4 +1,4 @@
-"""The deformation editor's model: what the hand does, the thread behind it."""
+"""The model of the deformation editor, and its thread."""
 
 from __future__ import annotations
 
@@ -7,12 +7,10 @@ import signal
 import threading
 import weakref
 from collections.abc import Iterator
-from queue import Queue
 
 import numpy as np
 import pytest
 
-from glid_nb._runtime import stage
 from glid_nb.certificate import certify
 from glid_nb.energies import AMIPS, ARAP
 from glid_nb.pose import Pose
@@ -20,15 +18,23 @@ from glid_nb.session.deformation import Deformation
 from glid_nb.session.edit_state import EditError
 from glid_nb.solvers import Status
 
-from ..domains import domain
+from ..support.domains import domain
+from ..support.preparation import Preparation
+from ..support.threads import NewThreads
 
 pytestmark = pytest.mark.slow  # most of the time is compiling
 
 TIMEOUT = 120.0
+SOLVER = "live solver"  # the thread's name
 
 
 @pytest.fixture
-def ring() -> Iterator[Deformation]:
+def threads() -> NewThreads:
+    return NewThreads()
+
+
+@pytest.fixture
+def ring(threads: NewThreads) -> Iterator[Deformation]:  # noqa: ARG001 - made before
     """Two solved handles on a ring."""
     with Deformation(domain("ring")) as deformation:
         deformation.add_handles([(2, 0), (-2, 0)])
@@ -45,12 +51,12 @@ def test_a_drag_is_solved_to_its_end(ring: Deformation) -> None:
     assert "Converged" in ring.status.text
 
 
-def test_the_solver_can_be_told_when_to_begin() -> None:
+def test_the_solver_can_be_told_when_to_begin(threads: NewThreads) -> None:
     with Deformation(domain("ring"), begin=False) as deformation:
-        assert deformation._worker.thread is None
+        assert threads.named(SOLVER) is None
         assert "Click the shape" in deformation.status.text
         deformation.begin()
-        assert deformation._worker.thread is not None
+        assert threads.named(SOLVER) is not None
         assert deformation.solve(TIMEOUT)
         solution = deformation.moment.solution
         deformation.begin()  # nothing is left to begin
@@ -58,12 +64,12 @@ def test_the_solver_can_be_told_when_to_begin() -> None:
         assert deformation.moment.solution is solution
 
 
-def test_a_change_begins_too() -> None:
+def test_a_change_begins_too(threads: NewThreads) -> None:
     pose = Pose([(2, 0), (-2, 0)], [(2.5, 0), (-2, 0)])
     with Deformation(domain("ring"), pose, begin=False) as deformation:
         assert deformation.status.text == "Not solved yet"
         deformation.drag(1, to=(-2.5, 0))
-        assert deformation._worker.thread is not None
+        assert threads.named(SOLVER) is not None
         assert deformation.solve(TIMEOUT)
         np.testing.assert_allclose(deformation.map([[2, 0]]), [[2.5, 0]], atol=1e-3)
 
@@ -304,9 +310,9 @@ def test_what_is_refused_changes_nothing(ring: Deformation) -> None:
     assert ring.history is history
 
 
-def test_the_thread_dies_with_the_model() -> None:
+def test_the_thread_dies_with_the_model(threads: NewThreads) -> None:
     deformation = Deformation(domain("ring"))
-    thread = deformation._worker.thread
+    thread = threads.named(SOLVER)
     assert thread is not None
     gone = weakref.ref(deformation)
     deformation.observe(lambda _: None)
@@ -317,30 +323,9 @@ def test_the_thread_dies_with_the_model() -> None:
     assert not thread.is_alive()
 
 
-class Preparation:
-    """Stands in for ``solve``: it goes through the stages that it is told, and never ends."""
-
-    def __init__(self) -> None:
-        self._names, self._begun = Queue[str](), Queue[str]()
-
-    def solve(self, *_: object, **__: object) -> None:
-        while True:
-            stage(name := self._names.get(timeout=TIMEOUT))
-            self._begun.put(name)
-
-    def go_on(self, *names: str, wait: bool = True) -> None:
-        """Begin these stages, one after the other."""
-        for name in names:
-            self._names.put(name)
-            if wait:
-                assert self._begun.get(timeout=TIMEOUT) == name
-
-
 @pytest.fixture
 def preparation(monkeypatch: pytest.MonkeyPatch) -> Preparation:
-    preparation = Preparation()
-    monkeypatch.setattr("glid_nb.session.live_solver.solve", preparation.solve)
-    return preparation
+    return Preparation.instead_of_solving(monkeypatch)
 
 
 def test_the_status_says_how_far_the_solver_is_prepared(preparation: Preparation) -> None:
@@ -350,17 +335,19 @@ def test_the_status_says_how_far_the_solver_is_prepared(preparation: Preparation
     preparation.go_on("basis", "rows", "trace", "compile")
     assert sorted(set(seen)) == [0.0, 0.2, 0.3, 0.5, 1.0]
     assert deformation.status.text == "Preparing the solver… 50%"
-    handle = deformation.add_handle((2, 0))  # the hand can go on
+    handle = deformation.add_handle((2, 0))  # the user can go on
     deformation.drag(handle, to=(3, 0))
     assert deformation.busy
     deformation.close()
     preparation.go_on("rows", wait=False)
 
 
-def test_closing_does_not_wait_for_a_solver_that_is_prepared(preparation: Preparation) -> None:
+def test_closing_does_not_wait_for_a_solver_that_is_prepared(
+    preparation: Preparation, threads: NewThreads
+) -> None:
     deformation = Deformation(domain("ring"))
     preparation.go_on("trace")
-    thread, before = deformation._worker.thread, deformation.state
+    thread, before = threads.named(SOLVER), deformation.state
     assert thread is not None
     deformation.close()
     assert thread.is_alive()
@@ -371,10 +358,12 @@ def test_closing_does_not_wait_for_a_solver_that_is_prepared(preparation: Prepar
     assert deformation.state is before
 
 
-def test_closing_ends_the_thread(ring: Deformation) -> None:
+def test_closing_ends_the_thread(ring: Deformation, threads: NewThreads) -> None:
+    thread = threads.named(SOLVER)
+    assert thread is not None
     ring.close()
-    ring._worker.thread.join(TIMEOUT)
-    assert not ring._worker.thread.is_alive()
+    thread.join(TIMEOUT)
+    assert not thread.is_alive()
     state = ring.state
     for change in (
         lambda: ring.drag(0, to=(3, 0)),
@@ -390,7 +379,7 @@ def test_closing_ends_the_thread(ring: Deformation) -> None:
 
 
 def test_an_interrupt_stops_the_solve_only(
-    ring: Deformation, monkeypatch: pytest.MonkeyPatch
+    ring: Deformation, threads: NewThreads, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     from glid_nb.session import live_solver
 
@@ -404,7 +393,7 @@ def test_an_interrupt_stops_the_solve_only(
     monkeypatch.setattr("glid_nb.session.live_solver.solve", slow)
     ring.drag(0, to=(4, 2))
     assert entered.wait(TIMEOUT)
-    # To the main thread, as a process is told: its wait is to end, not only what comes after.
+    # The signal goes to the main thread, as for a real process, so it ends the wait itself.
     main = threading.main_thread().ident
     assert main is not None
     timer = threading.Timer(0.2, lambda: signal.pthread_kill(main, signal.SIGINT))
@@ -419,5 +408,5 @@ def test_an_interrupt_stops_the_solve_only(
         go_on.set()
     monkeypatch.undo()
     assert ring.solve(TIMEOUT)
-    assert ring._worker.thread.is_alive()
+    assert threads.named(SOLVER) is not None
     assert ring.state.current.solved

@@ -1,4 +1,4 @@
-"""Random hands: whatever is done, the map is certified and undo is exact."""
+"""Random actions: the map is always certified, and undo is exact."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from glid_nb.harmonic import HarmonicMap
 from glid_nb.session.deformation import Deformation
 from glid_nb.session.edit_state import EditError
 
-from ..domains import domain
+from ..support.domains import domain
 
 TIMEOUT = 120.0
 
@@ -27,7 +27,7 @@ index = st.integers(-1, 6)
 
 
 class Hand(RuleBasedStateMachine):
-    """Everything a hand can do, in any order, waiting for the solver or not."""
+    """All actions of a user, in any order, with and without waiting for the solver."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -37,7 +37,7 @@ class Hand(RuleBasedStateMachine):
         self.model.close()
 
     def act(self, method: str, *arguments: Any) -> None:
-        """One action; undoing it gives exactly the state before, redoing it the one after."""
+        """One action. Undo gives exactly the state before it, redo the state after it."""
         model = self.model
         assert model.solve(TIMEOUT)
         model.end_drag()

@@ -1,4 +1,4 @@
-"""Documents as files: exact, and refused with a sentence when something is wrong."""
+"""Documents as files: exact. Wrong files are refused with a sentence."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ from glid_nb.session.problem import Problem, load_pose
 from glid_nb.session.timeline import Timeline
 from glid_nb.solvers import Newton, Options
 
-from ..domains import domain, random_map
+from ..support.domains import domain, random_map
 
 Data = dict[str, Any]
 
@@ -263,7 +263,7 @@ def test_what_could_not_be_opened_is_not_saved(
     assert [p.name for p in tmp_path.iterdir()] == ["a.glid"]
 
 
-# Files that are wrong. Each is made from a valid one.
+# Wrong files. Each is made from a valid one.
 
 
 @pytest.fixture(scope="module")
@@ -296,7 +296,7 @@ def test_a_document_of_version_1_opens_with_our_method(
     path = tmp_path / "old.glid"
     path.write_bytes(zipped({**valid, "document.json": json.dumps(written).encode()}))
     assert [pose.method for pose in load_document(path).poses] == [Newton()] * 2
-    # What version 1 did not have does not belong into one.
+    # A file of version 1 may not have what came later.
     written["poses"] = [{**pose, "method": data["poses"][0]["method"]} for pose in old]
     refuse(
         tmp_path / "new",
@@ -637,7 +637,7 @@ def test_what_is_no_document_is_refused(tmp_path: Path, data: bytes) -> None:
 def test_damage_anywhere_is_refused_or_harmless(
     tmp_path_factory: pytest.TempPathFactory, valid: dict[str, bytes], data: st.DataObject
 ) -> None:
-    """Whatever byte is changed or cut: the same document, or a DocumentError."""
+    """After any change or cut of bytes: the same document, or a DocumentError."""
     raw = bytearray(zipped(valid))
     where = data.draw(st.integers(0, len(raw) - 1))
     if data.draw(st.booleans()):

@@ -1,4 +1,4 @@
-"""Random hands on the whole editor: no pose claims a map that it does not have."""
+"""Random actions on the whole editor: no pose claims a map that it does not have."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ def miss(pose: NamedPose) -> float:
 
 
 class Session(RuleBasedStateMachine):
-    """Tracing, deforming, the timeline and files in any order, waiting for the solver or not."""
+    """Tracing, deforming, the timeline and files in any order, with and without waiting."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -55,7 +55,7 @@ class Session(RuleBasedStateMachine):
         return self.model.deformation
 
     def follow(self) -> None:
-        """The timeline belongs to the deformation, which another picture replaces."""
+        """The timeline belongs to the deformation. Another picture has another deformation."""
         if self.animation.deformation is not self.deformation:
             self.animation.close()
             self.animation = Animation(self.deformation)
@@ -168,7 +168,7 @@ class Session(RuleBasedStateMachine):
             if pose.solved and pose not in self.checked:
                 self.checked.add(pose)
                 assert certify(pose.map).certified
-                if miss(pose) > VISIBLE:  # as far as a fresh solve reaches
+                if miss(pose) > VISIBLE:  # as close as a new solve comes
                     identity = pose.changed(map=state.identity)
                     fresh = solve_edited(identity, lambda _: False)
                     assert miss(pose) <= miss(pose.changed(map=fresh.map)) + VISIBLE

@@ -1,4 +1,4 @@
-"""An editor without widgets: what belongs together stays together, and no file is lost."""
+"""An editor without widgets: its parts fit together, and no file is lost."""
 
 from __future__ import annotations
 
@@ -25,6 +25,8 @@ from glid_nb.session.editor_model import (
     find_document,
     open_document,
 )
+
+from ..support.threads import NewThreads
 
 pytestmark = pytest.mark.slow  # most of the time is compiling
 
@@ -53,7 +55,7 @@ def _pin(model: EditorModel, *points: tuple[float, float]) -> None:
 
 
 def _move_corner(model: EditorModel, to: tuple[float, float], gesture: str | None = None) -> None:
-    """Drag what was the outline's upper left vertex."""
+    """Drag the vertex that was the outline's upper left one at first."""
     frame, loops = model.tracing.frame, model.deformation.state.domain.cage.loops
     assert frame is not None
     corner = int(np.argmin(np.hypot(*(loops[0] - [-8, 4]).T)))
@@ -83,7 +85,7 @@ def test_an_opened_session_is_the_one_that_is_kept_up_to_date(
     _pin(model, (-6, 0), (6, 0))
     model.load(second)
     assert model.autosave_path == second
-    # What was pending for the first file is in it.
+    # It contains the changes that were pending for the first file.
     assert open_document(first).poses[0].pose.handles.tolist() == [[-6, 0], [6, 0]]
     _pin(model, (-5, 0))
     assert open_document(second).poses[0].pose.handles.tolist() == [[5, 0], [-5, 0]]
@@ -125,7 +127,7 @@ def test_undo_brings_a_picture_back_with_its_poses(tmp_path: Path, kept: bool) -
     assert model.deformation.state.poses == poses
     assert model.autosave_path == path
     model.deformation.undo()
-    assert len(model.deformation.pose) == 1  # its own steps are there too
+    assert len(model.deformation.pose) == 1  # its own steps are there, too
     model.tracing.redo()
     model.apply_tracing()
     assert model.deformation.pose.handles.tolist() == [[4, 0]]
@@ -177,7 +179,7 @@ def test_what_is_in_no_file_is_unsaved(tmp_path: Path) -> None:
     model.deformation.drag(0, to=(-5, 1))
     model.tracing.open(picture(60))
     model.apply_tracing()
-    assert model.unsaved  # what undo would bring back
+    assert model.unsaved  # the states that undo would bring back
     model.close()
 
 
@@ -265,7 +267,7 @@ def test_saving_to_the_file_that_is_kept_up_to_date_is_no_conflict(
 
 
 class TestKeptWork:
-    """What an editor without a file leaves for the next one of the same picture."""
+    """The work of an editor without a file is kept for the next editor of the same picture."""
 
     @pytest.fixture(autouse=True)
     def folder(self, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
@@ -290,7 +292,7 @@ class TestKeptWork:
         assert again.deformation.state.timeline.times == (0, 2.5)
         _pin(again, (0, 3.5))
         again.close()
-        (path,) = kept_files()  # it went on in the same file
+        (path,) = kept_files()  # it continued in the same file
         assert len(load_document(path).poses[1].pose) == 3
 
     def test_work_that_nobody_asked_for_is_not_written_over(self) -> None:
@@ -349,8 +351,8 @@ class TestKeptWork:
 
     @staticmethod
     def flushed(model: EditorModel) -> None:
-        assert model._autosave is not None
-        assert model._autosave.flush(60)
+        assert model.saving is not None
+        assert model.saving.flush(60)
 
     def test_the_work_of_a_user_without_a_home_is_kept_among_temporary_files(
         self, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
@@ -441,7 +443,7 @@ class TestKeptWork:
     def test_a_kept_file_that_cannot_be_deleted_ends_no_save(
         self, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
     ) -> None:
-        for width in range(60, 82, 4):  # of the oldest ones, too
+        for width in range(60, 82, 4):  # also of the oldest ones
             self.left((-4, 0), width=width)
 
         def refused(path: Path, **_: bool) -> None:
@@ -482,13 +484,14 @@ def test_a_model_that_is_dropped_ends_its_threads_and_saves_its_work(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, named: bool
 ) -> None:
     monkeypatch.setenv("GLID_NB_DATA", str(tmp_path))
+    threads = NewThreads()
     model = EditorModel(picture(), path=tmp_path / "a.glid" if named else None)
     _pin(model, (-6, 0))
-    saving = model._autosave
+    saving = model.saving
     assert saving is not None
     saving.flush()
     _pin(model, (6, 0))  # waits for the interval
-    thread, path = saving._worker.thread, saving.path
+    thread, path = threads.named(f"autosave {saving.path.name}"), saving.path
     assert thread is not None
     gone = weakref.ref(model)
     del model, saving

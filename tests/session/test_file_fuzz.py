@@ -1,4 +1,4 @@
-"""Files that somebody has damaged or made up: read, or refused with a sentence and in time."""
+"""Damaged or invented files: read, or refused with a sentence and in time."""
 
 from __future__ import annotations
 
@@ -26,9 +26,9 @@ from glid_nb.session.document_file import load_document, save_document
 from glid_nb.session.problem import Problem, load_pose
 from glid_nb.solvers import Options
 
-from ..domains import domain
+from ..support.domains import domain
 
-pytestmark = pytest.mark.slow  # of 250 examples most take a few milliseconds
+pytestmark = pytest.mark.slow  # most of 250 examples take a few milliseconds
 
 POSE = {"handles": [[2.0, 0.1], [-2.0, 0.3]], "targets": [[2.5, 0.0], [-2.0, 0.0]]}
 PROBLEM = {
@@ -70,7 +70,7 @@ def _places(value: Any, above: tuple[Any, ...] = ()) -> Iterator[tuple[Any, ...]
 
 
 def _changed(draw: Callable[[Any], Any], data: Any) -> bytes:
-    """A JSON text with one value, key or byte changed, cut short, or with a key given twice."""
+    """A JSON text with a changed value, key or byte, cut short, or with a repeated key."""
     data = copy.deepcopy(data)
     *above, last = draw(st.sampled_from(list(_places(data))))
     parent = data

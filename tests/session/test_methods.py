@@ -1,4 +1,4 @@
-"""Other methods in the deformation editor: certified ones move the map, others stand beside it."""
+"""Other methods in the deformation editor: certified ones move the map, others are a comparison."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from glid_nb.session import live_solver
 from glid_nb.session.deformation import Deformation
 from glid_nb.solvers import MethodError, Status
 
-from ..domains import domain
+from ..support.domains import domain
 
 pytestmark = pytest.mark.slow  # most of the time is compiling
 
@@ -82,7 +82,7 @@ def test_a_method_on_a_mesh_stands_beside_the_certified_map(ring: Deformation, n
     np.testing.assert_allclose(mesh([[2, 0]]), [[2.4, 0.3]], atol=0.02)
     assert "certified" in ring.status.text
     assert ring.status.level != "good"
-    # What is seen under the pointer is looked for in what is shown.
+    # The pointer finds what is shown.
     found = ring.find((2.4, 0.3))
     assert found is not None
     np.testing.assert_allclose(found, [2, 0], atol=0.02)
@@ -201,7 +201,7 @@ def test_without_handles_nothing_breaks(name: str) -> None:
 def test_a_call_without_an_iteration_is_no_frame(
     ring: Deformation, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """The solver may call back after refused steps, when nothing has moved yet."""
+    """The solver may call back after refused steps, before anything has moved."""
     real: Any = live_solver.solve
     calls = []
 

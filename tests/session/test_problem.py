@@ -1,4 +1,4 @@
-"""Problems from files: what is accepted, and what is said of everything else."""
+"""Problems from files: what is accepted, and how the rest is refused."""
 
 from __future__ import annotations
 

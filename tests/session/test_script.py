@@ -22,7 +22,7 @@ from glid_nb.session.timeline import Timeline
 from glid_nb.session.tracing import TracingModel
 from glid_nb.solvers import Options
 
-from .test_tracing import DRAWING, far_vertex
+from ..support.drawing import DRAWING, far_vertex
 
 HANDLES = [[-6.0, 0.0], [1.5, 0.0], [-1.0, 4.5]]
 TARGETS = [[-6.5, 1.0], [1.5, 0.0], [-1.0, 5.2]]

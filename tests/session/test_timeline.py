@@ -20,7 +20,7 @@ from glid_nb.session.edit_state import EditError, EditState
 from glid_nb.session.model import History
 from glid_nb.session.timeline import Timeline, on_grid, thinned
 
-from ..domains import domain
+from ..support.domains import domain
 
 index = st.integers(-1, 6)
 time = st.floats(-2, 12)
@@ -95,7 +95,7 @@ def test_a_pose_moves_past_others_and_stays_the_edited_one() -> None:
     assert moved.timeline.times == (1, 1.5, 2)
     assert moved.timeline.easing == ("linear", "in", "linear")
     assert (moved.active, moved.current.name) == (1, "Pose 1")
-    # A place that is taken is not shared, nor is there a time before 0.
+    # A place that is taken is not shared, and no time is before 0.
     assert actions.move_pose(three, 0, 2.0).timeline.times == (1, 2, 2.01)
     assert actions.move_pose(three, 2, -5.0).timeline.times == (0, 0.01, 1)
     assert actions.move_pose(three, 1, 1.0) is three

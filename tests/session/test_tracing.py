@@ -1,4 +1,4 @@
-"""The tracer's model, driven as a hand would drive it."""
+"""The tracer's model, driven like the page drives it."""
 
 from __future__ import annotations
 
@@ -20,21 +20,7 @@ from glid_nb.session.document import Document
 from glid_nb.session.document_file import load_document, save_document
 from glid_nb.session.tracing import TracingModel, TracingOutcome
 
-
-def drawing() -> NDArray[np.uint8]:
-    """A teal disc with two holes and a smaller disc beside it, on white."""
-    y, x = np.mgrid[:120, :160] + 0.5
-    shape = np.hypot(x - 60, y - 60) < 50
-    shape &= np.hypot(x - 45, y - 60) > 12
-    shape &= np.hypot(x - 80, y - 60) > 9
-    shape |= np.hypot(x - 135, y - 60) < 15
-    image = np.full((120, 160, 4), 255, np.uint8)
-    image[shape] = (20, 130, 130, 255)
-    return image
-
-
-DRAWING = drawing()
-IN_LARGE_HOLE, IN_SMALL_HOLE, IN_SMALL_DISC = (45.0, 60.0), (80.0, 60.0), (135.0, 60.0)
+from ..support.drawing import DRAWING, IN_SMALL_DISC, far_vertex
 
 
 @pytest.fixture
@@ -51,11 +37,6 @@ def assert_same_loops(a: TracingModel | TracingOutcome, loops: tuple[NDArray, ..
     assert len(a.loops) == len(loops)
     for one, other in zip(a.loops, loops, strict=True):
         np.testing.assert_array_equal(one, other)
-
-
-def far_vertex(model: TracingModel) -> int:
-    """The exterior's leftmost vertex."""
-    return int(np.argmin(model.loops[0][:, 0]))
 
 
 def test_a_picture_is_traced_at_once(model: TracingModel) -> None:
@@ -425,7 +406,7 @@ def test_a_document_brings_the_model_back(tmp_path: Path, edited: bool) -> None:
 
 @pytest.mark.slow
 def test_a_large_picture_follows_the_controls() -> None:
-    """Well within a second even on a busy machine; alone it is under 0.2 s (see benchmarks)."""
+    """Well within a second even on a busy machine. Alone it takes under 0.2 s (see benchmarks)."""
     from PIL import Image
 
     small = Image.fromarray(samples.image("teapot"))
@@ -448,7 +429,7 @@ POINTS = st.tuples(st.floats(-20, 180), st.floats(-20, 140))
 
 
 class Fuzz(RuleBasedStateMachine):
-    """Any actions in any order: a valid cage at all times, and undo is exact."""
+    """Any actions in any order: the cage is always valid, and undo is exact."""
 
     @initialize()
     def start(self) -> None:

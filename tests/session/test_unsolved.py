@@ -1,4 +1,4 @@
-"""A pose that is not solved on its cage is solved before it is used, or says that it is not."""
+"""A pose that is not solved on its cage is solved before use, or reported."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ TIMEOUT = 120.0
 
 
 def miss(pose: NamedPose) -> float:
-    """How far the worst handle is from its target, world units."""
+    """The largest distance of a handle from its target, world units."""
     return float(np.abs(pose.map(pose.pose.handles) - pose.pose.targets).max(initial=0))
 
 
@@ -127,7 +127,7 @@ def test_while_the_solver_is_paused_a_file_says_what_is_not_solved(
 def test_a_pose_that_was_left_half_way_is_known_in_a_file(
     model: EditorModel, tmp_path: Path
 ) -> None:
-    """Its map is not the identity, so the file has to say so, as no older version did."""
+    """Its map is not the identity, so the file must mark it. Older versions did not."""
     deformation, path = model.deformation, tmp_path / "s.glid"
     deformation.paused = True
     deformation.drag(1, (6, 2.5))
@@ -148,7 +148,7 @@ def test_a_pose_that_was_left_half_way_is_known_in_a_file(
 
 
 def as_older_versions_wrote(document: Document, path: Path) -> None:
-    """The fault: every other pose is the identity, and nothing says so."""
+    """The bug: every other pose was the identity, and nothing said so."""
     identity = HarmonicMap.identity(document.domain)
     first, *others = document.poses
     poses = (replace(first, map=identity), *others)
@@ -174,9 +174,9 @@ def test_a_file_with_the_fault_of_older_versions_is_repaired(
     other = EditorModel(path=path, document=load_document(path))
     motion = motion_of(other.deformation.solved_state())
     np.testing.assert_allclose(motion(0.0)([[6, 0]]), [[6, 1.5]], atol=1e-3)
-    assert other.deformation.state.poses[1].map.distance(kept) == 0  # what was right stays
+    assert other.deformation.state.poses[1].map.distance(kept) == 0  # the right part stays
     other.close()
-    assert load_document(path).unsolved == ()  # and so the file is, too
+    assert load_document(path).unsolved == ()  # and the file is right, too
 
 
 def test_undo_and_redo_across_a_change_of_the_cage(model: EditorModel) -> None:

@@ -1,4 +1,4 @@
-"""The thread that always does the latest task."""
+"""The thread that runs the latest task."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ TIMEOUT = 30.0
 
 
 class Slow:
-    """Does what it is told, and each task only once it may."""
+    """Runs its tasks, each only once it is allowed to."""
 
     def __init__(self, **settings: Any) -> None:
         self.done: list[int] = []
@@ -67,8 +67,8 @@ def test_cancelling_forgets_what_is_pending() -> None:
     slow.submit(1)
     slow.worker.submit(2)
     slow.worker.cancel()
-    assert not slow.worker.busy  # it is not wanted any more
-    assert not slow.worker.wait(0.01)  # but it is not over
+    assert not slow.worker.busy  # it is no longer wanted
+    assert not slow.worker.wait(0.01)  # but it is still running
     slow.may.release()
     assert slow.worker.wait(TIMEOUT)
     assert slow.done == [1]

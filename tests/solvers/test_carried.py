@@ -1,4 +1,4 @@
-"""What a solver proves from values that it carried along is proved by who computes them anew."""
+"""A proof from carried values is confirmed by computing the values anew."""
 
 from __future__ import annotations
 
@@ -11,14 +11,16 @@ from glid_nb.minima import solve
 from glid_nb.pose import Pose
 from glid_nb.solvers import Options, Progress, Status
 
-from ..domains import domain
+from ..support.domains import domain
 
 pytestmark = pytest.mark.slow  # most of the time is compiling
 
 
 def test_every_map_of_a_collapse_far_away_is_proved_anew() -> None:
-    """ARAP has no barrier: handles pulled together far away crumple the shape to sigma_2 < 1e-6,
-    while coefficients of several hundred leave rounding errors."""
+    """ARAP has no barrier: handles pulled together far away crumple the shape to sigma_2 < 1e-6.
+
+    Coefficients of several hundred leave rounding errors.
+    """
     maps: dict[int, HarmonicMap] = {}
 
     def keep(progress: Progress) -> None:
@@ -31,7 +33,7 @@ def test_every_map_of_a_collapse_far_away_is_proved_anew() -> None:
     certificates = [certify(map) for map in [*maps.values(), result.map]]
     assert all(c.certified for c in certificates)
     assert min(c.sigma2_lower for c in certificates) < 1e-6
-    # Finer panels do not help against rounding: it ends instead of splitting them all.
+    # Finer panels do not help against rounding, so the solve ends instead of splitting all.
     assert result.status is Status.BLOCKED
     assert result.n_panels < 200
 
@@ -47,7 +49,7 @@ def test_one_handle_takes_the_shape_along_however_far() -> None:
 
 
 def test_a_perfect_pose_has_converged() -> None:
-    """The energy is then 0, and nothing is relative to it."""
+    """The energy is then 0, so a relative comparison makes no sense."""
     ring = domain("ring")
     start = HarmonicMap.identity(ring)
     pose = Pose([(2.2, 0.5)], [(-3, 30)])

@@ -19,7 +19,7 @@ WAYS = ["direct", "portable"]
 
 @pytest.fixture(params=WAYS)
 def way(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Both ways to the same result; the first one is the CPU's."""
+    """Two ways to the same result. The first one is the CPU's."""
     if request.param == "portable":
         monkeypatch.setattr(cholesky, "lapack_in_place", lambda: False)
 
@@ -30,12 +30,12 @@ def definite(size: int, seed: int) -> np.ndarray:
 
 
 def compiled(function: Callable[..., Any]) -> Callable[..., Any]:
-    # A function of its own, so that either way is traced anew.
+    # A new function, so that each way is traced anew.
     return jax.jit(lambda *arguments: function(*arguments))
 
 
 def test_this_jax_calls_lapack_as_we_do() -> None:
-    """Else the copies are back: look at what JAX lowers to, and mend the module."""
+    """If this fails, the copies are back: look at JAX's lowered text, and repair the module."""
     assert cholesky.lapack_in_place()
 
 

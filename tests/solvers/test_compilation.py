@@ -1,4 +1,4 @@
-"""What going on from a result and splitting panels compile: nothing."""
+"""Continuing from a result and splitting panels compile nothing."""
 
 from collections.abc import Callable
 from dataclasses import replace
@@ -10,7 +10,7 @@ from glid_nb import Options, Pose, Result, solve
 from glid_nb._runtime import compilation_clock
 from glid_nb.solvers.discretisation import discretise
 
-from ..domains import domain
+from ..support.domains import domain
 
 HANDLES = np.array([[-2.5, -2.0], [-2.5, 2.5], [2.5, -1.5], [0.0, -1.5]])
 OPTIONS = Options(restarts=0)
@@ -28,7 +28,7 @@ def compiled_by(action: Callable[[], Result]) -> int:
 
 @pytest.fixture(scope="module")
 def first() -> Result:
-    """Everything that a first solve and one that goes on from it compile."""
+    """Everything that a first solve and a solve from its result compile."""
     result = solve(domain("ell"), bent(0.1), None, OPTIONS)
     return solve(domain("ell"), bent(0.12), None, OPTIONS, result)
 
@@ -53,7 +53,7 @@ def test_panels_split_within_a_bucket_compile_nothing(first: Result) -> None:
 
 @pytest.mark.slow
 def test_splitting_any_panels_makes_few_sizes() -> None:
-    """Each size is a program more, of which a person who drags waits for the compiling."""
+    """Each size needs another program, and a person who drags waits for it to compile."""
     rng, sizes = np.random.default_rng(0), set[tuple[int, int]]()
     for _ in range(8):
         disc = discretise(domain("ell"))

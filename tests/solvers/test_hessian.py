@@ -36,8 +36,8 @@ from glid_nb.solvers.hessian import (
 )
 from glid_nb.solvers.problem import restrict_gradient, restrict_hessian, unknowns_of
 
-from ..domains import domain, random_map
-from ..reference_map import cauchy_first
+from ..support.domains import domain, random_map
+from ..support.reference_map import cauchy_first
 from .dense import dense_expansion
 
 Array = NDArray[Any]
@@ -196,7 +196,7 @@ def test_a_multiple_of_the_identity_projects_to_itself_or_to_zero() -> None:
 
 @pytest.mark.parametrize("size", [1e-100, 1e100, 1e200, 1e300])
 def test_the_projection_does_not_overflow(size: float) -> None:
-    """exp(s E) reaches such values where a certified map is merely thin."""
+    """exp(s E) reaches such values if a certified map is only thin."""
     block = np.array([[3.0, -2.5], [-2.5, 1.0]])
     k = LocalHessian(*(np.full(COUNT, v * size) for v in (-1.0, 2.0, 3.0, 1.0, -2.5)))
     with enable_x64():
@@ -319,7 +319,7 @@ def test_a_large_basis_is_assembled_in_pieces(monkeypatch: pytest.MonkeyPatch) -
         given = matrices.nodes, matrices.weights, *evaluation.directions(samples.values), k
         at_once = np.asarray(assemble(*given))
         for share in (2.0, 2.7, 7.3):  # pieces that divide the nodes and pieces that do not
-            monkeypatch.setattr(hessian, "_PIECE", int(matrices.nodes.size / 2 / share))
+            monkeypatch.setattr(hessian, "PIECE", int(matrices.nodes.size / 2 / share))
             difference = abs(np.asarray(assemble(*given)) - at_once)
             assert difference.max() < 1e-12 * abs(at_once).max()
 
@@ -386,7 +386,7 @@ def test_the_hessian_is_integrated_in_the_middle_of_panels_and_of_pairs() -> Non
     for node, weight in zip(nodes, weights, strict=True):
         if node >= size:
             mine = [node - size]
-        else:  # The end that two halves of one straight piece share.
+        else:  # The common end of two halves of one straight piece.
             mine = [node - 1, node]
             chord = panels.end[mine] - panels.start[mine]
             assert chord[0] == pytest.approx(chord[1])
@@ -407,7 +407,7 @@ def test_the_hessian_is_integrated_in_the_middle_of_panels_and_of_pairs() -> Non
 def test_the_cheap_projection_is_the_whole_one(energy: Energy, seed: int) -> None:
     """Energies that promise it: only the eigenvalue across f_z is ever negative."""
     rng = np.random.default_rng(seed)
-    # Not so near folding that the exponential energy overflows.
+    # Not so close to folding that the exponential energy overflows.
     x = rng.uniform(0.3, 4, COUNT)
     y = x * rng.uniform(0, 0.7, COUNT)
     with enable_x64():
@@ -421,7 +421,8 @@ def test_the_cheap_projection_is_the_whole_one(energy: Energy, seed: int) -> Non
 
 
 def test_quadrature_weights_integrate_over_the_boundary() -> None:
-    """Both sets of weights are a mean over arc length: exact for 1, nearly so for smooth values."""
+    """Both sets of weights give a mean over arc length: exact for 1, nearly so for smooth
+    values."""
     d, matrices, _, _, _ = discretised()
     panels = discretise(d).panels
     p = len(matrices.real)

@@ -1,4 +1,4 @@
-"""How far handles miss their targets, and what is seen in targets that fold a shape."""
+"""How far handles miss their targets, and the message if targets fold a shape."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ def box(scale: float = 1.0) -> Domain:
 
 
 def at_rest(handles: Any, targets: Any) -> str:
-    """What is told where the shape stays as it is."""
+    """The message if the shape stays as it is."""
     pose, map = Pose(handles, targets), HarmonicMap.identity(box())
     return told(pose, misses_of(map, pose), unit_of(map))
 

@@ -11,8 +11,8 @@ from glid_nb.minima import solve, solve_batch
 from glid_nb.pose import Pose, PoseError
 from glid_nb.solvers import MethodError, Options, Result
 
-from ..domains import domain
-from .checks import check_certified
+from ..support.checks import check_certified
+from ..support.domains import domain
 
 pytestmark = pytest.mark.slow
 

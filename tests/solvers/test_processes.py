@@ -30,7 +30,7 @@ OTHER = POSE.with_targets(POSE.targets + np.array([0, 0.5]))
 
 
 class WithoutJax(pickle.Unpickler):
-    """Refuses arrays of JAX, whose precision depends on who reads them."""
+    """Refuses arrays of JAX, whose precision depends on the reading process."""
 
     def find_class(self, module: str, name: str) -> Any:
         assert not module.startswith("jax"), f"{module}.{name}"
@@ -48,7 +48,7 @@ def bar() -> Domain:
 
 @functools.cache
 def made(kind: str) -> Any:
-    """A result of every way to make one."""
+    """One result for each way to make one."""
     if kind == "newton":
         return solve(bar(), POSE)
     if kind == "batch":

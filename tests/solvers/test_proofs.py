@@ -1,4 +1,4 @@
-"""Every map that leaves as a result has passed the proof and carries it."""
+"""Every map that is returned as a result is proved and carries its proof."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ from glid_nb.session.report import build_report
 from glid_nb.solvers import Options, Progress, Result, Status
 from glid_nb.solvers.method import StartError
 
-from ..domains import domain
+from ..support.domains import domain
 
 pytestmark = pytest.mark.slow  # most of the time is compiling
 
@@ -32,7 +32,7 @@ POSE = Pose([(2.2, 0.5), (-2.2, 0.5), (0.96, -2.2)], [(2.9, 1.5), (-2.2, 0.9), (
 
 
 def check_carries(made: Result | Progress) -> None:
-    """It carries the proof of its very map, and anyone who computes anew finds it certified."""
+    """The result carries the proof of its own map, and computing anew certifies the map, too."""
     proof = made.step_certificate if isinstance(made, Result) else made.certificate
     assert proof is not None
     assert proof.certified
@@ -61,7 +61,7 @@ def test_every_map_of_a_solve_carries_its_proof(method: str) -> None:
 
 
 def test_the_proof_of_a_step_is_what_the_compiled_call_has_proved() -> None:
-    """Bounds, panels and windings, not made again."""
+    """Bounds, panels and windings, unpickled and not made again."""
     result = solve(domain("ring"), POSE, options=Options(restarts=0))
     assert result.step_certificate.reason.startswith("Proved locally injective by the solver on")
     assert len(result.step_certificate.panels) <= (result.n_panels or 0)
@@ -102,7 +102,7 @@ def test_a_result_whose_map_was_replaced_is_proved_again() -> None:
 
 
 def _sliver() -> tuple[Domain, Pose]:
-    """A notch of 10^-8 in a bar, to be moved by 10^6."""
+    """A notch of 10^-8 in a bar, with targets that move it by 10^6."""
     outline = [[-10, -1], [-9, -1], [-8.99999999, -1.000000003], [10, -1], [10, 1], [-10, 1]]
     pose = Pose([(-9, 0), (9, 0.3)], [(-9e5, 0), (-899982, 0.3)])
     return Domain.from_cage(Cage(outline)), pose
@@ -141,7 +141,7 @@ def test_what_a_solver_proves_can_be_kept_and_checked(tmp_path: Path) -> None:
 
 
 def test_a_document_is_saved_by_what_it_is_loaded_by(tmp_path: Path) -> None:
-    """The solver's panels are in no file, so what only they prove is not saved."""
+    """No file holds the solver's panels, so a proof that needs them is not saved."""
     ring = domain("ring")
     result = solve(ring, POSE, options=Options(restarts=0))
     result.map.kept["proofs"].own = replace(result.certificate)
@@ -156,7 +156,8 @@ def test_a_document_is_saved_by_what_it_is_loaded_by(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("gap", [1e-6, 1e-12])
 def test_a_nearly_folded_start_never_converges_at_infinity(gap: float) -> None:
-    """After the alignment far away rounding may have folded it: then it is returned as given."""
+    """After the alignment far away, rounding may have folded the map. Then the given map is
+    returned."""
     bar, pose = _sliver()
     identity = HarmonicMap.identity(bar).phi
     start = HarmonicMap(bar, identity / 2, identity / 2 * (1 - gap))

@@ -16,17 +16,17 @@ from glid_nb.minima import solve
 from glid_nb.pose import Pose
 from glid_nb.solvers import Options, Result, Status
 
-from ..domains import divided
-from .checks import measured, turned
+from ..support.checks import measured, turned
+from ..support.domains import divided
 
 pytestmark = [pytest.mark.reference, pytest.mark.slow]
 
 NAMES = ("Archery", "colorbar", "deer", "giraffe", "racoon", "raptor", "rex")
-# Iterations to a relative gap of 1e-6 that a prototype needed.
+# The iterations that a prototype needed to a relative gap of 1e-6.
 MOST_ITERATIONS = {
     "rex": 13, "raptor": 8, "deer": 10, "racoon": 24, "giraffe": 25, "colorbar": 12, "Archery": 7,
 }  # fmt: skip
-# All energies for all shapes, but for one that was not published.
+# All energies for all shapes, except one that was not published.
 ENERGIES = ("iso,s=1.0", "exp,s=0.2", "exp,s=1.0", "amips,s=0.5", "amips,s=1.0")
 PUBLISHED = [(n, k) for n in NAMES for k in ENERGIES if (n, k) != ("raptor", "amips,s=0.5")]
 
@@ -110,7 +110,7 @@ def test_a_tail_that_turns_by_over_180_degrees_may_turn_with_what_it_hangs_at(
 
 
 def test_from_a_better_map_other_lines_are_led_the_other_way_round(reference_folder: Path) -> None:
-    """An archer who turns twice: with what the first map turns alone 15.2 is the best."""
+    """An archer who turns twice. With the first map's turns alone, 15.2 is the best energy."""
     domain, pose, _ = problem(reference_folder, "Archery")
     hip = complex(*pose.handles[0])
     turns = [([4, 5], -5.27 - 5.66j, -95.26), ([3, 4, 5, 7], hip, -133.61)]

@@ -22,7 +22,7 @@ HANDLES = np.array([[-8.0, 0], [0, 2], [8, 0]])
 TARGETS = np.array([[-8.0, 0], [0, 8], [8, 0]])
 SCALES = (1e-6, 1e-3, 1e3, 1e6)
 FAR = np.array([700.0, -300.0])
-# With holes their steps depend on the unit, for the logarithms do; their minima do not.
+# With holes, the steps of these methods depend on the unit, because the logarithms do.
 WITHOUT_HOLES = ("lbfgs", "gradient-descent", "levenberg-marquardt")
 EVERY = tuple(
     name
@@ -61,7 +61,7 @@ def solved(scale: float, place: tuple[float, float], kind: str) -> tuple[Any, Re
     elif kind != "newton":
         mesh = methods.METHODS[kind].family != "harmonic"
         method = methods.by_name(kind, **({"n_vertices": 300} if mesh else {}))
-        # L-BFGS is chaotic next to a fold, where heavy weights lead it.
+        # L-BFGS is chaotic close to a fold, where heavy weights lead it.
         options = Options(p2p_weight=20, max_iterations=20)
     domain, pose = posed(scale, place, kind not in WITHOUT_HOLES, **more)
     result = solve(domain, pose, options=options, method=method)

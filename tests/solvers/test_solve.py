@@ -1,4 +1,4 @@
-"""A solve from end to end on small domains: it converges, certified, and says what happened."""
+"""A solve from end to end on small domains: it converges, is certified, and reports how it went."""
 
 from __future__ import annotations
 
@@ -38,8 +38,8 @@ from glid_nb.solvers import (
     newton,
 )
 
-from ..domains import domain
-from .checks import check_certified
+from ..support.checks import check_certified
+from ..support.domains import domain
 
 pytestmark = pytest.mark.slow  # most of the time is compiling
 
@@ -199,7 +199,7 @@ def test_warm_start_from_a_map_and_from_a_result() -> None:
 
 
 def test_start_in_another_gauge_is_the_same_start() -> None:
-    """Redundant coefficients (Section 5) of a foreign map change nothing."""
+    """Redundant coefficients (Section 5) of a given map change nothing."""
     cold = ring()
     map = cold.map
     phi, psi = map.phi.copy(), map.psi.copy()
@@ -273,7 +273,7 @@ def test_a_slow_problem_lets_a_callback_in_after_each_iteration(
 ) -> None:
     pose = Pose(ELL_HANDLES, ELL_TARGETS)
     fast = solve(domain("ell"), pose)
-    monkeypatch.setattr(newton, "_WORK_PER_CALL", 1)
+    monkeypatch.setattr(newton, "WORK_PER_CALL", 1)
     seen: list[int] = []
     slow = solve(domain("ell"), pose, callback=lambda p: bool(seen.append(len(p.history))))
     assert seen == list(range(1, slow.iterations + 1))
@@ -375,7 +375,7 @@ def test_an_energy_may_be_named() -> None:
 
 
 def test_times_leave_compilation_out_and_the_start_is_known() -> None:
-    # An energy of its own, so that this solve surely compiles.
+    # A new class of energy, so this solve surely compiles.
     energy = CustomEnergy(lambda x, y: (x + y) * (1 + 1 / (x - y) ** 2) + 0.5 * y)
     result = solve(domain("ell"), Pose(ELL_HANDLES, ELL_TARGETS), energy)
     times = np.array([entry.time for entry in result.history])
@@ -385,7 +385,7 @@ def test_times_leave_compilation_out_and_the_start_is_known() -> None:
 
 
 def test_the_last_hessian_of_a_result_serves_the_next_solve() -> None:
-    """A drag's first step needs no Hessian of its own; where it ends is the same."""
+    """A drag's first step reuses the Hessian, and ends at the same minimum."""
     before = ring()
     assert before.factor is not None
     moved = before.pose.with_targets(RING_TARGETS + np.array([[0.02, 0.0], [0, 0], [0, 0]]))
@@ -393,7 +393,7 @@ def test_the_last_hessian_of_a_result_serves_the_next_solve() -> None:
     assert by_result.status is Status.CONVERGED
     assert by_result.energy == pytest.approx(by_map.energy, rel=1e-8)
     check_certified(by_result)
-    # The Hessian of a minimum is positive definite, that of a later place need not be.
+    # The Hessian of a minimum is positive definite. That of a later place need not be.
     assert not by_result.history[0].hessian_modified
 
 
@@ -419,13 +419,13 @@ def test_steps_that_creep_to_a_fold_end_a_solve(step: float, gain: float, ends: 
         Iteration(iteration=i, energy_distortion=float(e), energy_p2p=0.0, time=0.0, step=step)
         for i, e in enumerate(energies)
     ]
-    assert newton._has_stalled(entries) is ends
-    assert not newton._has_stalled(entries[:4])
+    assert newton.has_stalled(entries) is ends
+    assert not newton.has_stalled(entries[:4])
 
 
 @pytest.mark.parametrize(("size", "weight"), [(1, 1e11), (1, 1e16), (1, 1e300), (1e6, 1e5)])
 def test_a_weight_beside_which_distortion_is_rounded_off(size: float, weight: float) -> None:
-    """However large the weight, in whatever unit: the minimum is that of a moderate one."""
+    """However large the weight, in any unit, the minimum is that of a moderate weight."""
     bar = Domain.from_cage(Cage(size * np.array([[-10, -1], [10, -1], [10, 1], [-10, 1]])))
     handles, targets = [[-9, 0], [0, 0], [9, 0]], [[-6, 2], [0, 0], [4, 6]]
     pose = Pose(size * np.array(handles), size * np.array(targets))

@@ -1,4 +1,4 @@
-"""Stiff areas: what they are, how they weigh, and that they stay as they are."""
+"""Stiff areas: their strokes, their weights, and that they keep their shape."""
 
 from __future__ import annotations
 
@@ -23,9 +23,9 @@ from glid_nb.solvers.hessian import assemble, local_hessian
 from glid_nb.solvers.problem import real_coefficients
 from glid_nb.solvers.stiffness import NODES, stiff_matrices
 
-from ..domains import domain, random_map, real, reference
-from ..reference_map import points_inside
-from .checks import check_certified
+from ..support.checks import check_certified
+from ..support.domains import domain, random_map, real, reference
+from ..support.reference_map import points_inside
 
 HEADS = {"ell": ([[-2.2, 2.2], [-1.6, 2.4]], 1.4), "ring": ([[2.2, 0.4]], 1.3)}
 """By their domains: the lines and the radii of strokes."""
@@ -182,7 +182,7 @@ def test_a_stiff_head_keeps_its_shape(name: str) -> None:
     assert ratio[inside].max() < 1.1
     assert ratio.max() > 1.5
     np.testing.assert_allclose(stiff.map(HANDLES[name]), stiff.pose.targets, atol=1e-3)
-    if name == "ell":  # painting more compiles nothing, a batch does the same
+    if name == "ell":  # painting more compiles nothing, and neither does a batch
         assert compiled_by_more_paint() == 0
         (other,) = solve_batch(domain(name), [posed(name, head(name))], options=OPTIONS)
         assert other.energy == pytest.approx(stiff.energy, rel=1e-9)
@@ -192,7 +192,7 @@ def compiled_by_more_paint() -> int:
     before = compilation_clock().programs
     more = head("ell").painted([[-1, -1], [0, -2]], 0.7, 0.4).painted([[-2, 2]], 0.2, 0)
     first = solve(domain("ell"), posed("ell", more), options=OPTIONS)
-    # Going on from a result with its Hessian of other weights.
+    # Continuing from a result whose Hessian has other weights.
     again = solve(domain("ell"), posed("ell", head("ell")), options=OPTIONS, start=first)
     assert first.status.ok
     assert again.status.ok

@@ -19,8 +19,8 @@ from glid_nb.solvers.problem import (
     unknowns_of,
 )
 
-from ..domains import NAMES, domain, random_map, reference
-from ..reference_map import cauchy, points_inside
+from ..support.domains import NAMES, domain, random_map, reference
+from ..support.reference_map import cauchy, points_inside
 from .dense import dense_expansion
 
 
@@ -112,7 +112,7 @@ def test_canonical_is_the_same_map(name: str, size: float, seed: int) -> None:
     np.testing.assert_allclose(
         reference(same).f(z), reference(map).f(z), rtol=1e-10, atol=1e-10 * (1 + size)
     )
-    # What is left is a combination of the unknowns, so that a solve can move it anywhere.
+    # The rest is a combination of the unknowns, so a solve can move it anywhere.
     t = dense_expansion(map.domain)
     y = np.concatenate([same.phi.real, same.phi.imag, same.psi.real, same.psi.imag])
     u = np.linalg.lstsq(t, y, rcond=None)[0]

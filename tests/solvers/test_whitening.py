@@ -21,7 +21,7 @@ from glid_nb.solvers.line_search import INDEFINITE
 from glid_nb.solvers.problem import expand, unknowns_of
 from glid_nb.solvers.whitening import coefficients, pulled_back, whitened
 
-from ..domains import divided, domain
+from ..support.domains import divided, domain
 
 pytestmark = pytest.mark.slow  # most of the time is compiling
 
@@ -50,10 +50,10 @@ def test_derivatives_of_the_new_basis_are_orthonormal(name: str, sampling: str) 
     gram = d.conj().T @ (weights[:, None] * d)
     expected = np.eye(len(single_valued))
     np.testing.assert_allclose(gram[np.ix_(single_valued, single_valued)], expected, atol=1e-6)
-    # Logarithms are of unit length and orthogonal to the others, not to one another.
+    # Logarithms have unit length and are orthogonal to the others, not to one another.
     np.testing.assert_allclose(gram[logarithms, logarithms], 1, atol=1e-6)
     np.testing.assert_allclose(gram[np.ix_(single_valued, logarithms)], 0, atol=1e-6)
-    # No derivative knows of a translation.
+    # Derivatives do not depend on a translation.
     np.testing.assert_allclose(d[:, 0], 0, atol=1e-9)
 
 
@@ -130,7 +130,7 @@ def test_only_the_translation_moves_the_anchor(name: str, sampling: str) -> None
 def test_a_fine_cage_keeps_the_hessian_definite_in_single_precision(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    """More vertices than pairs of panels have nodes for: no second Hessian is tried."""
+    """More vertices than the panels have nodes for: no second Hessian is tried."""
     run, outcomes = step.run, []
 
     def noted(*arguments: Any, **options: Any) -> step.State:
@@ -151,7 +151,8 @@ def test_a_fine_cage_keeps_the_hessian_definite_in_single_precision(
 
 
 def test_a_finely_divided_cage_does_not_stop_the_solver() -> None:
-    """What oscillates along it is no coordinate; the rest reaches the same minimum or a lower."""
+    """Functions that oscillate along it are no coordinates. The rest reaches the same energy or a
+    lower one."""
     pose = Pose([[-2, -2], [2, -2], [-2, 2]], [[-2, -2], [2, -1.5], [-1.5, 2]])
     coarse, fine = domain("ell"), divided(domain("ell"), lambda n: np.full(n, 24))
     t = np.asarray(discretise(fine).matrices.whitening)
@@ -161,12 +162,12 @@ def test_a_finely_divided_cage_does_not_stop_the_solver() -> None:
     assert result.status is Status.CONVERGED
     assert result.energy < 1.01 * least.energy
     assert result.iterations <= least.iterations + 3
-    # Coefficients leave the map its digits.
+    # The coefficients are so small that the map keeps its digits.
     rounding = np.finfo(float).eps * np.abs(result.map.phi).max()
     assert rounding < 1e-13 * np.abs(fine.cage.exterior).max()
 
 
-# One edge divided so finely that some coordinates are steep, the others whole.
+# One edge is divided so finely that some coordinates are steep. The others are not divided.
 UNEVEN = (1, 18, 1, 1, 1, 1)
 UNEVEN_POSE = Pose([[2.8, -2.5], [2.8, -0.5], [-2, 2]], [[2.2, -2.5], [3.2, -1.2], [-1.5, 2]])
 
@@ -184,7 +185,7 @@ def test_a_solve_puts_steep_coordinates_back_that_lower_the_minimum(
     result = solve(uneven(), UNEVEN_POSE, options=options)
     assert result.discretisation is not None
     assert result.discretisation.whitening.steep.shape[1] < begun.steep.shape[1]
-    monkeypatch.setattr(whitening, "_STEEP", 1e-12)
+    monkeypatch.setattr(whitening, "STEEP", 1e-12)
     discretise.cache_clear()
     whole = solve(uneven(), UNEVEN_POSE, options=options)
     discretise.cache_clear()
@@ -219,10 +220,10 @@ def test_the_papers_settings_keep_the_whole_subspace() -> None:
 
 
 def test_what_gains_nothing_is_not_put_back() -> None:
-    """Rigid targets: all steep coordinates stay away."""
+    """Rigid targets: all steep coordinates stay out."""
     moved = Pose(UNEVEN_POSE.handles, UNEVEN_POSE.handles + np.array([0.5, 0.2]))
     fine = uneven()
     result = solve(fine, moved, options=Options(restarts=0))
     assert result.status is Status.CONVERGED
-    # Named as a solve names them, for what is kept goes by the arguments.
+    # Called with the names that a solve uses, because the cache goes by the arguments.
     assert result.discretisation is discretise(fine, "graded", "hermite")

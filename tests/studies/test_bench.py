@@ -1,4 +1,4 @@
-"""The benchmarks run from end to end and write their tables; no number is judged here."""
+"""The benchmarks run from end to end and write their tables. No number is judged here."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ def test_what_noise_outweighs_has_no_exponent() -> None:
 
 @pytest.fixture
 def bench(tmp_path: Path, problems: Path) -> Callable[..., None]:
-    """Measures some parts, as quickly as can be, into the folder ``speed``."""
+    """Measures some parts, as quickly as possible, into the folder ``speed``."""
     words = ["bench", "--quick", "--repeats", "1", "--reference", str(problems)]
 
     def measured(*names: str) -> None:
@@ -86,7 +86,7 @@ def test_bench_writes_its_tables(bench: Callable[..., None], tmp_path: Path) -> 
     page.unlink()
     main(["bench", "--render", "--out", str(out)])
     assert page.read_text() == text
-    # What is there is not measured again, unless the settings differ.
+    # Existing measurements are not repeated, unless the settings differ.
     before = kept.stat().st_mtime_ns
     bench("solves")
     assert kept.stat().st_mtime_ns == before

@@ -22,8 +22,8 @@ from studies.compare.minimum import NoMinimumError
 from studies.runs import VISIBLE
 from studies.study import Plan
 
-from ..methods.problems import problem, run_method
-from ..reference_map import ReferenceMap
+from ..support.problems import problem, run_method
+from ..support.reference_map import ReferenceMap
 
 pytestmark = pytest.mark.slow  # most of the time is compiling
 
@@ -101,16 +101,16 @@ def test_progress_from_measurement_to_table(tmp_path: Path) -> None:
     found = runs["newton"]["reached"]
     assert 0 < found["energy"]["iteration"] <= found["map"]["iteration"]
     assert found["map"]["time"] <= runs["newton"]["time"][-1]
-    # Each row ends with the map of the run whose numbers stand beside it.
+    # Each row ends with the map of the run whose numbers are beside it.
     for method in ("newton", "newton-eigen", "newton-unmodified"):
         assert runs[method]["thumbnails"][-1] == runs[method]["iterations"]
-    # The mesh has far more unknowns, and its minimum the lower energy; both are of one basin.
+    # The mesh has many more unknowns, so its minimum has the lower energy. Both are in one basin.
     ours, below = runs["newton"]["area_mean"], data["area_mean_below_ours"]
     assert 2 <= runs["aqp"]["area_mean"] < ours
     assert 2 <= below < ours
     aqp = runs["aqp"]
     assert aqp["most_flips"] == 0
-    # On so small a mesh it is there in time, and where Newton's method on the mesh goes.
+    # On so small a mesh, AQP reaches the minimum of Newton's method on the mesh in time.
     assert aqp["reached"]["map"] is not None
     assert aqp["left"] < VISIBLE
     assert aqp["minimum"] <= aqp["energy"][-1] <= aqp["minimum"] * (1 + 1e-3)

@@ -1,4 +1,4 @@
-"""Densities, and their mean over one area for maps of different kinds."""
+"""Densities, and their means over one area for maps of different kinds."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from studies.distortion import (
     mesh_area_mean,
 )
 
-from ..methods.problems import problem, run_method
+from ..support.problems import problem, run_method
 
 DOMAIN, POSE = problem("ell")
 

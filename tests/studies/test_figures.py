@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from glid_nb.geometry import triangulate
 from studies import figures
 
-from ..methods.problems import problem
+from ..support.problems import problem
 
 MESH = triangulate(problem("ell")[0].cage, 60)
 
@@ -20,7 +20,7 @@ MESH = triangulate(problem("ell")[0].cage, 60)
 def test_a_bar_says_where_colours_end(stretch: float, extended: str) -> None:
     figure = figures.figure(4, 2)
     axes = figure.subplots(1, 2)
-    # The map that exceeds the range need not be the one that the bar is made of.
+    # The map that exceeds the range need not be the one from which the bar is made.
     figures.draw_map(axes[0], MESH, MESH.vertices * [stretch, 1], most=4)
     last = figures.draw_map(axes[1], MESH, MESH.vertices, most=4)
     before = set(figure.axes)
@@ -50,7 +50,7 @@ def test_a_picture_is_whole_or_the_one_before(
     assert b"IEND" in whole
 
     def interrupted(_: Figure, target: object, **__: object) -> None:
-        # Whether it is told a path or a file, half of the picture is written.
+        # Half of the picture is written, whether a path or a file is given.
         if isinstance(target, str | Path):
             Path(target).write_bytes(whole[:20])
         raise KeyboardInterrupt

@@ -14,12 +14,12 @@ from studies.cases import Case
 from studies.compare import folding
 from studies.study import Plan
 
-from ..methods.problems import problem
+from ..support.problems import problem
 
 
 def test_the_outline_is_the_boundary() -> None:
     mesh = triangulate(problem("ring")[0].cage, 120)
-    edges = folding._outline(mesh.triangles)
+    edges = folding.outline_of(mesh.triangles)
     assert len(edges) == mesh.n_boundary
     np.testing.assert_array_equal(np.unique(edges), np.arange(mesh.n_boundary))
 

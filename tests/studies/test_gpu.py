@@ -1,4 +1,4 @@
-"""The study on a GPU, tried from end to end on the CPU; no number is judged here."""
+"""The study on a GPU, run from end to end on the CPU. No number is judged here."""
 
 from __future__ import annotations
 
@@ -66,7 +66,7 @@ def test_a_stopped_process_leaves_what_it_has_printed() -> None:
     assert time.perf_counter() - began < 50
     assert printed.ending == "stopped after 10 s"
     assert printed.lines == ["{}\n", "{"]
-    assert run._lines(printed)["rows"] == [{}]
+    assert run.lines_of(printed)["rows"] == [{}]
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="there are no sessions of processes")
@@ -151,7 +151,7 @@ def test_energies_that_differ_are_said_to() -> None:
     for energy, same in ((2.0 + 1e-9, "yes"), (2.0 + 1e-7, "no")):
         (row,) = tables({"solves-device": rows(energy), "solves-cpu": rows(2.0)})["agreement"]
         assert row["same"] == same
-    # One device alone is a table, too: the study was stopped before the other.
+    # One device alone gives a table, too: the study was stopped before the other.
     (row,) = tables({"solves-device": rows(2.0)})["agreement"]
     assert row["same"] is None
 
@@ -164,7 +164,7 @@ def test_the_page_has_a_place_for_every_table() -> None:
 
 @pytest.mark.skipif(sys.platform == "win32", reason="a shell script")
 def test_the_script_names_what_is_missing(tmp_path: Path) -> None:
-    """With a Python that has none of the libraries and no folder of wheels."""
+    """With a Python without the libraries, and without a folder of wheels."""
     root = tmp_path / "checkout"
     (root / "tools").mkdir(parents=True)
     shutil.copy(DOCS.parent / "tools" / "gpu.sh", root / "tools")

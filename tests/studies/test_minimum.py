@@ -14,7 +14,7 @@ from glid_nb.solvers import Result
 from studies.compare import minimum
 from studies.compare.minimum import Constraints, NoMinimumError, mesh_minimum
 
-from ..methods.problems import problem, run_method
+from ..support.problems import problem, run_method
 
 pytestmark = pytest.mark.slow  # most of the time is compiling
 
@@ -89,6 +89,6 @@ def test_what_cannot_be_minimised_is_refused(monkeypatch: pytest.MonkeyPatch) ->
     turned = MeshMap(start.triangulation, start.images * [-1, 1])
     with pytest.raises(NoMinimumError, match="inverted triangles"):
         mesh_minimum(turned, POSE, SymmetricDirichlet(), "soft")
-    monkeypatch.setattr(minimum, "_ITERATIONS", 1)
+    monkeypatch.setattr(minimum, "ITERATIONS", 1)
     with pytest.raises(NoMinimumError, match="after 1 iterations"):
         mesh_minimum(map_of("aqp", 1), POSE, SymmetricDirichlet(), "hard")

@@ -1,4 +1,4 @@
-"""What is measured of motions between two poses."""
+"""The measurements of motions between two poses."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ def test_a_pose_and_random_motions_are_measured(
     problems: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("studies.motion.names", list)  # no bundled samples
-    monkeypatch.setattr("studies.motion._TIMES", 5)
+    monkeypatch.setattr("studies.motion.TIMES", 5)
     out = tmp_path / "out"
     main(["motion", "--quick", "--repeats", "1", "--reference", str(problems), "--out", str(out)])
     (bar,) = rows(out / "between.csv")

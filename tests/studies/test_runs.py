@@ -1,4 +1,4 @@
-"""What is kept of a run, and when a method counts as being there."""
+"""What is kept of a run, and when a method counts as converged."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from studies.cases import Case
 from studies.compare.progress import ended_by
 from studies.runs import VISIBLE, Watcher, outcome, reached, run, thumbnails
 
-from ..methods.problems import problem, run_method
+from ..support.problems import problem, run_method
 
 pytestmark = pytest.mark.slow  # most of the time is compiling
 
@@ -72,7 +72,7 @@ def test_a_method_is_there_when_it_stays_there() -> None:
     moved = [0.0, far, near, far, near]
     found = reached(distance, moved, energy, 1.0, converged=False)
     assert found == {"energy": 4, "rest": 3, "map": 3}
-    # Kept iterates alone are known: the next one counts.
+    # Only kept iterates are known, so the next one counts.
     assert reached({0: far, 2: far, 4: near}, moved, energy, 1.0, False)["map"] == 4
 
 

@@ -1,4 +1,4 @@
-"""Timings: what is called, how often and in which order."""
+"""Timings: what is called, how often, and in which order."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ def test_functions_take_turns() -> None:
     calls: list[str] = []
     functions = {"a": lambda: calls.append("a"), "b": lambda: calls.append("b")}
     timings = timed_in_turn(functions, repeats=3)
-    assert calls == ["a", "b"] * 4  # the first of each warms up
+    assert calls == ["a", "b"] * 4  # the first call of each is a warm-up
     assert {name: timing["runs"] for name, timing in timings.items()} == {"a": 3, "b": 3}
     for timing in timings.values():
         assert 0 <= timing["least"] <= timing["low"] <= timing["median"] <= timing["high"]

@@ -1,4 +1,4 @@
-"""Fixtures of the tests that drive a real browser; see tests/browser.py."""
+"""Fixtures of the tests that drive a real browser; see tests/support/browser.py."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 from playwright.sync_api import Browser, Page
 
-from ..browser import (
+from ..support.browser import (
     JupyterServer,
     LabNotebook,
     NotebookPage,
@@ -87,13 +87,14 @@ def open_notebook(
 
 @pytest.fixture
 def sent(monkeypatch: pytest.MonkeyPatch) -> list[Any]:
-    """What widgets send to the page from now on: pairs of data and buffers."""
-    from ipywidgets import Widget
+    """The messages that widgets send to the page from now on: pairs of data and buffers."""
+    from comm import DummyComm
 
     messages: list[Any] = []
 
-    def send(_: Any, message: dict[str, Any], buffers: Any = None) -> None:
-        messages.append((message, list(buffers or [])))
+    def publish(_: Any, kind: str, data: Any = None, buffers: Any = None, **__: Any) -> None:
+        if kind == "comm_msg":
+            messages.append((data, list(buffers or [])))
 
-    monkeypatch.setattr(Widget, "_send", send)
+    monkeypatch.setattr(DummyComm, "publish_msg", publish)
     return messages

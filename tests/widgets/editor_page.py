@@ -1,4 +1,4 @@
-"""Driving the deformation canvas in a page as a hand does."""
+"""Drive the deformation canvas in a page like a hand."""
 
 from __future__ import annotations
 
@@ -8,9 +8,9 @@ from typing import Any
 
 from playwright.sync_api import Locator
 
-from ..browser import NotebookPage
+from ..support.browser import NotebookPage
 
-# A bar of 16 x 4 units in a picture of 200 x 100 pixels, checked so that one sees where it goes.
+# A bar of 16 x 4 units in a picture of 200 x 100 pixels. The checks show where each part goes.
 SETUP = """
 import numpy as np
 import glid_nb as glid
@@ -30,7 +30,7 @@ canvas, model = editor.canvas, editor.deformation
 editor
 """
 
-# The WCAG's contrast of an element's text with what is behind it.
+# The contrast of an element's text with its background, by WCAG.
 _CONTRAST = """(element) => {
   const pen = Object.assign(document.createElement('canvas'), {width: 1, height: 1})
     .getContext('2d', {willReadFrequently: true});
@@ -72,7 +72,7 @@ _SHOWS = f"""async ([id, wanted, pad, view]) => {{
   return shown.length === wanted.length && shown.every((v, i) => Math.abs(v - wanted[i]) < 1e-6);
 }}"""
 
-# What the page's three.js geometry holds, a list of numbers.
+# The numbers in the page's three.js geometry.
 _ATTRIBUTE = f"""async (id) => {{
   const manager = await ({MANAGER})();
   return Array.from((await manager.get_model(id)).obj.array);
@@ -107,7 +107,7 @@ _PIXEL = """(pane, [u, v]) => {
 
 
 def contrast(text: Locator) -> float:
-    """Of a text with its background; 4.5 is what WCAG 2 asks for."""
+    """The contrast of a text with its background. WCAG 2 demands 4.5."""
     return text.evaluate(_CONTRAST)
 
 
@@ -152,7 +152,7 @@ class Hand:
         ]
 
     def wait_until_still(self) -> None:
-        """Wait until the page has stopped moving the pad, as it does after loading or resizing."""
+        """Wait until the page has stopped moving the pad, for example after loading or resizing."""
         self.pad.evaluate(_STILL)
 
     def click(self, point: Sequence[float], **options: Any) -> None:
@@ -201,7 +201,8 @@ class Hand:
         return self.page.evaluate(_ATTRIBUTE, identity)
 
     def wait_for_attribute(self, name: str, wanted: Sequence[float]) -> None:
-        """Wait until a vertex attribute is this, to float32, and a frame was drawn with it."""
+        """Wait until a vertex attribute has these values, to float32, and a frame was drawn with
+        it."""
         identity = self.book.value(
             f"{self.canvas}.pane.scene.picture.attributes[{name!r}].model_id"
         )
@@ -220,14 +221,14 @@ class Hand:
         self.page.evaluate(_FRAMES)
 
     def wait_for_color(self, point: Sequence[float], wanted: Callable[[list[int]], bool]) -> None:
-        """Wait until the canvas' colour below a point of the world is what is wanted."""
+        """Wait until the canvas has this colour at a point of the world."""
         end = time.monotonic() + 20
         while not wanted(seen := self.color_at(point)):
             assert time.monotonic() < end, f"at {point} the canvas shows {seen}"
             self.page.evaluate(_FRAMES)
 
     def color_at(self, point: Sequence[float]) -> list[int]:
-        """RGBA of the canvas below a point of the world."""
+        """RGBA of the canvas at a point of the world."""
         x, y = self.place(point)  # which may scroll
         box = self.pad.bounding_box()
         assert box is not None

@@ -13,7 +13,7 @@ import glid_nb as glid
 from glid_nb.session.deformation import Deformation
 from glid_nb.widgets import TimelinePanel
 
-from ..domains import domain
+from ..support.domains import domain
 
 PICTURE = np.full((40, 40, 4), 255, np.uint8)
 

@@ -1,11 +1,11 @@
-"""The browser tests' own tools: a fault must not go unnoticed."""
+"""The browser tests' own tools must not miss a fault."""
 
 from __future__ import annotations
 
 import pytest
 from playwright.sync_api import Browser
 
-from ..browser import LabNotebook, watched_page
+from ..support.browser import LabNotebook, watched_page
 from .conftest import OpenNotebook
 
 pytestmark = [pytest.mark.browser, pytest.mark.slow]

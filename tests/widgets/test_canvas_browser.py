@@ -52,7 +52,7 @@ def test_click_drag_undo_and_redo(open_notebook: OpenNotebook) -> None:
     hand.page.mouse.up()
     assert hand.targets == after
     assert book.value("len(model.history.past)") == steps
-    # The right button opens a menu: of the shape, of a pin. A click elsewhere only closes it.
+    # The right button opens a menu of the shape or of a pin. A click elsewhere only closes it.
     menu = hand.pad.get_by_role("menu")
     hand.click([-3.0, 1.0], button="right")
     book.screenshot("editor-menu-of-the-shape")
@@ -80,7 +80,7 @@ def test_click_drag_undo_and_redo(open_notebook: OpenNotebook) -> None:
     menu.get_by_role("menuitem", name="Remove", exact=False).first.click()
     book.wait_for("len(model.pose) == 2")
     hand.settle()
-    # F fits, and what is drawn is where it should be.
+    # F fits the view, and the drawing is in the right place.
     view = book.value("list(canvas.pane.stage.view)")
     hand.page.keyboard.press("f")
     book.wait_for(f"list(canvas.pane.stage.view) != {view}")
@@ -103,7 +103,7 @@ def test_controls_and_overlays(open_notebook: OpenNotebook) -> None:
     hand.drag(line(THREE[1], [5.0, 2.5], 10))
     hand.wait_for_target(1, [5.0, 2.5])
     page = book.page
-    # Each plot has a name and says what it shows, on hover and by its "?".
+    # Each plot has a name and an explanation, on hover and by its "?".
     for name, place in (("Energy", "Section 6"), ("Steps", "Section 9.2"), ("Time", "Section 10")):
         about = page.get_by_label(f"About the plot: {name}")
         assert place in (about.get_attribute("title") or "")
@@ -113,7 +113,7 @@ def test_controls_and_overlays(open_notebook: OpenNotebook) -> None:
         about.click()
         page.locator(".glid-guide p", has_text=place).wait_for(state="hidden")
     page.locator(".lm-TabBar-tabLabel", has_text="Solver").click()
-    # Single steps say what each did.
+    # Single steps report what they did.
     page.get_by_title("Let the solver wait").click()
     book.value("None", setup="model.drag(1, to=(5.5, 2.0))")
     page.get_by_title("One frame's iterations").click()
@@ -134,7 +134,7 @@ def test_controls_and_overlays(open_notebook: OpenNotebook) -> None:
     energy.select_option(label="Symmetric Dirichlet")
     hand.settle()
 
-    # Another method, whose map of a mesh is drawn in place of the certified one.
+    # Another method. Its map of a mesh is drawn in place of the certified one.
     before = hand.targets
     method = page.locator(".glid-method select")
     method.select_option(label="Moving least squares · linear")
@@ -196,7 +196,7 @@ def test_controls_and_overlays(open_notebook: OpenNotebook) -> None:
     book.screenshot("editor-source")
     page.locator(".glid-tools button", has_text="Source").click()
     book.wait_for("canvas.source is None")
-    # The line in words.
+    # The status line.
     page.locator(".glid-editor").get_by_text("Converged").first.wait_for()
 
 
@@ -247,7 +247,7 @@ def test_by_keyboard_alone(open_notebook: OpenNotebook) -> None:
     assert hand.pad.evaluate("pad => pad === document.activeElement")
     keys.press("0")
     book.wait_for("abs(model.pose.targets - model.pose.handles).max() == 0")
-    # The notebook did not take the keys for its own.
+    # The notebook did not use the keys itself.
     assert len(book.value("get_ipython().history_manager.input_hist_raw[1:3]")) == 2
     keys.press("Control+z")
     keys.press("Control+z")
@@ -268,7 +268,7 @@ def test_touch_drags_and_pinches(open_notebook: OpenNotebook) -> None:
         touch("touchEnd")
     book.wait_for("len(model.pose) == 2")
     hand.settle()
-    # Without pausing at the start, which would be a long press.
+    # No pause at the start, which would be a long press.
     first, *others = hand.places(line(THREE[1], [6.5, 2.0], 4))
     touch("touchStart", first)
     for place in others:
@@ -302,6 +302,23 @@ def test_touch_drags_and_pinches(open_notebook: OpenNotebook) -> None:
     np.testing.assert_allclose(hand.place([1.0, 0.5]), target, atol=0.5)
 
 
+# The box for the numbers of pins, above the canvas.
+NUMBERS = "editor.tabs.children[1].children[0].children[0].children[1]"
+PREPARED_AS_TOLD = """
+import threading
+from glid_nb._runtime import stage
+from glid_nb.session import live_solver
+may_solve, solve = threading.Event(), live_solver.solve
+
+def prepared(*arguments, **named):
+    stage("compile")
+    may_solve.wait(60)
+    return solve(*arguments, **named)
+
+live_solver.solve = prepared
+"""
+
+
 def test_the_canvas_says_that_it_is_warming_up_and_takes_pins_meanwhile(
     open_notebook: OpenNotebook,
 ) -> None:
@@ -309,19 +326,20 @@ def test_the_canvas_says_that_it_is_warming_up_and_takes_pins_meanwhile(
     hand, page = Hand(book), book.page
     shown = page.locator(".glid-prepared")
     assert not shown.is_visible()
-    book.value("model._prepare(0.5)")
+    hand.settle()
+    book.value("None", setup=f"{PREPARED_AS_TOLD}model.add_handle({THREE[0]})")
     shown.get_by_text("Warming up: 50 %").wait_for()
-    # In sight where the cell was just run: at the canvas's top, below the hint.
+    # Visible right after the cell was run: at the top of the canvas, below the hint.
     pad, hint, box = (one.bounding_box() for one in (hand.pad, page.locator(".glid-notice"), shown))
     assert pad is not None
     assert hint is not None
     assert box is not None
     assert hint["y"] + hint["height"] <= box["y"] < box["y"] + box["height"] < pad["y"] + 80
-    for point in THREE:
+    for point in THREE[1:]:
         hand.click(point)
     book.wait_for("len(model.pose) == 3")
     book.screenshot("editor-warming-up")
-    book.value("model._prepare(1.0)")
+    book.value("None", setup="live_solver.solve = solve; may_solve.set()")
     shown.wait_for(state="hidden")
     hand.settle()
     assert hand.certified()
@@ -336,7 +354,7 @@ def test_what_is_beside_the_canvas_neither_takes_undo_nor_moves_it(
     for point in THREE:
         hand.click(point)
     book.wait_for("len(model.pose) == 3")
-    # Undo by keys, wherever in the editor the last click was, but not out of a text field.
+    # Undo by keys works wherever in the editor the last click was, except in a text field.
     elsewhere = (
         page.locator(".glid-tools button", has_text="Cage"),
         page.get_by_role("tab", name="Solver"),
@@ -348,7 +366,7 @@ def test_what_is_beside_the_canvas_neither_takes_undo_nor_moves_it(
         book.wait_for(f"len(model.pose) == {left}")
     page.keyboard.press("Control+Shift+Z")
     book.wait_for("len(model.pose) == 1")
-    # Also where a button of them ran out, which loses the focus.
+    # It also works after a button was disabled and so lost the focus.
     for title, counts, key, left in (
         ("Undo (Ctrl+Z)", (0,), "Control+Shift+Z", 1),
         ("Redo (Ctrl+Shift+Z)", (2, 3), "Control+z", 2),
@@ -377,7 +395,7 @@ def test_what_is_beside_the_canvas_neither_takes_undo_nor_moves_it(
         parts = (".glid-pad", ".glid-files", ".glid-timeline")
         return [page.locator(f".glid-editor {part}").first.bounding_box() for part in parts]
 
-    # A long status moves nothing, and a notice lies beside the colour bar, at every width.
+    # A long status moves nothing, and a notice is beside the colour bar, at every width.
     book.value("None", setup="canvas.overlay = 'energy'; stage = canvas.pane.stage")
     page.locator(".glid-legend-bar").wait_for()
     for width in (1366, 800):
@@ -388,8 +406,8 @@ def test_what_is_beside_the_canvas_neither_takes_undo_nor_moves_it(
         book.value(
             "None", setup="stage.notice = 'So it is. ' * 9; stage.legend_corner = 'top left'"
         )
-        refusal = "editor._parts['pins'].children[0].refusal"
-        book.value("None", setup=f"{refusal}.value = '<div>Refused. </div>' * 9")
+        book.value("None", setup=f"bars = {NUMBERS}.children[0]")
+        book.value("None", setup="bars.children[0].refusal.value = '<div>Refused. </div>' * 9")
         page.locator(".glid-column .glid-refusal").get_by_text("Refused.").first.wait_for()
         notice = page.locator(".glid-notice", has_text="So it is.")
         notice.wait_for()

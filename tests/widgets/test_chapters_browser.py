@@ -1,4 +1,4 @@
-"""Chapters of the course in a browser: they run from top to bottom and show their figures."""
+"""Chapters of the course in a browser run from top to bottom and show their figures."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from typing import Any
 import nbformat
 import pytest
 
-from ..browser import LabNotebook, VoilaPage
+from ..support.browser import LabNotebook, VoilaPage
 from .conftest import OpenNotebook
 
 pytestmark = [pytest.mark.browser, pytest.mark.slow]

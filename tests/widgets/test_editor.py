@@ -39,8 +39,12 @@ from glid_nb.widgets import DeformCanvas, Editor, SolverMonitor
 from glid_nb.widgets.file_panel import OpenPanel
 from glid_nb.widgets.overlays import N_COLORS, OVERLAYS, color_range, legend
 from glid_nb.widgets.pane import emptiest_corner
+from glid_nb.widgets.pins import PinBar
 
-from ..domains import domain
+from ..support import from_page
+from ..support.domains import domain
+from ..support.preparation import FIRST_REPORT, Preparation
+from ..support.threads import NewThreads
 
 pytestmark = pytest.mark.slow  # most of the time is compiling
 
@@ -58,7 +62,7 @@ def bar() -> np.ndarray:
 
 @pytest.fixture(autouse=True)
 def no_cache(monkeypatch: pytest.MonkeyPatch) -> None:
-    """The process's JAX configuration stays as it is."""
+    """The process's JAX configuration stays unchanged."""
     monkeypatch.setattr("glid_nb.widgets.editor.enable_compilation_cache", lambda: None)
 
 
@@ -134,7 +138,7 @@ def test_the_headless_editor(editor: Editor, tmp_path: Path) -> None:
         assert "loop" not in picture.info  # the timeline plays once
     editor.load(path)
 
-    # Tracing anew is a step that undo takes back.
+    # Tracing again is a step that undo takes back.
     editor.trace(drop_holes=[[100.0, 50.0]])
     assert editor.deformation.state.domain.n_holes == 0
     assert editor.solve(TIMEOUT)
@@ -193,7 +197,7 @@ def test_kept_work_replaces_no_unsaved_work_unasked(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv("GLID_NB_DATA", str(tmp_path))
-    monkeypatch.setattr("glid_nb.widgets.file_panel._DOUBLE_CLICK", 0.0)
+    monkeypatch.setattr("glid_nb.widgets.file_panel.DOUBLE_CLICK", 0.0)
     first = Editor(bar(), n_vertices=300)
     first.deformation.paused = True
     first.add_handle((-7, 0))
@@ -285,6 +289,7 @@ def test_without_a_picture_it_asks_for_one() -> None:
 
 
 def test_the_canvas_shows_what_the_model_holds() -> None:
+    threads = NewThreads()
     image = np.full((60, 60, 4), 255, np.uint8)
     canvas = DeformCanvas(image, domain("ring"), n_vertices=200, show_source=True)
     model, stage = canvas.deformation, canvas.pane.stage
@@ -310,11 +315,12 @@ def test_the_canvas_shows_what_the_model_holds() -> None:
     assert "panels" in canvas.pane.scene.lines
     assert stage.panel_legend["title"] == "Certified σ₂ on the boundary"
     assert stage.panel_legend["ticks"] == ["≥ 0.5", "0.25", "0"]
-    canvas.overlay = "k"  # has a bar of its own
+    canvas.overlay = "k"  # k has its own colour bar
     assert stage.legend["title"] == "Dilatation k"
     assert stage.panel_legend
     assert stage.legend["colors"] != stage.panel_legend["colors"]
-    assert canvas.pane.scene.color_range[1] < 1  # a bend is seen, and the bar says so
+    # Even a bend is visible, and the bar shows the range.
+    assert canvas.pane.scene.color_range[1] < 1
     assert stage.legend["ticks"][-1] == f"{canvas.pane.scene.color_range[1]:g}"
     range_ = canvas.pane.scene.picture.material.uniforms["color_range"]["value"]
     assert range_ == list(canvas.pane.scene.color_range)
@@ -340,8 +346,10 @@ def test_the_canvas_shows_what_the_model_holds() -> None:
     canvas.show_source = False
     assert canvas.source is None
     canvas.close()
-    model._worker.thread.join(TIMEOUT)  # closing does not wait for it
-    assert not model._worker.thread.is_alive()
+    solver = threads.named("live solver")
+    if solver is not None:
+        solver.join(TIMEOUT)  # closing does not wait for it
+        assert not solver.is_alive()
 
 
 _FIRST_CANVAS = """
@@ -363,14 +371,15 @@ assert clock.programs == 0, clock.programs
 assert editor.monitor.image.format == "svg+xml"
 assert b"Certificate" in bytes(editor.monitor.image.value)
 assert len(widget._instances) <= 100, len(widget._instances)
-boxes = [editor.tabs.children[0], *editor._side.children[1:]]
+left, right = editor.tabs.children[1].children[0].children
+boxes = [editor.tabs.children[0], *right.children[0].children[1:]]
 editor.canvas.pane.stage.drawn = True
 # The first drag comes before plots and hidden tabs.
 editor.deformation.begin_drag([editor.deformation.add_handles([[4, 0], [-4, 0]])[0]])
 editor.deformation.drag_to([[4.5, 0.5]])
 assert editor.solve(120)
 assert editor.deformation.moment.frame.history
-assert editor.monitor._worker.wait(0.5) is False
+assert editor.monitor.refresh(0.5) is False
 assert "matplotlib" not in sys.modules
 assert not any(box.children for box in boxes)
 editor.deformation.end_drag()
@@ -391,44 +400,80 @@ def test_the_first_canvas_waits_for_no_more_than_it_needs(tmp_path: Path) -> Non
     assert done.returncode == 0, done.stderr
 
 
+def columns(editor: Editor) -> tuple[Any, Any]:
+    """The canvas with everything above and below it, and the column beside it."""
+    left, right = editor.tabs.children[1].children[0].children
+    return left, right
+
+
+def side(editor: Editor) -> Any:
+    """The tabs beside the canvas."""
+    return columns(editor)[1].children[0]
+
+
+def numbers(editor: Editor) -> Any:
+    """The box for the numbers of pins and for the brush, above the canvas."""
+    return columns(editor)[0].children[1]
+
+
 def test_what_a_hidden_tab_holds_is_there_for_who_asks(editor: Editor) -> None:
     tracer, panel, files = editor.tracer, editor.solver_panel, editor.files
     assert editor.tabs.children[0].children == (tracer,)
-    assert [box.children for box in editor._side.children[1:]] == [(panel,), (files,)]
+    assert [box.children for box in side(editor).children[1:]] == [(panel,), (files,)]
     assert (editor.tracer, editor.solver_panel, editor.files) == (tracer, panel, files)
 
 
 def test_a_tab_is_filled_when_it_is_chosen(editor: Editor) -> None:
-    box = editor._side.children[1]
+    box = side(editor).children[1]
     assert box.children == ()
-    editor._side.selected_index = 1
+    side(editor).selected_index = 1
     assert box.children == (editor.solver_panel,)
 
 
-def test_the_numbers_come_when_the_first_gesture_has_ended(
-    editor: Editor, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    canvas, numbers = editor.canvas, editor._boxes["pins"]
+def test_the_numbers_come_when_the_first_gesture_has_ended(editor: Editor) -> None:
+    canvas, box = editor.canvas, numbers(editor)
     assert canvas is not None
     editor.deformation.paused = True
     where = {"x": -7.0, "y": 0.0, "button": 0, "shift": False, "reach": 0.3, "unit": 0.02}
-    for step in (0.0, 0.5, 1.0):  # nothing takes the processor from the first drag
+    for step in (0.0, 0.5, 1.0):  # so the first drag has the processor for itself
         canvas.handle([{**where, "type": "move" if step else "down", "x": where["x"] + step}])
-        assert numbers.children == ()
+        assert box.children == ()
     canvas.handle([{**where, "type": "up"}])
     assert len(editor.pose) == 1
-    assert len(numbers.children) == 1
-    # With no lock held, which another thread may hold that wants the editor's.
-    depths = []
-    monkeypatch.setattr(editor, "_fill", lambda _: depths.append(editor.deformation._depth))
-    canvas.handle([{**where, "type": "key", "key": "b"}])
-    assert set(depths) == {0}
+    assert len(box.children) == 1
+
+
+@pytest.mark.parametrize("event", [{"type": "up"}, {"type": "key", "key": "b"}])
+def test_the_numbers_are_made_without_the_models_lock(
+    editor: Editor, event: dict[str, str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Another thread may hold the model's lock and wait for the editor's."""
+    free: list[bool] = []
+
+    def made(model: Deformation) -> PinBar:
+        taken = threading.Event()
+
+        def take() -> None:
+            with model.locked():
+                taken.set()
+
+        threading.Thread(target=take, daemon=True).start()
+        free.append(taken.wait(5.0))
+        return PinBar(model)
+
+    monkeypatch.setattr("glid_nb.widgets.editor.PinBar", made)
+    editor.deformation.paused = True
+    where = {"x": -7.0, "y": 0.0, "button": 0, "shift": False, "reach": 0.3, "unit": 0.02}
+    if event["type"] == "up":
+        editor.canvas.handle([{**where, "type": "down"}])
+    editor.canvas.handle([{**where, **event}])
+    assert free == [True]
 
 
 def test_the_numbers_come_with_the_brush(editor: Editor) -> None:
-    assert editor._boxes["pins"].children == ()
+    assert numbers(editor).children == ()
     editor.toolbar.stiff.value = True
-    assert len(editor._boxes["pins"].children) == 1
+    assert len(numbers(editor).children) == 1
 
 
 def test_a_part_that_cannot_be_made_says_why_in_its_place(
@@ -439,16 +484,16 @@ def test_a_part_that_cannot_be_made_says_why_in_its_place(
 
     caught: list[Any] = []
     monkeypatch.setattr(threading, "excepthook", caught.append)
-    monkeypatch.setattr("glid_nb.widgets.monitor._REST", 0.0)
+    monkeypatch.setattr("glid_nb.widgets.monitor.REST", 0.0)
     with monkeypatch.context() as patched:
         patched.setattr("glid_nb.widgets.editor.PinBar", fail)
         assert editor.solve(TIMEOUT)
         assert editor.monitor.refresh(TIMEOUT)
-        [said] = editor._boxes["pins"].children
+        [said] = numbers(editor).children
         assert "ValueError: no such &lt;option&gt;" in said.value
         assert [str(report.exc_value) for report in caught] == ["no such <option>"]  # for the log
     editor.toolbar.stiff.value = True
-    assert said not in editor._boxes["pins"].children
+    assert said not in numbers(editor).children
 
 
 def test_the_colours_are_those_of_the_figures() -> None:
@@ -508,7 +553,6 @@ def test_a_frame_that_comes_late_finds_the_canvas_closed() -> None:
 
 def test_the_numbers_of_pins_and_the_model_show_each_other() -> None:
     from glid_nb.session.deformation import Deformation
-    from glid_nb.widgets.pins import PinBar
 
     with Deformation(domain("ring"), begin=False) as model:
         model.paused = True  # nothing here needs a solve
@@ -589,7 +633,7 @@ def test_the_panel_and_the_model_show_each_other() -> None:
         assert model.state.current.options.p2p_weight == 1e3
         panel.options.controls["hessian"].value = "projected"
         assert model.state.current.options.hessian == "projected"
-        # The method, its own settings, and which of the options count for it.
+        # The method, its own settings, and the options that matter for it.
         panel.method.value = "gauss-newton"
         assert "cannot minimise the energy" in panel.refusal.value
         assert panel.method.value == "newton"
@@ -636,7 +680,7 @@ def test_wrong_arguments_are_refused_and_leave_nothing(
     if "path" not in arguments:
         with pytest.raises(kind, match=message.replace("240", "100")):
             DeformCanvas(bar(), domain("ell"), **arguments)
-    gc.collect()  # what is dropped would complain here: warnings are errors
+    gc.collect()  # warnings are errors, so a dropped canvas that complains fails here
     assert _widgets() == before
 
 
@@ -730,7 +774,7 @@ def test_colour_ranges_fit_the_map_in_round_steps() -> None:
     one = np.ones(100)
 
     def end(name: str, stretch: float, **least: tuple[float, float]) -> float:
-        """Where the colours of a map end that stretches one direction."""
+        """The ends of the colours for a map that stretches one direction."""
         fz, fzb = one * (stretch + 1) / 2, one * (stretch - 1) / 2
         return color_range(name, energy, fz, fzb, **least)[1]
 
@@ -756,7 +800,7 @@ def test_a_cell_with_picture_and_file_can_run_again(tmp_path: Path) -> None:
 def test_a_cell_that_runs_again_stops_the_solver_of_its_first_editor(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    """From its beginning on; where it raises, the first editor goes on."""
+    """The new editor stops it from the beginning on. If that raises, the first editor goes on."""
     begun, may_end, busy, run = Queue[None](), Queue[None](), list[bool](), itertools.count()
 
     def prepared(*_: object, **__: object) -> None:
@@ -770,8 +814,8 @@ def test_a_cell_that_runs_again_stops_the_solver_of_its_first_editor(
             super().__init__(*arguments, **named)
 
     monkeypatch.setattr("glid_nb.session.live_solver.solve", prepared)
-    monkeypatch.setattr("glid_nb.widgets.closing._made", {})
-    monkeypatch.setattr("glid_nb.widgets.closing._running_cell", lambda: ("cell", str(next(run))))
+    monkeypatch.setattr("glid_nb.widgets.closing.widgets_of_cells", {})
+    monkeypatch.setattr("glid_nb.widgets.closing.running_cell", lambda: ("cell", str(next(run))))
     first = Editor(bar(), n_vertices=300)
     first.add_handle((-7, 0))
     begun.get(timeout=TIMEOUT)
@@ -861,7 +905,7 @@ def test_a_closed_editor_refuses() -> None:
 def test_an_empty_editor_opens_sessions(editor: Editor, tmp_path: Path) -> None:
     editor.save(tmp_path / "bar.glid")
     empty = Editor(n_vertices=300)
-    panel = empty._deform_box.children[1]
+    panel = empty.tabs.children[1].children[1]
     assert isinstance(panel, OpenPanel)
     panel.path.value = str(tmp_path / "none")
     panel.button.click()
@@ -891,11 +935,10 @@ def test_the_solver_is_prepared_as_soon_as_the_editor_is_displayed(
 def test_the_canvas_says_how_far_the_solver_is_prepared_and_answers_meanwhile(
     editor: Editor, monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    preparation = Preparation.instead_of_solving(monkeypatch)
     model, stage = editor.deformation, editor.canvas.pane.stage
     answers: list[dict[str, Any]] = []
     monkeypatch.setattr(stage, "send", lambda content, **_: answers.append(content))
-    monkeypatch.setattr(model._worker, "submit", lambda *_, **__: None)
-    monkeypatch.setattr(type(model._worker), "busy", True)
 
     def click(number: int, x: float) -> None:
         place = {"x": x, "y": 1.5, "unit": 0.04, "reach": 0.5, "button": 0, "shift": False}
@@ -903,16 +946,19 @@ def test_the_canvas_says_how_far_the_solver_is_prepared_and_answers_meanwhile(
             {"type": kind, "seq": 2 * number + i, "time": 0, **place}
             for i, kind in enumerate(("down", "up"))
         ]
-        stage._receive(stage, {"view": "page", "events": events}, [])
+        from_page.send(stage, {"view": "page", "events": events})
 
-    model._prepare(0.3)
+    model.begin()
+    preparation.go_on("basis", "rows", "trace")
     assert stage.prepared == 0.3
     click(1, -6.0)
     click(2, 6.0)
     assert [answer["ack"] for answer in answers] == [3, 5]
     assert len(model.pose) == 2
-    model._prepare(1.0)
+    preparation.go_on(FIRST_REPORT)
     assert stage.prepared == 1.0
     answers.clear()
     click(3, 0.0)
     assert answers == []  # the next frame answers
+    editor.close()
+    preparation.go_on("rows", wait=False)

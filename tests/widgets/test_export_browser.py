@@ -20,9 +20,11 @@ pytestmark = [pytest.mark.browser, pytest.mark.slow]
 def test_the_exported_picture_is_the_rendering_and_what_the_canvas_shows(
     open_notebook: OpenNotebook, tmp_path: Path
 ) -> None:
-    """The file equals a headless rendering in every pixel. In the middles of the checks of the
-    bar the canvas has its colours, to 6 of 255: the mesh and the textures' filters differ. The
-    lines that make it are copied."""
+    """The file equals a headless rendering in every pixel.
+
+    In the middles of the bar's checks, the canvas has its colours to 6 of 255, because the mesh and
+    the textures' filters differ. The lines that make the file are copied.
+    """
     book = open_notebook([SETUP, EDITOR], permissions=["clipboard-read", "clipboard-write"])
     hand = Hand(book)
     for point in ((-6.0, 0.0), (6.0, 0.0)):
@@ -46,7 +48,7 @@ def test_the_exported_picture_is_the_rendering_and_what_the_canvas_shows(
     whole = np.array(book.value("glid.render(picture, model.map, (300, 150), view='fit').tolist()"))
     np.testing.assert_array_equal(imread(tmp_path / "bent.png"), whole)
 
-    # The same through the browser, and files that belong together as one.
+    # The same through the browser. Files that belong together are sent as one.
     for label, stem in (("Picture (PNG)", "bent.png"), ("Mesh and texture (OBJ)", "bent.obj.zip")):
         what.select_option(label=label)
         with page.expect_download() as download:
@@ -60,7 +62,7 @@ def test_the_exported_picture_is_the_rendering_and_what_the_canvas_shows(
             assert zipfile.is_zipfile(saved)
     what.select_option(label="Picture (PNG)")
 
-    # The lines that make it, where the page may use the clipboard and where it may not.
+    # The lines that make it, with and without access to the clipboard.
     for stem, forbidden in (("allowed", False), ("forbidden", True)):
         if forbidden:
             page.evaluate("() => { navigator.clipboard.writeText = () => Promise.reject(); }")

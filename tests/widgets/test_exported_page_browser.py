@@ -23,11 +23,11 @@ from glid_nb.imaging.render import draw_mesh, render
 from glid_nb.imaging.texture import Texture
 from glid_nb.pose import Pose
 
-from ..browser import ARTEFACTS, watched_page
-from ..export import shapes
+from ..support import shapes
+from ..support.browser import ARTEFACTS, watched_page
 
 _LOW = ("header p", "main canvas", "#poses", "#play", "#time", "#clock", "#overlay", "#fit")
-# Pauses in the frame in which the condition holds: a slow browser would be elsewhere afterwards.
+# Pauses in the frame in which the condition holds. A slow browser would have moved on.
 _PAUSED_NEAR_POSE_2 = """() => {
     if (Math.abs(document.querySelector("#time").value - 1) > 0.6) return false;
     document.querySelector("#play").click();
@@ -41,7 +41,7 @@ def shown(page: Page) -> np.ndarray:
 
 
 def drawn(image: np.ndarray, motion: Motion, time: float, size: tuple[int, int]) -> np.ndarray:
-    """What the page should show: the map at a time, in the frame that holds all of the motion."""
+    """The expected page: the map at a time, in the frame that holds the whole motion."""
     mesh = MovingMesh.of(motion, None, 4000, 0.004)
     corners = [mesh.images.min(axis=(0, 1)), mesh.images.max(axis=(0, 1))]
     frame = PixelFrame(*size).showing(corners, 0.04)
@@ -59,7 +59,7 @@ def test_a_page_plays_scrubs_and_leads_to_poses(
 ) -> None:
     """With the network off. Pixels at a time are those of the map at that time."""
     if not in_shader:
-        monkeypatch.setattr("glid_nb.export.page._LONGEST_CHAIN", 10)
+        monkeypatch.setattr("glid_nb.export.page.LONGEST_CHAIN", 10)
     motion = Motion([HarmonicMap.identity(shapes.domain()), shapes.bent()], repeat=repeat)
     front = Pose(shapes.pose().handles, shapes.pose().targets, [1.0, -1.0])
     poses = [shapes.pose(), front]  # nothing overlaps, so their depths change no pixel
@@ -114,7 +114,7 @@ def test_a_phone_shows_a_page_that_plays_by_itself(browser: Browser, tmp_path: P
             assert box["y"] + box["height"] <= 844
             assert min(box["width"], box["height"]) >= 20
         page.screenshot(path=ARTEFACTS / "page-phone.png")
-        # On its side, and in a small frame of another page: most of it is the picture's.
+        # On its side, and in a small frame of another page: the picture takes most of it.
         for width, height in ((844, 390), (640, 360), (320, 360)):
             page.set_viewport_size({"width": width, "height": height})
             places: Any = {name: page.locator(name).bounding_box() for name in _LOW}
@@ -133,7 +133,7 @@ def test_a_phone_shows_a_page_that_plays_by_itself(browser: Browser, tmp_path: P
 @pytest.mark.browser
 @pytest.mark.slow
 def test_thumbnails_are_drawn_when_they_come_into_sight(page: Page, tmp_path: Path) -> None:
-    """After the picture, and as the picture alone, whatever the canvas shows by then."""
+    """After the picture, and as the picture alone, whatever the canvas shows at that time."""
     motion = Motion([HarmonicMap.identity(shapes.domain()), shapes.bent()] * 20)
     (path,) = animate(tmp_path / "long.html", shapes.picture(), motion)
     page.emulate_media(reduced_motion="reduce", color_scheme="light")
@@ -158,9 +158,11 @@ def test_thumbnails_are_drawn_when_they_come_into_sight(page: Page, tmp_path: Pa
 @pytest.mark.browser
 @pytest.mark.slow
 def test_the_browser_shows_what_a_rendering_shows(page: Page, tmp_path: Path) -> None:
-    """From a file, with the network off. Compared on white, at the canvas' size: the mean
-    difference is below 1 of 255, and 99 of 100 pixels differ by less than 16; the others lie on
-    edges, which the two smooth differently."""
+    """From a file, with the network off.
+
+    Compared on white, at the canvas's size: the mean difference is below 1 of 255, and 99 of 100
+    pixels differ by less than 16. The others lie on edges, which the two smooth differently.
+    """
     image = samples.image("gecko")
     domain = Domain.from_cage(trace(image).cage)
     start = HarmonicMap.identity(domain)

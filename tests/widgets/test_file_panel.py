@@ -23,6 +23,8 @@ from glid_nb.session.editor_model import EditorModel
 from glid_nb.widgets.exporting import OccupiedError, export, files_of
 from glid_nb.widgets.file_panel import FilePanel
 
+from ..support import from_page
+
 pytestmark = pytest.mark.slow  # most of the time is compiling
 
 THEIRS = b"somebody else's"
@@ -46,7 +48,7 @@ def model(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[EditorMod
 
 @pytest.fixture
 def panel(model: EditorModel, monkeypatch: pytest.MonkeyPatch) -> FilePanel:
-    monkeypatch.setattr("glid_nb.widgets.file_panel._DOUBLE_CLICK", 0.0)
+    monkeypatch.setattr("glid_nb.widgets.file_panel.DOUBLE_CLICK", 0.0)
     return FilePanel(model)
 
 
@@ -84,8 +86,8 @@ def test_what_comes_with_an_export_replaces_only_its_own(model: EditorModel) -> 
     export(model, "own.py")
     Path("e-source.png").write_bytes(Path("own-source.png").read_bytes())
     other = EditorModel(bar()[:, ::-1].copy())
-    export(other, "e.obj")  # what lies beside an OBJ file came with it
-    export(model, "e.py")  # the very picture
+    export(other, "e.obj")  # the other files of an OBJ were written with it
+    export(model, "e.py")  # the same picture
     other.close()
 
 
@@ -149,7 +151,7 @@ def test_a_file_of_others_is_replaced_by_a_second_click(panel: FilePanel) -> Non
     assert "Saved" in click(panel, panel.save_button)
     assert panel.save_button.description == "Save"
     glid.io.load_document(path)
-    assert "Saved" in click(panel, panel.save_button)  # now it is this editor's
+    assert "Saved" in click(panel, panel.save_button)  # now this editor has written it
 
 
 def test_the_question_is_forgotten_when_something_else_is_done(panel: FilePanel) -> None:
@@ -224,12 +226,12 @@ def test_a_picture_has_the_size_and_the_view_that_are_chosen(panel: FilePanel) -
     panel.width.value = 90
     panel.view.value = "source"
     np.testing.assert_array_equal(exported(), glid.render(bar(), map, (90, 45)))
-    assert "× 45 px" in panel._height.value
+    assert "× 45 px" in panel.height.value
     panel.width.value = 10**6
     assert panel.size == (8000, 4000)
-    assert panel._picture.layout.display == "flex"
+    assert panel.picture.layout.display == "flex"
     panel.format.value = ".svg"
-    assert panel._picture.layout.display == "none"
+    assert panel.picture.layout.display == "none"
 
 
 def test_it_says_where_changes_are_saved_by_themselves(model: EditorModel, tmp_path: Path) -> None:
@@ -240,9 +242,9 @@ def test_it_says_where_changes_are_saved_by_themselves(model: EditorModel, tmp_p
     assert panel.path.value == str(path)
     assert f"Saved by itself to {path}" in panel.autosave.value
     kept.autosave()
-    kept.close()  # saves
+    kept.close()  # which saves
     assert path.exists()
-    assert "Saved" in click(panel, panel.save_button)  # its own file
+    assert "Saved" in click(panel, panel.save_button)  # the panel's own file
 
 
 def test_the_copied_lines_run(panel: FilePanel, sent: list[Any]) -> None:
@@ -257,12 +259,12 @@ def test_the_copied_lines_run(panel: FilePanel, sent: list[Any]) -> None:
     assert scope["result"].certificate.certified
 
     # The page's answers.
-    panel.clipboard._receive(None, {"number": copy["number"], "copied": False}, [])
+    from_page.send(panel.clipboard, {"number": copy["number"], "copied": False})
     assert "did not allow copying" in panel.message.value
-    panel.clipboard._receive(None, {"number": copy["number"], "copied": True}, [])
+    from_page.send(panel.clipboard, {"number": copy["number"], "copied": True})
     assert "in the clipboard" in panel.message.value
-    panel.clipboard._receive(None, {"number": copy["number"], "copied": False}, [])
-    assert "in the clipboard" in panel.message.value  # another view of it
+    from_page.send(panel.clipboard, {"number": copy["number"], "copied": False})
+    assert "in the clipboard" in panel.message.value  # another view of the widget
 
 
 def test_a_picture_of_others_is_not_replaced_by_copying(panel: FilePanel) -> None:
@@ -317,17 +319,21 @@ def test_no_two_exports_have_the_same_name(
     panel = FilePanel(model, animation)
     monkeypatch.setattr(panel.clipboard, "download", lambda name, _: sent.append(name))
 
-    def made(deliver: Any) -> str:
-        path, moving = panel._chosen
-        return deliver(dict.fromkeys(file_names(path.name, MOTION_FORMATS if moving else FORMATS)))
+    def exported(_: EditorModel, path: Path, *__: Any) -> dict[str, None]:
+        written.append(path.name)
+        return dict.fromkeys(file_names(path.name, FORMATS))
 
-    monkeypatch.setattr(panel, "_made", made)
+    def start(name: str, deliver: Any) -> str:
+        written.append(name)
+        return deliver(dict.fromkeys(file_names(name, MOTION_FORMATS)))
+
+    monkeypatch.setattr("glid_nb.widgets.exporting.exported", exported)
+    monkeypatch.setattr(panel.motion, "start", start)
     monkeypatch.setattr("glid_nb.widgets.file_panel.zipped", lambda _: b"")
     panel.path.value, written = "cat", list[str]()
     for _, chosen in panel.format.options:
         panel.format.value = chosen
         panel.download_button.click()
-        written.append(panel._chosen[0].name)
     assert len(sent) == len(written) == len(FORMATS) + len(MOTION_FORMATS)
     assert len(set(sent)) == len(sent)
     assert len(set(written)) == len(written)
@@ -357,7 +363,7 @@ def test_the_motion_is_exported_in_the_background(model: EditorModel, tmp_path: 
     panel.show_motion()
     motion.size.value, motion.rate.value = 64, 4
     panel.export_button.click()
-    assert motion._worker.wait(60)
+    assert motion.worker.wait(60)
     assert "at least 2 keyframes" in panel.message.value
     deformation.add_handle((-6, 0))
     moved = deformation.add_handle((6, 0))
@@ -365,20 +371,20 @@ def test_the_motion_is_exported_in_the_background(model: EditorModel, tmp_path: 
     deformation.drag(moved, (5.5, 2))
     assert animation.wait(60)
     panel.export_button.click()
-    assert motion._worker.wait(60)
+    assert motion.worker.wait(60)
     assert "Wrote" in panel.message.value
     with Image.open(next(tmp_path.glob("*.gif"))) as picture:
         assert (picture.n_frames, max(picture.size)) == (5, 64)  # type: ignore[attr-defined]
     assert motion.progress.layout.display == "none"
     panel.format.value = "motion.sheet.png"
     panel.export_button.click()
-    assert motion._worker.wait(60)
+    assert motion.worker.wait(60)
     assert len(list(tmp_path.glob("*.sheet.*"))) == 2
-    # Stopped, it writes nothing.
+    # A stopped export writes nothing.
     panel.format.value, motion.rate.value = "motion.zip", 100
     motion.progress.observe(lambda _: motion.cancel.click(), ["value"])
     panel.export_button.click()
-    assert motion._worker.wait(60)
+    assert motion.worker.wait(60)
     assert "Stopped" in panel.message.value
     assert not list(tmp_path.glob("*.zip"))
     motion.close()
@@ -416,7 +422,7 @@ def test_the_last_export_is_chosen_again_in_the_next_session(model: EditorModel)
     again.format.value = ".obj"
     again.download_button.click()
     assert FilePanel(model).format.value == ".obj"
-    # What cannot be read, or chosen, counts for nothing.
+    # Settings that cannot be read or chosen are ignored.
     values = ('{"format": ".xyz", "view": "source", "more": 1}', '{"format": Infinity}', "[1]")
     for text in (*values, "{", "", "[" * 5000, "x" * 20_000):
         (last,) = Path(os.environ["GLID_NB_DATA"]).glob("last-export.json")

@@ -16,7 +16,7 @@ from glid_nb.session.deformation import Deformation
 from glid_nb.solvers import MethodError
 from glid_nb.widgets.brush import BrushGestures, painted_areas
 
-from ..domains import domain
+from ..support.domains import domain
 
 TIMEOUT = 120.0
 

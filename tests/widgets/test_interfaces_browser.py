@@ -1,4 +1,4 @@
-"""The editor in Notebook and under Voila, and keys that the notebook around it takes."""
+"""The editor in Notebook and under Voila, and keys that the notebook around it uses, too."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ import functools
 import numpy as np
 import pytest
 
-from ..browser import LabNotebook, VoilaPage
+from ..support.browser import LabNotebook, VoilaPage
 from .conftest import OpenNotebook
 from .editor_page import EDITOR, SETUP, Hand, line
 
@@ -25,7 +25,7 @@ def test_a_handle_is_dragged(open_notebook: OpenNotebook, name: str) -> None:
     hand = Hand(book)
     hand.click((-6.0, 0.0))
     book.wait_for("len(model.pose) == 1")
-    # A pull on the shape pins the point and takes it along.
+    # Pulling the shape pins the point and moves it.
     hand.drag(line((6.0, 0.0), (6.5, 2.0), 15))
     book.wait_for("len(model.pose) == 2")
     hand.wait_for_target(1, (6.5, 2.0))
@@ -50,7 +50,8 @@ CELLS = """() => (window.jupyterapp.shell.currentWidget.content.model ??
 def test_no_key_in_the_editor_is_the_notebooks(
     open_notebook: OpenNotebook, name: str | None
 ) -> None:
-    """A, B and M act on the editor wherever it has the focus; they change no cell, X cuts none."""
+    """A, B and M act on the editor wherever it has the focus. They change no cell, and X cuts
+    none."""
     book = open_notebook([SETUP, EDITOR], INTERFACES.get(name or ""))
     hand, page, cells = Hand(book), book.page, book.page.evaluate(CELLS)
     for x in (-6.0, 6.0):
@@ -67,7 +68,7 @@ def test_no_key_in_the_editor_is_the_notebooks(
         page.locator(".glid-pad").first,
     )
     for place in places:
-        # Also where the focus was on another cell, as after Shift+Enter.
+        # Also if the focus was on another cell, as after Shift+Enter.
         page.evaluate("() => document.querySelector('.jp-Cell').focus()")
         place.click(position={"x": 5, "y": 5})
         for key in "xmd":
@@ -81,12 +82,12 @@ def test_no_key_in_the_editor_is_the_notebooks(
         book.wait_for("model.selection == (0, 1)")
         page.keyboard.press("Escape")
         book.wait_for("model.selection == ()")
-    # What the hint says holds after a click on the button, too.
+    # The hint is also true after a click on the button.
     page.locator(".glid-tools button", has_text="Stiff").click()
     page.get_by_text("Esc when done").wait_for()
     page.keyboard.press("Escape")
     page.get_by_text("Esc when done").wait_for(state="hidden")
-    # A list takes letters, and the tracer's keys are its own.
+    # A list uses letters itself, and the tracer has its own keys.
     page.get_by_title("What the shape shows").focus()
     page.keyboard.press("b")
     page.get_by_role("tab", name="Trace").click()

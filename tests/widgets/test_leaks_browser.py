@@ -1,6 +1,6 @@
-"""Long sessions: neither the kernel nor the page grows, no message goes astray, nothing waits.
+"""Long sessions: neither the kernel nor the page grows, and no message is lost or delayed.
 
-Left out unless ``--minutes`` says how long; `make leaks` takes ten minutes for the first.
+Left out unless ``--minutes`` says how long. `make leaks` takes ten minutes for the first test.
 """
 
 import time
@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from playwright.sync_api import CDPSession
 
-from ..browser import WINDOW, JupyterServer, NotebookPage
+from ..support.browser import WINDOW, JupyterServer, NotebookPage
 from .conftest import OpenNotebook
 from .editor_page import EDITOR, SETUP, Hand, line
 
@@ -25,7 +25,7 @@ ctypes.CDLL("libc.so.6").malloc_trim(0)  # what is free counts for nobody
 
 
 def heap(session: CDPSession) -> float:
-    """MB of JavaScript objects that something still refers to."""
+    """MB of JavaScript objects that are still referenced."""
     session.send("HeapProfiler.collectGarbage")
     return session.send("Runtime.getHeapUsage")["usedSize"] / 1e6
 
@@ -38,7 +38,7 @@ def memory(book: NotebookPage) -> float:
 def check_growth(
     book: NotebookPage, act: Callable[[], None], minutes: float, jupyter: JupyterServer
 ) -> None:
-    """Act until the time is over; compare the end with what it was after a fifth of it."""
+    """Act until the time is over. Compare the end with the state after a fifth of the time."""
     session = book.page.context.new_cdp_session(book.page)
     begin, seen = time.monotonic(), list[tuple[float, float]]()
     for share in np.linspace(SETTLING, 1, 5):
@@ -115,7 +115,7 @@ def test_running_the_cell_again_leaves_nothing_behind(
     assert "No such comm" not in jupyter.log
 
 
-# A disk with a wavy rim and eight such holes, some 800 vertices, of which nothing is compiled yet.
+# A disk with a wavy rim and eight such holes: 800 vertices or so. Nothing is compiled for it yet.
 BUSY = """
 import os
 os.environ["GLID_NB_CACHE"] = __import__("tempfile").mkdtemp()
@@ -150,7 +150,7 @@ CANVAS_SHOWN = """(cell) => new Promise((done) => {
 def test_a_cell_that_is_run_again_does_not_wait_for_its_first_editor(
     open_notebook: OpenNotebook, wait: float
 ) -> None:
-    """Whose solver is compiled for a busy picture, for these seconds."""
+    """The first editor's solver compiles for these seconds, for a complex picture."""
     book = open_notebook([BUSY, ""], viewport=WINDOW)
     book.page.evaluate(
         "code => window.jupyterapp.shell.currentWidget.content.model.cells.get(1)"

@@ -1,4 +1,4 @@
-"""The monitor: what it draws belongs together, and at rest it is the final certificate."""
+"""The monitor: its parts belong together, and at rest it shows the final certificate."""
 
 from __future__ import annotations
 
@@ -12,6 +12,8 @@ from types import SimpleNamespace
 from typing import Any
 
 import pytest
+from matplotlib.lines import Line2D
+from matplotlib.text import Text
 
 from glid_nb.certificate import certificate_of, certify
 from glid_nb.geometry import Cage, Domain
@@ -20,11 +22,12 @@ from glid_nb.session.deformation import Deformation
 from glid_nb.session.status_line import rounded_down
 from glid_nb.solvers import Iteration
 from glid_nb.widgets import SolverMonitor
-from glid_nb.widgets.live_plots import _SCALE, LivePlots
-from glid_nb.widgets.monitor import _guide, places
+from glid_nb.widgets.live_plots import SCALE, LivePlots
+from glid_nb.widgets.monitor import guide, places
 from glid_nb.widgets.solver_panel import SolverPanel, step_in_words
 
-from ..domains import domain
+from ..support.domains import domain
+from ..support.threads import NewThreads
 
 TIMEOUT = 120.0
 
@@ -48,12 +51,25 @@ def bent(model: Deformation) -> None:
     assert model.solve(TIMEOUT)
 
 
-def shown_bound(monitor: SolverMonitor) -> str:
+@pytest.fixture
+def drawn(monkeypatch: pytest.MonkeyPatch) -> list[LivePlots]:
+    """The plots that monitors make, the last one at the end."""
+    made: list[LivePlots] = []
+
+    class Noted(LivePlots):
+        def __init__(self, *arguments: Any) -> None:
+            super().__init__(*arguments)
+            made.append(self)
+
+    monkeypatch.setattr("glid_nb.widgets.live_plots.LivePlots", Noted)
+    return made
+
+
+def shown_bound(plots: LivePlots) -> str:
     """What the plot of the certificate says."""
-    plots = monitor._plots
-    assert plots is not None
-    text: str = plots._certificate._text.get_text()
-    return text.split(",", maxsplit=1)[0]
+    *_, text = plots.certificate.artists
+    assert isinstance(text, Text)
+    return text.get_text().split(",", maxsplit=1)[0]
 
 
 @pytest.mark.slow
@@ -68,13 +84,14 @@ def test_closing_does_not_wait_for_plots_and_they_do_not_come_late(
         return b"late"
 
     monkeypatch.setattr(LivePlots, "draw", draw)
+    threads = NewThreads()
     monitor = SolverMonitor(model, 400, 300)
     assert drawing.wait(TIMEOUT)
-    threading.Timer(TIMEOUT / 10, closed.set).start()  # so that a close that waits comes back
+    threading.Timer(TIMEOUT / 10, closed.set).start()  # so a close that waits returns at last
+    thread = threads.named("monitor")
     monitor.close()
     assert not closed.is_set()
     closed.set()
-    thread = monitor._worker.thread
     assert thread is not None
     thread.join(TIMEOUT)
     assert not thread.is_alive()
@@ -83,42 +100,44 @@ def test_closing_does_not_wait_for_plots_and_they_do_not_come_late(
 
 @pytest.mark.slow
 def test_what_is_drawn_belongs_together(
-    model: Deformation, monitor: SolverMonitor, monkeypatch: pytest.MonkeyPatch
+    model: Deformation, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Holes come and go in one thread while the monitor draws in another."""
+    monkeypatch.setattr("glid_nb.widgets.monitor.INTERVAL", 0.0)
+    monitor = SolverMonitor(model, 400, 300)
     square = Cage([[-6, -6], [6, -6], [6, 6], [-6, 6]])
     holes = [[[x, y], [x, y + 1], [x + 1, y + 1], [x + 1, y]] for x in (-3, 2) for y in (-3, 2)]
     without, with_holes = (Domain.from_cage(Cage(square.exterior, h)) for h in ([], holes))
     caught: list[Any] = []
     monkeypatch.setattr(threading, "excepthook", caught.append)
-    monitor._worker.close()  # only one thread may draw
     model.paused = True
     model.begin()
     for domain_ in (with_holes, without):  # compiled before the time counts
         model.set_domain(domain_)
-        monitor._update()
+        assert monitor.refresh(TIMEOUT)
     drawing = [True]
 
     def draw() -> None:
         while drawing:
-            monitor._update()
+            monitor.refresh(TIMEOUT)
 
     other = threading.Thread(target=draw)
     other.start()
     end = time.monotonic() + 4.0
-    while time.monotonic() < end and other.is_alive():
+    while time.monotonic() < end and not caught:
         model.set_domain(with_holes)
         time.sleep(0.03)
         model.undo()
         time.sleep(0.03)
     drawing.clear()
     other.join()
+    monitor.close()
     assert not caught
 
 
 @pytest.mark.slow
 def test_at_rest_all_say_what_the_final_certificate_proves(
-    model: Deformation, monitor: SolverMonitor
+    model: Deformation, drawn: list[LivePlots], monitor: SolverMonitor
 ) -> None:
     bent(model)
     lower = rounded_down(certify(model.map).sigma2_lower)
@@ -127,7 +146,7 @@ def test_at_rest_all_say_what_the_final_certificate_proves(
     assert monitor.text == model.status.text
     assert monitor.refresh(TIMEOUT)
     assert monitor.text in monitor.line.value
-    assert shown_bound(monitor) == f"σ₂ ≥ {lower}"
+    assert shown_bound(drawn[-1]) == f"σ₂ ≥ {lower}"
     # Also without a frame of the solver.
     model.drag(1, to=(-3.0, 1.0))
     assert model.solve(TIMEOUT)
@@ -136,14 +155,17 @@ def test_at_rest_all_say_what_the_final_certificate_proves(
     assert model.solve(TIMEOUT)
     assert model.status.text.startswith(words)
     assert monitor.refresh(TIMEOUT)
-    assert shown_bound(monitor) == f"σ₂ ≥ {lower}"
+    assert shown_bound(drawn[-1]) == f"σ₂ ≥ {lower}"
 
 
 @pytest.mark.slow
 def test_the_last_drawing_is_that_at_rest(
-    model: Deformation, monitor: SolverMonitor, monkeypatch: pytest.MonkeyPatch
+    model: Deformation,
+    drawn: list[LivePlots],
+    monitor: SolverMonitor,
+    monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    """The solver comes to rest after it told of its last frame, and tells nobody."""
+    """The solver comes to rest after it reported its last frame, without another report."""
     bent(model)
     assert monitor.refresh(TIMEOUT)
     model.drag(0, to=(3.5, 1.0))
@@ -152,23 +174,23 @@ def test_the_last_drawing_is_that_at_rest(
     working = type(rest)(rest.state, rest.frame, True, False)
     moments = [working, rest, rest]
     monkeypatch.setattr(Deformation, "moment", property(lambda _: moments.pop(0)))
-    monitor._drawn = None
     assert monitor.refresh(TIMEOUT)
     assert len(moments) == 1
     assert "Converged" in monitor.line.value
-    assert shown_bound(monitor) == f"σ₂ ≥ {rounded_down(certificate_of(rest.map).sigma2_lower)}"
+    assert shown_bound(drawn[-1]) == f"σ₂ ≥ {rounded_down(certificate_of(rest.map).sigma2_lower)}"
 
 
 @pytest.mark.slow
 def test_the_history_stays_while_the_next_targets_are_not_solved(
-    model: Deformation, monitor: SolverMonitor
+    model: Deformation, drawn: list[LivePlots], monitor: SolverMonitor
 ) -> None:
     bent(model)
     model.paused = True
     model.drag(0, to=(3.5, 1.0))
     assert monitor.refresh(TIMEOUT)
-    assert monitor._plots is not None
-    assert len(monitor._plots._energy._lines[-1].get_xdata())
+    *_, total, _, _ = drawn[-1].energy.artists
+    assert isinstance(total, Line2D)
+    assert len(total.get_xdata())
 
 
 def _legend_texts(axes: Any) -> list[Any]:
@@ -204,7 +226,7 @@ def test_no_text_lies_over_data_or_other_text(n_holes: int, width: int):
     ]
     plots.draw(records, certify(map_))
     everything: list[Any] = []
-    for plot in plots._plots:
+    for plot in plots.plots:
         axes = plot.axes
         texts: list[Any] = [*axes.texts, axes.xaxis.label, *_legend_texts(axes)]
         boxes = [t.get_window_extent() for t in texts if t.get_text() and t.get_visible()]
@@ -213,14 +235,14 @@ def test_no_text_lies_over_data_or_other_text(n_holes: int, width: int):
         assert not any(a.overlaps(b) for a, b in itertools.combinations(boxes, 2))
         assert all(b.y0 >= 0 and b.y1 <= axes.figure.bbox.y1 for b in boxes)
         everything += [*boxes, *_tick_boxes(axes.xaxis), *_tick_boxes(axes.yaxis)]
-    if width < 460:  # less than any editor has: legends are wider than their plots
+    if width < 460:  # no editor is that narrow: legends are wider than their plots
         return
     assert not any(a.overlaps(b) for a, b in itertools.combinations(everything, 2))
-    whole = plots._canvas.figure.bbox
+    whole = plots.plots[0].axes.figure.bbox
     assert all(whole.contains(*corner) for box in everything for corner in (box.p0, box.p1))
-    titles = [plot.axes.texts[-1].get_window_extent() for plot in plots._plots]
-    marks = re.findall(r"<details .*?left:(\d+)px", _guide(width, 370).value)
-    assert all(t.x1 / _SCALE < float(x) for t, x in zip(titles, marks, strict=True))
+    titles = [plot.axes.texts[-1].get_window_extent() for plot in plots.plots]
+    marks = re.findall(r"<details .*?left:(\d+)px", guide(width, 370).value)
+    assert all(t.x1 / SCALE < float(x) for t, x in zip(titles, marks, strict=True))
 
 
 @pytest.mark.slow

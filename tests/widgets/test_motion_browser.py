@@ -1,4 +1,4 @@
-"""Motions as the page mixes them: the same maps as the kernel's."""
+"""Motions as the page interpolates them: the same maps as in the kernel."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from glid_nb import Motion
 from glid_nb.export.page import playing
 from glid_nb.page import ShaderMap
 
-from ..domains import random_map
+from ..support.domains import random_map
 
 _MODULE = Path(glid_nb.page.__file__).parent / "js" / "motion" / "motion.js"
 _MIX = """async ({code, values, floats, times}) => {

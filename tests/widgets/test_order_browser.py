@@ -1,4 +1,4 @@
-"""A shape that overlaps itself in a real browser: canvas, picture and exported page agree."""
+"""A shape that overlaps itself, in a real browser: canvas, picture and exported page agree."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from .test_timeline_browser import Timeline
 
 pytestmark = [pytest.mark.browser, pytest.mark.slow]
 
-# A bar that is red left and blue right, bent beyond a full circle.
+# A bar, red at the left and blue at the right, bent beyond a full circle.
 _CANVAS = """
 import numpy as np
 import glid_nb as glid
@@ -104,7 +104,7 @@ def test_canvas_picture_page_and_clicks_agree(open_notebook: OpenNotebook, tmp_p
         assert book.value("in_picture()") == expected
         assert seen_on_canvas() == expected
         assert seen_on_page() == expected
-        # A click pins what is seen; a handle on the covered end looks covered.
+        # A click pins the visible part. A handle on the covered end looks covered.
         count = len(hand.handles)
         hand.click(book.value(f"places[{31 if right_in_front else 5}].tolist()"))
         book.wait_for(f"len(model.pose) == {count + 1}")

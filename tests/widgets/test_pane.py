@@ -1,4 +1,4 @@
-"""A renderer fits what the page can do."""
+"""A renderer adapts to the speed of the page."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ import pytest
 
 from glid_nb.widgets import DeformCanvas
 
-from ..domains import domain
+from ..support.domains import domain
 from .test_shader import PICTURE
 
 pytestmark = pytest.mark.slow  # most of the time is compiling
@@ -33,7 +33,7 @@ def test_the_mesh_is_coarse_until_the_page_has_said_what_it_can_draw() -> None:
     stage.drawing_time = 80.0
     between = pane.scene.picture.n_vertices
     assert 0.4 * fine < between < 0.6 * fine
-    # The time was that of the finer mesh: what another page says of this one counts by itself.
+    # The time was that of the finer mesh. What another page reports of this mesh counts by itself.
     stage.drawing_time = 5.0
     assert pane.scene.picture.n_vertices == between
     stage.drawing_time = 1e4

@@ -22,7 +22,7 @@ def test_a_ring_turns_and_scales_and_the_list_takes_numbers(open_notebook: OpenN
     unit = book.value("canvas.pane.stage.view[2]")
     reach = _DIAL * unit
 
-    # The ring turns, its knob scales; each is a step of undo, and the map follows.
+    # The ring turns, its knob scales. Each is a step of undo, and the map follows.
     turn = [(6 + reach * np.cos(a), reach * np.sin(a)) for a in np.linspace(0.6, 1.1, 9)]
     hand.drag(turn)
     book.wait_for("abs(model.pose.angles[1] - 0.5) < 0.05")
@@ -38,7 +38,7 @@ def test_a_ring_turns_and_scales_and_the_list_takes_numbers(open_notebook: OpenN
     assert len(hand.handles) == 2
     book.screenshot("pins-ring")
 
-    # Numbers are typed into the list, and an empty field is free; each says what it is.
+    # Numbers are typed into the list. An empty field is free. Each field has a description.
     page.get_by_title(
         "By how much the shape is turned at the pin; empty: free (< and >, X)"
     ).hover()
@@ -73,7 +73,7 @@ def test_a_ring_turns_and_scales_and_the_list_takes_numbers(open_notebook: OpenN
         page.keyboard.press("Control+z")
     book.wait_for("not model.pose.oriented.any() and len(model.pose) == 2")
 
-    # A box selects, a pin out of sight is brought back, a pose goes through the clipboard.
+    # A box selects. A pin out of view is brought back. A pose goes through the clipboard.
     keys = page.locator(".glid-pane .glid-help")
     for width in (800, 1366):
         page.set_viewport_size({"width": width, "height": 768})

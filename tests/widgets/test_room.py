@@ -1,4 +1,4 @@
-"""The canvas takes the room that its editor has on the page."""
+"""The canvas fills the room that its editor has on the page."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ import pytest
 from glid_nb.session.deformation import Deformation
 from glid_nb.widgets import DeformCanvas
 
-from ..domains import domain
+from ..support.domains import domain
 
 PICTURE = np.full((40, 40, 4), 255, np.uint8)
 
@@ -27,7 +27,7 @@ def canvas(request: pytest.FixtureRequest) -> Iterator[DeformCanvas]:
 def size(canvas: DeformCanvas) -> tuple[int, int]:
     stage = canvas.pane.stage
     assert canvas.layout.height == f"{stage.height}px"
-    assert canvas.pane._renderer.width == stage.width
+    assert canvas.pane.children[0].width == stage.width  # the renderer
     return stage.width, stage.height
 
 
@@ -52,7 +52,7 @@ def test_the_room_is_filled_and_what_was_seen_stays_in_view(canvas: DeformCanvas
     assert size(canvas) == (1800, 1000)
     canvas.pane.stage.room = [600, 500, 0]
     assert seen(canvas) == pytest.approx(before)
-    # Where a hand has zoomed meanwhile, that is what stays.
+    # If a hand has zoomed meanwhile, the zoomed view stays.
     canvas.pane.stage.view = [0.0, 0.0, 0.01]
     canvas.pane.stage.room = [1200, 1000, 0]
     assert canvas.pane.stage.view[2] == pytest.approx(0.005)
@@ -66,7 +66,7 @@ def test_a_size_that_was_asked_for_is_narrower_only_where_there_is_less(
     for room, expected in (([1200, 640, 0], (500, 300)), ([420, 640, 0], (420, 300))):
         stage.room = room
         assert size(canvas) == expected
-    # A corner that a hand drags asks for another size.
+    # Dragging the corner sets another size.
     with stage.hold_trait_notifications():
         stage.width, stage.height = 700, 350
     stage.room = [900, 640, 0]
@@ -77,9 +77,13 @@ def test_a_size_that_was_asked_for_is_narrower_only_where_there_is_less(
     assert size(canvas) == (640, 350)
 
 
-@pytest.mark.parametrize("canvas", [{}, {"width": 500}], indirect=True)
-def test_a_hand_that_drags_one_side_asks_for_that_side_alone(canvas: DeformCanvas) -> None:
-    stage, width = canvas.pane.stage, canvas._asked[0]
+@pytest.mark.parametrize(
+    ("canvas", "width"), [({}, None), ({"width": 500}, 500)], indirect=["canvas"]
+)
+def test_a_hand_that_drags_one_side_asks_for_that_side_alone(
+    canvas: DeformCanvas, width: int | None
+) -> None:
+    stage = canvas.pane.stage
     stage.room = [420, 640, 0]
     stage.height = 320
     stage.room = [900, 640, 0]

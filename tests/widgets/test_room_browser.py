@@ -1,4 +1,4 @@
-"""The editor uses the window that it has: small, large, full screen, for lectures."""
+"""The editor uses the window: small, large and full screen."""
 
 from __future__ import annotations
 
@@ -34,7 +34,8 @@ def test_the_canvas_takes_the_room_that_there_is(open_notebook: OpenNotebook) ->
     stage = "canvas.pane.stage"
 
     def settle(room: str) -> list[float]:
-        """The canvas' box, once it has the room; it is sharp, and what is drawn as large as it."""
+        """The canvas's box, once it fills the room. It is sharp, and the drawing is as large as
+        it."""
         book.wait_for(f"{stage}.room and {room.format(f'*{stage}.room')}")
         hand.wait_until_still()
         hand.page.wait_for_function(
@@ -76,7 +77,7 @@ def test_the_canvas_takes_the_room_that_there_is(open_notebook: OpenNotebook) ->
     page.set_viewport_size({"width": 1366, "height": 768})
     assert settle("(lambda w, h, _: 600 < w < 1000)({})")[2:] == at_first[2:]
 
-    # The picture alone, by key and by button; Escape brings the rest back.
+    # The picture alone, by key and by button. Escape brings back the rest.
     for enter in (
         lambda: page.keyboard.press("p"),
         lambda: hand.pad.get_by_role("button", name="The picture alone").click(),
@@ -111,7 +112,7 @@ def test_the_canvas_takes_the_room_that_there_is(open_notebook: OpenNotebook) ->
     page.wait_for_function("!!document.fullscreenElement")
     book.screenshot("editor-full-screen")
     buttons = [box(button)[1] for button in page.locator(".glid-bars button").all()]
-    assert len(set(buttons)) > 1  # those of a place and of its shape stay with their numbers
+    assert len(set(buttons)) > 1  # buttons stay beside their numbers
     page.evaluate("document.exitFullscreen()")
     settle("(lambda w, h, alone: not alone and w < 650)({})")
 
@@ -123,7 +124,7 @@ def test_the_tracer_takes_the_room_that_there_is(open_notebook: OpenNotebook) ->
     stage, panel = page.locator(".glid-stage"), page.locator(".glid-panel")
 
     def scale() -> float:
-        """CSS pixels per pixel of the picture, which is fitted."""
+        """CSS pixels per pixel of the fitted picture."""
         page.wait_for_function(
             """() => {
               const stage = document.querySelector('.glid-stage[data-viewport]');
@@ -173,7 +174,7 @@ def test_the_hint_hides_no_vertex_of_a_picture_that_fits(open_notebook: OpenNote
 
 
 def test_nothing_wraps_jumps_or_covers_a_mark(open_notebook: OpenNotebook) -> None:
-    """Controls stay on one line in a narrow window, menus at its edge; marks stay in sight."""
+    """In a narrow window, controls stay on one line, menus at its edge, and marks in view."""
     book = open_notebook([SETUP, EDITOR])
     hand, page = Hand(book), book.page
     hand.click((-6.0, 0.0))
@@ -186,7 +187,7 @@ def test_nothing_wraps_jumps_or_covers_a_mark(open_notebook: OpenNotebook) -> No
         page.set_viewport_size({"width": width, "height": 900})
         page.wait_for_function(place, arg=[numbers.element_handle(), height])
         hand.wait_until_still()
-        # They come after the canvas, which they must not move.
+        # They follow the canvas and must not move it.
         whole, kept, taken = numbers.evaluate(  # at one moment: the canvas may still be growing
             """(one) => [one.getBoundingClientRect().height,
               parseFloat(getComputedStyle(one, '::before').height),
@@ -220,7 +221,7 @@ def test_nothing_wraps_jumps_or_covers_a_mark(open_notebook: OpenNotebook) -> No
     page.mouse.click(corner[0] - 12, corner[1] + 8)
     book.wait_for("abs(np.array(canvas.pane.stage.view[:2]) - (40.0, 20.0)).max() < 1e-6")
 
-    # A ring's knob below the buttons can be dragged all the same, and they fade.
+    # A ring's knob below the buttons can still be dragged, and the buttons fade.
     (cx, cy, unit), width, height = book.value(
         "[stage.view, stage.width, stage.height]", "stage = canvas.pane.stage"
     )
@@ -239,13 +240,13 @@ def test_nothing_wraps_jumps_or_covers_a_mark(open_notebook: OpenNotebook) -> No
     page.locator(".glid-corner:not(.glid-through)").first.wait_for()
     book.value("None", setup="model.select([0])")
 
-    # The largest depth can be read.
+    # The largest depth is readable.
     book.value("None", setup="model.set_depths([0], 100.0)")
     depth = page.get_by_label("Depth")
     page.wait_for_function("one => one.value === '100'", arg=depth.element_handle())
     assert depth.evaluate("one => one.scrollWidth <= one.clientWidth")
 
-    # A refusal is as wide as the canvas at most.
+    # A refusal is at most as wide as the canvas.
     scale = page.get_by_label("Scale")
     scale.fill("-1")
     scale.press("Enter")

@@ -1,4 +1,4 @@
-"""The map in the shader: it agrees with NumPy, and a frame is small on the wire."""
+"""The map in the shader agrees with NumPy, and a frame is a small message."""
 
 from __future__ import annotations
 
@@ -15,13 +15,13 @@ from glid_nb.imaging import PixelFrame
 from glid_nb.imaging.order import order_of
 from glid_nb.page import ShaderMap, energy_defines, glsl
 from glid_nb.widgets.layers import picture_texture
-from glid_nb.widgets.scene import Drawing, Scene, _stacked, drawing_order, energy_uniform
+from glid_nb.widgets.scene import Drawing, Scene, drawing_order, energy_uniform, stacked_triangles
 
-from ..domains import NAMES, domain, random_map
+from ..support.domains import NAMES, domain, random_map
 
 PICTURE = np.full((40, 40, 4), 255, np.uint8)
 
-# Runs the very files that the canvas uses at points z and reads the outputs back, six numbers each.
+# Runs the canvas's own files at points z and reads the outputs back, six numbers each.
 _RUN = """async ({head, main, uniforms, points}) => {
   const gl = document.createElement('canvas').getContext('webgl2');
   const text = `#version 300 es
@@ -82,7 +82,7 @@ def shaded_points(
 @pytest.mark.browser
 @pytest.mark.slow
 def test_the_energies_in_the_shader_agree_with_the_python_ones(page: Page) -> None:
-    """Every energy that has a name, MIPS too, at distortions from none to strong."""
+    """Every named energy, also MIPS, at distortions from none to strong."""
     sigma1, sigma2 = (a.ravel() for a in np.meshgrid(np.linspace(1, 3, 9), np.linspace(0.4, 1, 7)))
     points = np.stack([((sigma1 + sigma2) / 2) ** 2, ((sigma1 - sigma2) / 2) ** 2], axis=1)
     points = points.astype(np.float32)
@@ -169,7 +169,7 @@ def test_the_kernel_evaluates_what_a_shader_cannot_hold(sent: list[Any]) -> None
     image = scene.picture.attributes["image"].array
     np.testing.assert_allclose(image, moved(points), atol=1e-5)
     assert _wire_size(sent) > 24 * len(points)
-    # A pointer's move before the next frame is solved moves marks, not vertices.
+    # A move of the pointer before the next frame is solved moves marks, not vertices.
     sent.clear()
     scene.show(Drawing(moved))
     assert _wire_size(sent) == 0
@@ -177,7 +177,7 @@ def test_the_kernel_evaluates_what_a_shader_cannot_hold(sent: list[Any]) -> None
 
 
 def shaded(triangles: np.ndarray, remembered: int = 16) -> int:
-    """How often a vertex is shaded by what remembers the last few."""
+    """How often a vertex is shaded by a cache of the last few vertices."""
     last: deque[int] = deque(maxlen=remembered)
     count = 0
     for vertex in triangles.ravel().tolist():
@@ -199,7 +199,7 @@ def test_vertices_are_shaded_little_more_than_once(name: str) -> None:
 @pytest.mark.parametrize("name", ["ell", "triple"])
 def test_layers_cost_few_more_vertices_and_lie_in_order(name: str) -> None:
     mesh, order = triangulate(domain(name).cage, 4_000), order_of(domain(name).cage)
-    points, ordered = _stacked(mesh, order)
+    points, ordered = stacked_triangles(mesh, order)
     assert sorted(map(tuple, ordered)) == sorted(map(tuple, mesh.triangles))
     assert shaded(ordered) < 1.4 * len(mesh.vertices)
     heights = order(mesh.vertices)

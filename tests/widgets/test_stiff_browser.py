@@ -19,7 +19,7 @@ def ratio():
     return float(((fz + fzb) / (fz - fzb)).max())
 """
 
-# All in one task of the page, so that nothing of the kernel comes in between.
+# All in one task of the page, so that no message of the kernel comes in between.
 CLICK_AND_PAINT = """([[x, y], [end, _]]) => {
   const pad = document.querySelector('.glid-pad');
   const point = (type, clientX) => pad.dispatchEvent(new PointerEvent(type, {
@@ -53,7 +53,7 @@ def test_a_hand_paints_a_stiff_head_erases_undoes_and_clears(open_notebook: Open
     free = book.value("ratio()")
     before = hand.targets
 
-    # A stroke counts that begins before the kernel has answered the click.
+    # A stroke counts even if it begins before the kernel has answered the click.
     page.evaluate(CLICK_AND_PAINT, hand.places([[-1.0, 0.5], [1.0, 0.5]]))
     book.wait_for("len(model.pose.stiffness.strokes) == 1")
     assert book.value("model.pose.stiffness([[-0.9, 0.5], [0.9, 0.5]]).tolist()") == [1, 1]
@@ -71,7 +71,7 @@ def test_a_hand_paints_a_stiff_head_erases_undoes_and_clears(open_notebook: Open
     assert hand.certified()
     hand.wait_until_drawn()
     book.screenshot("editor-stiff")
-    # A faint outline stays while the brush is laid down.
+    # A faint outline stays after the brush is put away.
     drawn = page.evaluate(PURPLE)
     page.keyboard.press("Escape")
     book.wait_for("canvas.brush.tool == ''")

@@ -1,4 +1,4 @@
-"""The timeline's kernel side: what the page is given, and what its events do."""
+"""The timeline's side in the kernel: what the page gets, and what its events do."""
 
 from __future__ import annotations
 
@@ -11,6 +11,8 @@ import pytest
 from glid_nb.geometry import Domain
 from glid_nb.imaging import trace
 from glid_nb.widgets import DeformCanvas, TimelinePanel
+
+from ..support import from_page
 
 pytestmark = pytest.mark.slow
 
@@ -32,7 +34,13 @@ def panel(request: pytest.FixtureRequest) -> Iterator[TimelinePanel]:
 
 
 def act(panel: TimelinePanel, kind: str, **content: Any) -> str | None:
-    return panel._handle([{"type": kind, **content}])
+    """Send an event; the refusal."""
+    answers: list[dict[str, Any]] = []
+    panel.send = lambda answer, buffers=None: answers.append(answer)  # noqa: ARG005
+    from_page.send(panel, {"view": "page", "events": [{"type": kind, "seq": 1, **content}]})
+    del panel.send
+    (refusal,) = [answer["refusal"] for answer in answers if "ack" in answer]
+    return refusal
 
 
 def test_the_page_is_given_what_is_proved_and_its_events_act(panel: TimelinePanel) -> None:
@@ -42,7 +50,7 @@ def test_the_page_is_given_what_is_proved_and_its_events_act(panel: TimelinePane
     assert act(panel, "keep", time=0) is None
     model.drag(first, (-6, 1.5))
     assert panel.animation.wait(TIMEOUT)
-    panel._worker.wait(TIMEOUT)
+    panel.worker.wait(TIMEOUT)
     (span,) = panel.motion["spans"]
     assert span["status"] == "proved"
     assert len(span["sigma2"]) == len(span["times"]) - 1
@@ -91,7 +99,7 @@ def test_the_page_is_given_what_is_proved_and_its_events_act(panel: TimelinePane
 
 
 def test_a_finer_cage_is_not_shown_the_motion_of_the_coarser(panel: TimelinePanel) -> None:
-    """It failed with an IndexError in the shader's coefficients."""
+    """The bug was an IndexError in the shader's coefficients."""
     model, coarse = panel.canvas.deformation, panel.canvas.deformation.state.domain
     model.add_handle((-6, 0))
     act(panel, "keep", time=0)

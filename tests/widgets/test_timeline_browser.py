@@ -69,7 +69,7 @@ WIDE_ENOUGH = """(menu) => {
 
 
 class Timeline:
-    """What a hand does on the timeline."""
+    """What a hand can do on the timeline."""
 
     def __init__(self, hand: Hand, number: int = 0) -> None:
         self.hand, self.book, self.page = hand, hand.book, hand.page
@@ -81,7 +81,7 @@ class Timeline:
         self.root.locator(f'button[title^="{title}"]').click()
 
     def settle(self) -> None:
-        """Wait until all between the poses is proved, and the page knows."""
+        """Wait until everything between the poses is proved, and the page knows."""
         self.hand.settle()
         proved = "all(s.status == 'proved' for s in editor.timeline.animation.spans)"
         self.book.wait_for(f"{proved} and len(editor.timeline.animation.spans) > 0", 60)
@@ -99,7 +99,7 @@ class Timeline:
 
     @staticmethod
     def box(part: Locator) -> FloatRect:
-        """Where a part is in the window, into which it is scrolled."""
+        """The place of a part in the window, after it is scrolled into view."""
         part.scroll_into_view_if_needed()
         box = part.bounding_box()
         assert box is not None
@@ -128,7 +128,7 @@ class Timeline:
             self.page.mouse.move(place, box["y"] + 20, steps=5)
 
     def longest_gap(self) -> int:
-        """How many pixels of the strip between its first and last piece stay empty in a row."""
+        """The longest run of empty pixels on the strip between its first and last piece."""
         strip = self.root.locator(".glid-strip").screenshot()
         row = imread(io.BytesIO(strip))[-3].astype(int)
         return int(np.diff(np.flatnonzero(row[:, 2] - row[:, 0] > 60)).max()) - 1
@@ -163,13 +163,13 @@ def test_a_walk_cycle_made_by_hand(open_notebook: OpenNotebook) -> None:
     assert timeline.keys.count() == 5
     book.screenshot("timeline-five-poses")
 
-    # A keyframe moves along time, past none; its easing and the repetition change.
+    # A keyframe moves in time, but not past another. Its easing and the repetition change.
     timeline.hold(1, 1.2, 1.4)
     head = timeline.box(timeline.root.locator(".glid-playhead"))  # shows where it would land
     assert abs(head["x"] + head["width"] / 2 - timeline.x(1.4)) < 5
     page.mouse.up()
     book.wait_for("abs(model.state.timeline.times[1] - 1.4) < 0.03")
-    # Escape lets go of one; one that is dropped on another stays beside it, where both are seen.
+    # Escape drops a drag. A keyframe dropped on another stays beside it, so both are visible.
     moved = timeline.times
     timeline.hold(1, 2.6)
     timeline.root.locator(".glid-timeline-note", has_text="to 2.60 s").wait_for()
@@ -192,7 +192,7 @@ def test_a_walk_cycle_made_by_hand(open_notebook: OpenNotebook) -> None:
     assert book.value("model.state.timeline.easing[model.state.active]") == "in-out"
     timeline.settle()
 
-    # Scrubbing shows the motion at that time; the kernel is told nothing.
+    # Scrubbing shows the motion at that time, without a message to the kernel.
     state = book.value("id(model.state)")
     timeline.scrub([0.3, 0.9, 2.63])
     assert timeline.time == pytest.approx(2.63, abs=0.02)
@@ -205,7 +205,7 @@ def test_a_walk_cycle_made_by_hand(open_notebook: OpenNotebook) -> None:
     timeline.assert_shows_the_motion()
     assert book.value("id(model.state)") == state
 
-    # It plays in a loop, without the kernel, and stops where it is.
+    # It plays in a loop, without the kernel, and stops at the current time.
     page.evaluate(COUNT_DRAWINGS)
     page.keyboard.press("Space")
     page.wait_for_function("() => window.drawings > 10")
@@ -214,11 +214,11 @@ def test_a_walk_cycle_made_by_hand(open_notebook: OpenNotebook) -> None:
     timeline.assert_shows_the_motion()
     assert book.value("id(model.state)") == state
 
-    # The first touch of the canvas goes back to the pose that is edited, and does no more.
+    # The first touch of the canvas only returns to the edited pose.
     hand.click([0.0, 0.0])
     hand.wait_until_drawn()
     assert len(hand.handles) == 5
-    # What lies between is kept as a pose, and undo takes it back.
+    # A map between poses is kept as a pose, and undo takes it back.
     timeline.scrub([0.5])
     timeline.button("Keep this pose")
     book.wait_for("len(editor.poses) == 6 and model.state.active == 1")
@@ -241,7 +241,7 @@ def test_a_walk_cycle_made_by_hand(open_notebook: OpenNotebook) -> None:
     assert all(time == round(time, 2) for time in timeline.times)
     timeline.settle()
     book.screenshot("timeline-recorded")
-    # On a busy machine moves come in bursts, and keyframes so close need more room.
+    # On a busy machine moves come in bursts, and close keyframes need more room.
     wide = max(280, 10 * timeline.times[-1] / min(np.diff(timeline.times)))
     timeline.root.evaluate(f"root => {{ root.style.width = '{wide}px'; }}")
     assert timeline.keys.evaluate_all(GRABBED).count(False) == 0
@@ -262,13 +262,13 @@ def test_a_walk_cycle_made_by_hand(open_notebook: OpenNotebook) -> None:
     timeline.settle()
     assert book.value("editor.motion.certificate.certified")
 
-    # Where the kernel evaluates, it draws the frames, and the timeline says so.
+    # If the kernel evaluates, it draws the frames, and the timeline says so.
     book.value("None", setup=OTHER)
     second = Timeline(hand, 1)
     note = second.root.locator(".glid-timeline-note", has_text="Played by the kernel")
     note.wait_for()
     second.root.evaluate("root => { root.style.width = '390px'; }")
-    # At once, for what is proved meanwhile is told there too.
+    # All in one call, because the note also reports what is proved meanwhile.
     longer = "note.append(' A longer reason.'.repeat(9))"
     fits = "note.clientHeight >= note.scrollHeight && note.clientHeight > 50"
     assert note.evaluate(f"note => {{ {longer}; return {fits}; }}")

@@ -1,4 +1,4 @@
-"""The tracer without a browser: what the page is told, and what it may ask for."""
+"""The tracer without a browser: what the page gets, and what it may ask for."""
 
 from __future__ import annotations
 
@@ -19,11 +19,12 @@ from glid_nb.imaging.read import MAX_SIDE
 from glid_nb.session.tracing import TracingModel
 from glid_nb.widgets import CageTracer
 
-from ..session.test_tracing import DRAWING, IN_SMALL_DISC
+from ..support import from_page
+from ..support.drawing import DRAWING, IN_SMALL_DISC
 
 
 class Page:
-    """A page's end of the line."""
+    """The page's side."""
 
     def __init__(self, tracer: CageTracer, name: str = "page 1") -> None:
         self.tracer, self.name, self.sent = tracer, name, 0
@@ -34,7 +35,8 @@ class Page:
         """Send an event, through JSON; the refusal."""
         self.sent += 1
         event = {"type": kind, "seq": self.sent, **content, "buffered": bool(buffers)}
-        self.tracer._handle_custom_msg(
+        from_page.send(
+            self.tracer,
             json.loads(json.dumps({"view": self.name, "events": [event]})),
             [memoryview(b) for b in buffers],
         )
@@ -43,7 +45,7 @@ class Page:
         return answer["refusal"]
 
     def point(self, kind: str, x: float, y: float, **more: Any) -> str | None:
-        """An event of the pointer at a pixel of the picture; the stage shows one in one."""
+        """An event of the pointer at a pixel of the picture. The stage shows them one to one."""
         event = {"x": float(x), "y": float(y), "reach": 9, "unit": 1, "button": 0}
         return self.ask(kind, **{**event, "shift": False, "time": 1e6 * self.sent, **more})
 
@@ -182,9 +184,12 @@ def test_a_tool_is_refused_in_a_sentence(
     assert tracer.tracing_model.state is state
 
 
-def test_a_bug_is_shown_acknowledged_and_not_swallowed(tracer: CageTracer, page: Page) -> None:
-    with pytest.raises(KeyError):
-        tracer._receive(tracer, {"view": "a", "events": [{"type": "toggle_hole", "seq": 1}]}, [])
+def test_a_bug_is_shown_acknowledged_and_not_swallowed(
+    tracer: CageTracer, page: Page, caplog: pytest.LogCaptureFixture
+) -> None:
+    with caplog.at_level("WARNING"):
+        from_page.send(tracer, {"view": "a", "events": [{"type": "toggle_hole", "seq": 1}]})
+    assert [record.exc_info[0] for record in caplog.records if record.exc_info] == [KeyError]
     assert page.answers[-1] == {"view": "a", "ack": 1, "refusal": "KeyError: 'number'"}
 
 
@@ -201,7 +206,7 @@ def test_a_problem_is_shown_with_its_place(tracer: CageTracer, page: Page) -> No
 
 
 def _disc(alpha: bool) -> np.ndarray:
-    """A disc on a transparent ground, or noise without any."""
+    """A disc on a transparent ground, or noise without transparency."""
     if not alpha:
         noise = np.random.default_rng(3).integers(0, 256, (60, 80, 3))
         return noise.astype(np.uint8)
@@ -246,7 +251,7 @@ def test_a_problem_is_told_in_plain_words(
     act(tracer.tracing_model)
     (problem,) = tracer.shown["problems"]
     assert words in problem["message"]
-    # No option, no coordinates, no value of code.
+    # The sentence names no option, no coordinates and no code.
     assert not re.search(r"[=_()]|'\w+'|\d\.\d|edges|exterior loop", problem["message"])
 
 

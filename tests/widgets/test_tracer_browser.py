@@ -1,4 +1,4 @@
-"""The tracer in JupyterLab, used by hand; what counts is what the kernel then holds."""
+"""The tracer in JupyterLab, used by hand. The tests compare the kernel's values."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from playwright.sync_api import Locator
 from skimage.color import deltaE_ciede2000, rgb2lab
 from skimage.io import imread
 
-from ..browser import LabNotebook
+from ..support.browser import LabNotebook
 from .conftest import OpenNotebook
 
 pytestmark = [pytest.mark.browser, pytest.mark.slow]
@@ -79,7 +79,7 @@ def test_tracing_by_the_controls(open_notebook: OpenNotebook) -> None:
     assert book.value("[tracer.cage.n_holes, tracer.options.method]") == [8, "auto"]
     area = book.value("tracer.cage.area")
 
-    # The picture's ground is transparent, so it has no colour: said, and the cage is kept.
+    # The ground is transparent and so has no colour. The page says so, and the cage is kept.
     hand.root.get_by_role("radio", name="Colour").click()
     hand.root.locator(".glid-callout", has_text="transparent").wait_for()
     assert book.value("tracer.cage.area") == area
@@ -101,7 +101,7 @@ def test_tracing_by_the_controls(open_notebook: OpenNotebook) -> None:
     hand.root.locator("[data-name=offset] .glid-auto").click()
     book.wait_for("tracer.options.simplify is tracer.options.offset is None")
 
-    # The alpha channel again, and a hole dropped in the list, another one in the picture.
+    # The alpha channel again. One hole is dropped in the list, another one in the picture.
     hand.root.get_by_role("radio", name="Alpha").click()
     book.wait_for("tracer.options.method == 'alpha'")
     hand.root.locator(".glid-hole input").first.click()
@@ -164,7 +164,7 @@ def test_vertices_by_hand(open_notebook: OpenNotebook) -> None:
     hand.settle()
     np.testing.assert_allclose(hand.vertex(0, i), end, atol=1.5)
 
-    # A drag may end outside of the stage.
+    # A drag may end outside the stage.
     page.mouse.move(*hand.place(*hand.vertex(0, i)))
     page.mouse.down()
     page.mouse.move(30, 300, steps=5)
@@ -200,7 +200,7 @@ def test_vertices_by_hand(open_notebook: OpenNotebook) -> None:
     page.keyboard.press("Delete")
     book.wait_for(f"tracer.cage.n_vertices == {n - 1}")
 
-    # Dragged across the shape: shown, with the place and the reason; the last cage is kept.
+    # Dragged across the shape: shown with place and reason. The last valid cage is kept.
     cage = book.value("tracer.cage.exterior.tolist()")
     j = leftmost(hand)
     x, y = hand.vertex(0, j)
@@ -271,7 +271,7 @@ def test_scribbles_themes_and_a_reload(open_notebook: OpenNotebook) -> None:
 
 def test_it_answers_while_another_cell_runs(open_notebook: OpenNotebook) -> None:
     hand = tracer_of(open_notebook, "frog")
-    # Code that waits for an event which only a change by hand sets.
+    # Code that waits for an event, which only a change by hand sets.
     hand.page.evaluate(
         """() => {
           const kernel = jupyterapp.shell.currentWidget.sessionContext.session.kernel;
@@ -350,7 +350,7 @@ def test_touch(open_notebook: OpenNotebook) -> None:
     np.testing.assert_allclose(hand.vertex(0, i), (x - 30, y - 10), atol=2)
     assert book.value("tracer.shown['problems']") == []
 
-    # The kernel closes it in the middle of a drag; an error in the console would fail this test.
+    # The kernel closes it during a drag. An error in the console would fail this test.
     touch("touchStart", hand.place(*hand.vertex(0, i)))
     place = hand.place(300, 200)
     book.value("tracer.close()")

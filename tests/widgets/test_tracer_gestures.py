@@ -10,11 +10,11 @@ import pytest
 from glid_nb.session.tracing import TracingModel
 from glid_nb.widgets.tracer_gestures import TraceGestures
 
-from ..session.test_tracing import DRAWING, IN_LARGE_HOLE, IN_SMALL_DISC, far_vertex
+from ..support.drawing import DRAWING, IN_LARGE_HOLE, IN_SMALL_DISC, far_vertex
 
 
 class Hand:
-    """Sends events as the page does: pixels of the picture, seen two in one of the screen."""
+    """Sends events as the page does, in pixels of the picture. A screen pixel is half of one."""
 
     def __init__(self, model: TracingModel) -> None:
         self.model, self.gestures = model, TraceGestures(model)
@@ -72,7 +72,7 @@ def test_a_drag_that_is_cancelled_never_was(hand: Hand, how: str) -> None:
     hand.send("up", x - 12, y)
     assert model.state is before
     assert not model.can_undo
-    assert model.redo()  # not even what was undone is gone
+    assert model.redo()  # even the undone steps are still there
     assert model.options.offset == 6
 
 
@@ -86,7 +86,7 @@ def test_escape_takes_nothing_back_that_is_over(hand: Hand) -> None:
     hand.key("Escape")
     assert hand.model.state is after
     assert hand.gestures.selected == ()
-    # A click on a vertex, and Escape while it is pressed: there is nothing to take back.
+    # Neither a click on a vertex nor Escape while it is pressed leaves anything to take back.
     hand.send("down", *hand.vertex(i))
     hand.key("Escape")
     assert hand.model.state is after
@@ -169,7 +169,7 @@ def test_tools_by_keys(hand: Hand) -> None:
     assert scribbles is not None
     assert len(scribbles.foreground[0]) == 3
     hand.send("down", 60, 20)
-    hand.key("Escape")  # the stroke, and not the tool
+    hand.key("Escape")  # the stroke, but not the tool
     hand.send("up", 60, 100, path=[[60, 20], [60, 100]])
     assert hand.model.state.scribbles is scribbles
     assert hand.gestures.tool == "foreground"

@@ -1,4 +1,4 @@
-"""Cages that a page's shaders cannot hold: the kernel sends vertices, and the page draws them."""
+"""Cages too large for a page's shaders: the kernel sends vertices, and the page draws them."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ model, before = canvas.deformation, canvas.pane.scene.evaluated_in
 canvas
 """
 
-# As little as WebGL allows: 128 vectors.
+# The least that WebGL allows: 128 vectors.
 FEW_UNIFORMS = """
 for (const kind of [WebGLRenderingContext, WebGL2RenderingContext]) {
   const getParameter = kind.prototype.getParameter;
@@ -44,7 +44,7 @@ def test_the_page_draws_the_kernels_vertices(open_notebook: OpenNotebook) -> Non
     hand.wait_for_target(1, [3.0, 2.0])
     assert hand.certified()
     assert hand.targets[1] != hand.handles[1]
-    # What three.js holds is what the kernel's map says of the mesh's vertices.
+    # three.js holds the images of the mesh's vertices under the kernel's map.
     points = np.reshape(hand.attribute("position"), (-1, 3))[:, :2]
     assert len(points) > 400
     expected = book.value(f"model.map({points.tolist()}).tolist()")

@@ -1,4 +1,4 @@
-"""What a new user meets, as screenshots to be looked at, at three sizes in both themes.
+"""What a new user sees, as screenshots to look at, at three sizes in both themes.
 
 Left out without ``--minutes``. ``$GLID_NB_ARTEFACTS`` names the folder of the screenshots.
 """
@@ -32,13 +32,13 @@ PINS = glid_nb.io.load_pose(glid_nb.samples.pose_path("gecko", "gentle")).handle
 
 
 class Walk:
-    """A notebook with an editor in a window, of which pictures are taken one after the other."""
+    """A notebook with an editor in a window, with one screenshot after another."""
 
     def __init__(
         self, opened: OpenNotebook, picture: str, size: tuple[int, int], theme: str, data: Path
     ) -> None:
         window = {"viewport": {"width": size[0], "height": size[1]}, "service_workers": "block"}
-        cell = CELL.format(data=str(data), picture=picture)  # nobody's kept work is offered
+        cell = CELL.format(data=str(data), picture=picture)  # no kept work is offered
         self.book = opened([cell], **window)
         self.page, self.name, self.taken = self.book.page, f"{size[0]}-{theme}", itertools.count(1)
         self.book.theme(f"JupyterLab {theme}")
@@ -104,7 +104,7 @@ def test_a_cut_out(
     hand.drag(line(PINS[1], raised, 10))
     hand.wait_for_target(1, raised)
 
-    # Mistakes, and what helps.
+    # Mistakes, and their remedies.
     page.get_by_label("Angle °").fill("much")
     page.keyboard.press("Enter")
     page.get_by_text("is no number").wait_for()
@@ -118,7 +118,7 @@ def test_a_cut_out(
     page.get_by_role("tab", name="Solver").click()
     shot("solver")
 
-    # The kernel is restarted; the work comes back, is saved, exported and opened again.
+    # The kernel is restarted. The work comes back, is saved, exported and opened again.
     page.evaluate(RESTART)
     page.locator(".glid-editor.jupyter-widgets-disconnected").wait_for()
     shot("restarted")

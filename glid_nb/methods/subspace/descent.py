@@ -114,7 +114,7 @@ class DirectedDescent(SubspaceDescent):
     def hessian(self, curvature: Curvature) -> Array:
         """(4c, 4c) Hessian of the isometric energy. For fixed and tied unknowns, its diagonal is
         ``unit**-2``."""
-        h = np.array(_hessian(self.problem, self.evaluated, curvature=curvature))
+        h = np.array(hessian_at(self.problem, self.evaluated, curvature=curvature))
         fixed = np.flatnonzero(self.free == 0)
         h[fixed, fixed] = self.unit**-2
         return h
@@ -214,7 +214,7 @@ def _evaluate(problem: SubspaceProblem, coefficients: Coefficients) -> tuple[Poi
 
 
 @functools.partial(solver_jit, static_argnames="curvature")
-def _hessian(problem: SubspaceProblem, point: Point, *, curvature: Curvature) -> DeviceArray:
+def hessian_at(problem: SubspaceProblem, point: Point, *, curvature: Curvature) -> DeviceArray:
     """(4c, 4c) Hessian of the isometric energy with respect to the unknowns (33).
 
     ``gauss-newton`` is for ARAP, ``2 (|f_z| - 1)^2 + 2 |f_zbar|^2``, and leaves out the second

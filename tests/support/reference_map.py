@@ -140,7 +140,7 @@ class DenseCheck:
         )
 
     def measure(self, phi: Points, psi: Points) -> Measured:
-        """The extremes are found in double precision, and computed at these points in extended."""
+        """The extremes are found in double precision, then computed in extended precision there."""
         fz, fzb = self.derivative(phi), self.derivative(psi)
         f, g = np.abs(np.concatenate(fz)), np.abs(np.concatenate(fzb))
         turns = [np.angle(np.roll(v, -1) / v).sum() / (2 * np.pi) for v in fz[:-1]]

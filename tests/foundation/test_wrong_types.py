@@ -1,4 +1,4 @@
-"""Arguments of a wrong type: an error that names the argument, never one from inside."""
+"""Arguments of a wrong type: the error names the argument and does not come from inside."""
 
 from __future__ import annotations
 

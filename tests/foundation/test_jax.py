@@ -1,4 +1,4 @@
-"""JAX is imported when something is computed, and then by everything alike."""
+"""JAX is imported only when something is computed."""
 
 from __future__ import annotations
 

@@ -35,7 +35,7 @@ def domain() -> Domain:
 
 @functools.cache
 def bent() -> HarmonicMap:
-    """z + 0.03 i z^2, nearly: conformal, and locally injective on the domain."""
+    """Almost z + 0.03 i z^2: conformal, and locally injective on the domain."""
     start = HarmonicMap.identity(domain())
     phi = np.where(start.phi != 0, start.phi + 0.03j * start.phi**2, 0)
     return HarmonicMap(domain(), phi, start.psi)

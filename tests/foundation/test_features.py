@@ -1,4 +1,4 @@
-"""What the installed libraries may not have is done without, or named in one sentence."""
+"""A missing feature of the installed libraries is replaced, or named in one sentence."""
 
 from __future__ import annotations
 
@@ -16,12 +16,12 @@ from glid_nb._errors import IncompatibleVersionsError, InputError
 
 @pytest.fixture(autouse=True)
 def asked_anew() -> Iterator[None]:
-    """Each test asks the libraries itself, and leaves nothing to the next one."""
+    """Each test asks the libraries anew, and leaves no answers to the next one."""
     asked = (
         _features.compiler_options,
         _features.lapack_in_place,
         _features.executables,
-        _features._enable_x64,
+        _features.x64_context,
     )
     for question in asked:
         question.cache_clear()
@@ -32,7 +32,7 @@ def asked_anew() -> Iterator[None]:
 
 def test_an_option_that_xla_does_not_know_is_left_out(monkeypatch: pytest.MonkeyPatch) -> None:
     wanted = {"xla_cpu_no_such_option": True, "xla_cpu_enable_fast_math": False}
-    monkeypatch.setattr(_features, "_WANTED_OPTIONS", wanted)
+    monkeypatch.setattr(_features, "WANTED_OPTIONS", wanted)
     assert _features.compiler_options() == {"xla_cpu_enable_fast_math": False}
     assert _features.unknown_options() == ["xla_cpu_no_such_option"]
     double = _features.solver_jit(lambda x: 2 * x)
@@ -46,7 +46,7 @@ def test_another_error_of_the_compiler_is_not_taken_for_an_unknown_option(
         raise RuntimeError("out of memory")
 
     monkeypatch.setattr(_features, "jax", types.SimpleNamespace(jit=fail))
-    monkeypatch.setattr(_features, "_WANTED_OPTIONS", {"xla_cpu_enable_fast_math": False})
+    monkeypatch.setattr(_features, "WANTED_OPTIONS", {"xla_cpu_enable_fast_math": False})
     with pytest.raises(RuntimeError, match="out of memory"):
         _features.compiler_options()
 
@@ -56,7 +56,7 @@ def test_lapack_is_not_called_in_place_where_jax_calls_it_otherwise(
 ) -> None:
     assert _features.lapack_in_place()
     _features.lapack_in_place.cache_clear()
-    monkeypatch.setattr(_features, "_KNOWN_CALLS", ("@lapack_dpotrf_of_tomorrow",))
+    monkeypatch.setattr(_features, "KNOWN_CALLS", ("@lapack_dpotrf_of_tomorrow",))
     assert not _features.lapack_in_place()
 
 
@@ -67,7 +67,7 @@ def test_the_scope_of_double_precision_is_found_where_old_and_new_jax_have_it(
     monkeypatch.setattr(_features, "import_jax", modules.__getitem__)
     modules["jax.experimental"].enable_x64 = lambda enabled: ("old", enabled)
     assert _features.enable_x64() == ("old", True)
-    _features._enable_x64.cache_clear()
+    _features.x64_context.cache_clear()
     modules["jax"].enable_x64 = lambda enabled: ("new", enabled)
     assert _features.enable_x64(False) == ("new", False)
 

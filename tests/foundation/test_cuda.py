@@ -1,6 +1,6 @@
-"""Every compiled program, lowered for CUDA on a machine without a GPU.
+"""Every compiled program is lowered for CUDA, on a machine without a GPU.
 
-A program is lowered where it is called, under the settings of that call, then runs as always.
+A program is lowered at its call, with the settings of that call. Then it runs as usual.
 """
 
 from __future__ import annotations
@@ -30,11 +30,11 @@ from glid_nb.solvers import cholesky, newton, step, subspace
 from glid_nb.solvers.method import Inputs
 from glid_nb.solvers.newton import Newton, NewtonDescent
 
-from .domains import domain
+from ..support.domains import domain
 
 pytestmark = [pytest.mark.slow, pytest.mark.timeout(900)]
 
-PACKAGE = Path(__file__).resolve().parent.parent / "glid_nb"
+PACKAGE = Path(__file__).resolve().parents[2] / "glid_nb"
 
 MAKERS = {"jit", "solver_jit", "Program", "CompiledOnUse", "pmap", "shard_map", "ffi_call"}
 """Calls that make something compiled."""
@@ -61,11 +61,11 @@ METHODS = {
     "gauss-newton": {},
     "aqp": {},
 }
-"""Names and settings; between them they take every kind of Hessian."""
+"""Names and settings. Together they use every kind of Hessian."""
 
 
 def makers(source: str) -> Iterator[tuple[str, ast.Call | ast.expr]]:
-    """Name of the statement at the module's top level, and what there makes something compiled."""
+    """Name of the top-level statement, and the call or decorator in it that compiles."""
     for statement in ast.parse(source).body:
         target = statement.targets[0] if isinstance(statement, ast.Assign) else statement
         name = getattr(target, "name", None) or getattr(target, "id", type(target).__name__)
@@ -102,7 +102,7 @@ def test_a_program_is_found_in_the_code(source: str, name: str) -> None:
 
 
 class Lowered:
-    """What the programs were lowered to, by their names in the code."""
+    """The lowered texts of the programs, by their names in the code."""
 
     def __init__(self) -> None:
         self.texts: defaultdict[str, dict[Any, str]] = defaultdict(dict)
@@ -131,7 +131,7 @@ def lowered() -> Lowered:
         return call(self, *arguments, **keywords)
 
     def ran(self: Program, *arguments: Any) -> Any:
-        jitted = jax.jit(self._function, donate_argnums=self._donated)
+        jitted = jax.jit(self.function, donate_argnums=self.donated)
         found.add(self, jitted, arguments, {})
         (problem, *rest), known = arguments, found.texts[found.names[id(self)]]
         if len(known) == 1:
@@ -160,25 +160,25 @@ def use_every_program() -> None:
         energy = "arap" if name == "gauss-newton" else None
         solve(ell, pose, energy, QUICK, method=methods.by_name(name, **settings))
     inputs = Inputs(domain=ell, pose=pose, energy=as_energy(None), options=QUICK)
-    batch._in_lockstep([inputs, inputs])
+    batch.in_lockstep([inputs, inputs])
     evaluate_a_start(inputs)
 
 
 @double_precision
 def evaluate_a_start(inputs: Inputs) -> None:
-    """As where the start has no proof."""
+    """As if the start had no proof."""
     start = NewtonDescent(Newton(), inputs)
-    point = subspace._evaluated(start.problem, start.coefficients)
-    newton._gradient(start.problem, point)
+    point = subspace.evaluated_at(start.problem, start.coefficients)
+    newton.gradient(start.problem, point)
 
 
 def test_every_program_of_the_code_is_lowered(lowered: Lowered) -> None:
-    """A new program belongs into `use_every_program`, which must call it."""
+    """A new program must be called in `use_every_program`."""
     assert set(lowered.texts) == programs_in_the_code() - NO_PROGRAMS.keys()
     kinds = lowered.texts["glid_nb.solvers.step.run"]
     assert len(kinds) >= len(ENERGIES) + len(["custom", "stiff areas", "paper"])
     curvatures = typing.get_args(descent.Curvature)
-    assert len(lowered.texts["glid_nb.methods.subspace.descent._hessian"]) == len(curvatures)
+    assert len(lowered.texts["glid_nb.methods.subspace.descent.hessian_at"]) == len(curvatures)
 
 
 def test_no_program_calls_what_only_a_cpu_has(lowered: Lowered) -> None:
@@ -189,7 +189,7 @@ def test_no_program_calls_what_only_a_cpu_has(lowered: Lowered) -> None:
     for name, some in calls.items():
         assert not [call for call in some if not ON_CUDA.fullmatch(call)], name
     assert "cusolver_potrf_ffi" in calls["glid_nb.solvers.step.run"]
-    assert "cusolver_potrf_ffi" in calls["glid_nb.minima.batch._together"]
+    assert "cusolver_potrf_ffi" in calls["glid_nb.minima.batch.together"]
 
 
 def custom_calls(text: str) -> set[str]:
@@ -203,7 +203,7 @@ def test_the_same_test_finds_a_cpus_call() -> None:
 
 
 def test_every_product_is_asked_for_in_full_precision(lowered: Lowered) -> None:
-    """A GPU would else take TF32 for the Hessian in single precision."""
+    """Otherwise a GPU would use TF32 for the Hessian in single precision."""
     products = [
         line
         for texts in lowered.texts.values()
@@ -217,7 +217,7 @@ def test_every_product_is_asked_for_in_full_precision(lowered: Lowered) -> None:
 
 
 def test_the_donated_factor_is_where_the_new_one_is_written(lowered: Lowered) -> None:
-    """Else every call would warn that the memory it was given is of no use."""
+    """Otherwise every call would warn that the donated memory is of no use."""
     for text in lowered.texts["glid_nb.solvers.step.run"].values():
         assert text.count("tf.aliasing_output") == 1
         assert "jax.buffer_donor" not in text
@@ -229,7 +229,7 @@ def test_only_the_whitened_basis_is_in_single_precision(lowered: Lowered) -> Non
         for text in texts.values():
             (main,) = re.findall(r"func.func public @main\((.*?)\) ->", text, re.DOTALL)
             singles = re.findall(r"tensor<([\dx]*)f32>", main)
-            of_newton = name in ("glid_nb.solvers.step.run", "glid_nb.minima.batch._together")
+            of_newton = name in ("glid_nb.solvers.step.run", "glid_nb.minima.batch.together")
             assert len(singles) <= 1, name
             assert not singles or of_newton or name.startswith("glid_nb.methods.subspace"), name
 
@@ -247,7 +247,7 @@ def test_the_factorisation_takes_the_platforms_own_solver() -> None:
     )
     assert calls("cpu") == {"lapack_dpotrf_ffi", "lapack_dtrsm_ffi"}
     assert calls("cuda") == {"cusolver_potrf_ffi"}
-    # Where a matrix is not definite the solver looks for NaN: here if cuSOLVER's `info` is not 0.
+    # If a matrix is not definite, the solver looks for NaN. cuSOLVER's `info` is then not 0.
     text = traced.lower(lowering_platforms=("cuda",)).as_text()
     assert re.search(r"dense<0x7FF8000000000000>", text)
     assert re.search(r"stablehlo.compare +EQ", text)
@@ -286,10 +286,13 @@ def test_a_device_may_be_chosen_by_its_platforms_name() -> None:
 
 
 @pytest.mark.parametrize("precision", ["bfloat16", "BF16_BF16_F32", "tensorfloat32"])
-def test_a_callers_precision_of_products_changes_nothing(precision: str) -> None:
+def test_a_callers_precision_of_products_changes_nothing(
+    precision: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
     ell, pose = domain("ell"), Pose(HANDLES, BENT)
     here = solve(ell, pose, None, QUICK)
-    step.run._ready.clear()
+    again = Program(step.run.function, step.run.donated, step.run.may_keep)
+    monkeypatch.setattr(step, "run", again)
     with jax.default_matmul_precision(precision):
         there = solve(ell, pose, None, QUICK)
         assert jax.config.jax_default_matmul_precision == precision

@@ -18,7 +18,7 @@ from glid_nb._features import enable_x64
 from glid_nb.certificate import certify
 from glid_nb.harmonic import HarmonicMap
 
-from .domains import domain
+from ..support.domains import domain
 
 
 def run_python(source: str) -> list[str]:
@@ -173,7 +173,8 @@ assert threads() == {2}
 
 @pytest.mark.slow
 def test_the_last_of_several_threads_sets_blas_back(monkeypatch: pytest.MonkeyPatch) -> None:
-    """As when an editor's solver thread and a cell's solve overlap, and both threads live on."""
+    """Like an editor's solver thread and a cell's solve that overlap, while both threads live
+    on."""
     monkeypatch.setenv("OPENBLAS_NUM_THREADS", "2")
     run_python(
         BLAS

@@ -1,4 +1,4 @@
-"""What a reader sees who runs the check of an exercise."""
+"""What a reader sees after running the check of an exercise."""
 
 from __future__ import annotations
 

@@ -67,7 +67,7 @@ def test_after_a_change_of_the_package_it_is_found_by_its_text(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     made()(ONES, ONES)
-    monkeypatch.setattr(_programs, "_package_files", lambda: ["changed"])
+    monkeypatch.setattr(_programs, "package_files", lambda: ["changed"])
     assert stages(made(), TWOS, ONES) == ["trace", "lower", "load"]
     assert stages(made(), TWOS, ONES) == ["load"]
 
@@ -126,7 +126,7 @@ def test_whoever_watches_can_end_it() -> None:
 def test_of_those_in_files_the_few_used_last_stay_in_memory(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr(_programs, "_MOST_LOADED", 2)
+    monkeypatch.setattr(_programs, "MOST_LOADED", 2)
     program = Program(double, donated=1, may_keep=lambda x, _: len(x) != 3)
     kinds = threes, twos, ones, mixed = [
         (np.ones(n), ONES[:k]) for n, k in ((3, 3), (2, 2), (1, 1), (1, 3))
@@ -143,9 +143,9 @@ def test_of_those_in_files_the_few_used_last_stay_in_memory(
 
 @pytest.fixture
 def warned(monkeypatch: pytest.MonkeyPatch) -> list[str]:
-    """The warnings of a process that has given up no folder yet."""
+    """The warnings of a process that has not given up any folder."""
     told: list[str] = []
-    monkeypatch.setattr(_cache_folder, "_refused", set())
+    monkeypatch.setattr(_cache_folder, "refused", set())
     monkeypatch.setattr(_cache_folder.warnings, "warn", lambda text, *_, **__: told.append(text))
     return told
 
@@ -225,7 +225,7 @@ def test_a_program_of_another_user_is_not_run(
 ) -> None:
     made()(ONES, ONES)
     mine = os.geteuid()
-    monkeypatch.setattr(_kept_programs, "_trusted_owners", lambda: {mine + 1})
+    monkeypatch.setattr(_kept_programs, "trusted_owners", lambda: {mine + 1})
     assert stages(made(), TWOS, ONES) == COMPILED
     assert len(warned) == 1
     assert "another user" in warned[0]

@@ -1,4 +1,4 @@
-"""What people give for loops, points and handles: taken as meant, or refused with the remedy."""
+"""Loops, points and handles as people give them: accepted as meant, or refused with the remedy."""
 
 from __future__ import annotations
 

@@ -14,7 +14,7 @@ from glid_nb.minima import solve
 from glid_nb.pose import Pose
 from glid_nb.solvers import Options, Result
 
-from ..domains import domain
+from .domains import domain
 
 _ELL = np.array([[-2.5, 2.5], [2.5, -2.5], [-2.0, -2.0]])
 _RING = np.array([[2.2, 0.1], [-2.2, 0.0], [0.0, 2.1]])

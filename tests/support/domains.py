@@ -20,7 +20,7 @@ Array = NDArray[Any]
 NAMES = ("ell", "ring", "twin", "triple")
 """Domains with 0, 1, 2 and 3 holes."""
 MANY_HOLES = {"quadruple": 4, "quintuple": 5, "sextuple": 6}
-"""And with more."""
+"""Domains with more holes."""
 
 _ELL = [[-3, -3], [3, -3], [3, 0], [0, 0], [0, 3], [-3, 3]]
 
@@ -33,7 +33,7 @@ def circle(n: int, radius: float, centre: complex = 0, turn: float = 0) -> Array
 
 @functools.cache
 def domain(name: str) -> Domain:
-    """One of those names, or `annulus` with many vertices."""
+    """A domain by its name. The `annulus` has many vertices."""
     if name == "ell":
         return Domain.from_cage(Cage(_ELL), 0.3)
     if name == "ring":
@@ -93,8 +93,17 @@ def random_map(name: str, size: float, seed: int) -> HarmonicMap:
     return HarmonicMap(d, phi, psi)
 
 
+def turned(map: HarmonicMap, angle: float, by: complex = 0) -> HarmonicMap:
+    """The map, then a rotation and a translation."""
+    turn, phi = np.exp(1j * angle), map.phi.copy()
+    phi *= turn
+    phi[: len(map.domain.offset_cage.exterior)] += by
+    return HarmonicMap(map.domain, phi, map.psi / turn)
+
+
 def divided(domain: Domain, pieces: Callable[[int], Array]) -> Domain:
-    """The same domain, each edge of both its cages cut into pieces: for the edges of a loop."""
+    """The same domain, with each edge of both cages cut into pieces. ``pieces(n)`` gives their
+    numbers for the n edges of a loop."""
     counts = [pieces(len(loop)) for loop in domain.cage.loops]
 
     def finer(cage: Cage) -> Cage:
@@ -106,5 +115,5 @@ def divided(domain: Domain, pieces: Callable[[int], Array]) -> Domain:
 
 
 def real(z: Array) -> Array:
-    """(k, 2) points of complex ones."""
+    """(k, 2) points from complex numbers."""
     return np.stack([np.real(z), np.imag(z)], axis=-1)

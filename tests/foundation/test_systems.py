@@ -1,4 +1,4 @@
-"""What differs between systems: what Windows or macOS would do, made by hand on any of them."""
+"""Differences between systems, simulated on any of them."""
 
 from __future__ import annotations
 
@@ -17,14 +17,14 @@ from glid_nb import InputError, read_image
 from glid_nb._files import discard, portable_name, read_file, same_file, write_atomically, zipped
 from glid_nb._json import read_json
 
-REPOSITORY = Path(__file__).resolve().parents[1]
+REPOSITORY = Path(__file__).resolve().parents[2]
 FOLDERS = ("glid_nb", "checker", "studies", "tools", "docs")
 SOURCES = sorted(path for name in FOLDERS for path in (REPOSITORY / name).rglob("*.py"))
 NAMES = ["with two  spaces.json", "Σ₂ – größer.json", "🦎.json", "C:\\Users\\me\\map.json"]
 
 
 def refuse_replacing(monkeypatch: pytest.MonkeyPatch) -> None:
-    """As Windows does while another program has the file open."""
+    """Like Windows while another program has the file open."""
 
     def refused(self: Path, target: Path) -> Path:
         raise PermissionError(errno.EACCES, "Access is denied", str(self), 5, str(target))
@@ -112,7 +112,7 @@ def test_a_folder_is_no_file_on_any_system(
     def denied(self: Path) -> bytes:
         raise PermissionError(errno.EACCES, "Permission denied", str(self))
 
-    monkeypatch.setattr(Path, "read_bytes", denied)  # what Windows says of a folder
+    monkeypatch.setattr(Path, "read_bytes", denied)  # the error of Windows for a folder
     with pytest.raises((InputError, OSError), match=r"(?i)folder|directory"):
         read(tmp_path)
 

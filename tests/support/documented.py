@@ -1,7 +1,7 @@
 """The commands that the documentation shows, read from its pages.
 
-Tests run them as they stand there: a server that is started in another way may work where the
-documented command does not.
+Tests run them as printed: a server that is started in another way may work where the documented
+command does not.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
-REPOSITORY = Path(__file__).resolve().parent.parent
+REPOSITORY = Path(__file__).resolve().parents[2]
 PAGES = (
     REPOSITORY / "README.md",
     REPOSITORY / "docs" / "course.md",
@@ -45,7 +45,8 @@ class Command:
 
 
 def commands(path: Path) -> list[Command]:
-    """What a page tells to type: the lines of its shell blocks, then commands within sentences."""
+    """The commands that a page shows: the lines of its shell blocks, then commands within
+    sentences."""
     text = path.read_text(encoding="utf-8")
     page = path.relative_to(REPOSITORY).as_posix()
     lines = [line for block in _BLOCK.findall(text) for line in block.splitlines()]

@@ -1,4 +1,4 @@
-"""Cages for the geometry tests: orderly ones, nasty ones and random ones."""
+"""Cages for tests: simple ones, nasty ones and random ones."""
 
 from __future__ import annotations
 
@@ -91,7 +91,7 @@ def with_vertices_on_edges(loop: Points, parts: int) -> Points:
 
 
 def nasty_cages() -> dict[str, Cage]:
-    """Cages that each break a careless offset in a way of their own."""
+    """Cages that each break a careless offset in another way."""
     sieve = [box(1.0 + 2.02 * (i % 7), 1.0 + 2.02 * (i // 7), 2.0) for i in range(49)]
     return {
         "comb with thin gaps": Cage(comb(8, 1e-3)),

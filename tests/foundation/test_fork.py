@@ -1,4 +1,4 @@
-"""Forked processes: refused where JAX would hang, at work where it would not."""
+"""Forked processes are refused where JAX would hang, and work elsewhere."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ pytestmark = [
     ),
 ]
 
-# In a process of its own, for a fork of the tests' process would be refused.
+# It runs in a process of its own, because a fork of the tests' process would be refused.
 SCRIPT = """
 import multiprocessing, warnings
 import numpy as np

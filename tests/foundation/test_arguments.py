@@ -72,7 +72,7 @@ def test_what_does_not_belong_is_refused(
 def test_the_results_of_chunks_are_put_together(
     count: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(_runtime, "_CHUNK_ELEMENTS", 8)
+    monkeypatch.setattr(_runtime, "CHUNK_ELEMENTS", 8)
     sizes = []
 
     def program(x: Any, y: Any, scale: float) -> dict[str, Any]:
@@ -84,5 +84,5 @@ def test_the_results_of_chunks_are_put_together(
     assert sum(sizes) == count
     assert max(sizes) <= 4
     np.testing.assert_array_equal(got["sum"], x + y)
-    with np.errstate(divide="ignore"):  # in a chunk it warns of nothing
+    with np.errstate(divide="ignore"):  # inside a chunk there is no warning
         np.testing.assert_array_equal(got["rows"], np.stack([x, 2 * y / (1 - y)], axis=1))

@@ -1,4 +1,4 @@
-"""How bad input is refused, wherever that is."""
+"""How bad input is refused."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ PACKAGE = Path(glid_nb.__file__).parent
 
 @pytest.mark.slow
 def test_every_refusal_of_the_package_is_an_input_error() -> None:
-    """A plain ValueError is what a bug raises; the command line tells them apart by the class."""
+    """A plain ValueError is a bug. The command line tells the two apart by the class."""
     strangers = [
         f"{path.relative_to(PACKAGE)}: {node.name}"
         for path in PACKAGE.rglob("*.py")
@@ -55,7 +55,7 @@ def test_a_name_that_is_near_is_offered() -> None:
 
 @pytest.mark.slow
 def test_ipython_prints_the_line_of_the_cell_and_one_sentence(tmp_path: Path) -> None:
-    """Not our frames, nor the errors that led to this one."""
+    """Neither our frames nor the errors that caused this one."""
     path = tmp_path / "picture.png"
     path.write_bytes(b"no picture")
     code = f"import glid_nb as glid\ndef opened():\n    glid.Editor({str(path)!r})\nopened()"

@@ -1,10 +1,10 @@
-"""A real browser on a real JupyterLab, for tests that assert on what a user meets.
+"""A real browser on a real JupyterLab, for tests of what a user sees.
 
 `JupyterServer` is a server of its own: a random port, temporary folders for notebooks, settings and
-workspaces, nothing of the user's. It is started by the command that the documentation shows, as
-Notebook and Voila are. `LabNotebook` is one notebook open in it, in JupyterLab or in Notebook;
-`VoilaPage` is one that Voila shows. `SharedLab` is a page and a kernel that notebooks use
-one after the other: loading the page and starting a kernel take longer than most tests.
+workspaces. It uses none of the user's files. Like Notebook and Voila, it is started by the command
+that the documentation shows. `LabNotebook` is one notebook open in it, in JupyterLab or Notebook;
+`VoilaPage` is one that Voila shows. `SharedLab` is a page and a kernel that notebooks use one after
+the other, because loading the page and starting a kernel take longer than most tests.
 """
 
 from __future__ import annotations
@@ -60,7 +60,7 @@ CHROMIUM_FLAGS = (
     "--host-resolver-rules=MAP * ~NOTFOUND, EXCLUDE 127.0.0.1",
 )
 
-# What pages say that is no fault of ours; everything else of the kind "error" fails a test.
+# Messages of pages that are not our fault. Every other message of the kind "error" fails a test.
 _HARMLESS = (
     # A server without jupyter-lsp, which JupyterLab asks for.
     re.compile(r"Failed to load resource.*404.*/lsp/status"),
@@ -153,7 +153,7 @@ def chromium() -> str:
 
 @contextlib.contextmanager
 def launched_chromium() -> Iterator[Browser]:
-    """The browser, running."""
+    """The running browser."""
     with sync_playwright() as playwright:
         browser = playwright.chromium.launch(
             executable_path=chromium(), headless=True, args=list(CHROMIUM_FLAGS)
@@ -233,7 +233,7 @@ class Host:
 
     @property
     def log(self) -> str:
-        """What the server wrote so far."""
+        """What the server has written so far."""
         return "".join(self._log)
 
     @property
@@ -267,7 +267,7 @@ def _free_port() -> int:
 
 
 def _write_settings(own: Path, port: int, runtime: Path) -> None:
-    """What would be flags of the command, as files."""
+    """Files with settings that would be flags of the command."""
     network = {"ip": "127.0.0.1", "port": port, "open_browser": False}
     server = {
         "ServerApp": {**network, "allow_root": True, "password": "", "terminals_enabled": False},
@@ -306,7 +306,7 @@ class JupyterServer(Host):
         super().__init__(documented("jupyter", "lab", "notebooks"), folder, folder / "lab")
 
     def beside(self, name: str, *start: str) -> Host:
-        """A server of one of the notebooks, by the documented command that begins so."""
+        """A server for one of the notebooks, by the documented command that begins like this."""
         words = documented(*start)
         words[-1] = f"notebooks/{name}.ipynb"
         return Host(words, self.folder, self.folder / name)
@@ -422,7 +422,7 @@ class LabNotebook(NotebookPage):
         else:
             page.goto(self._url)
         self._wait_until_ready()
-        # The notebook gets the whole window, as people do it.
+        # The notebook gets the whole window, as users often arrange it.
         page.evaluate(
             """() => { const app = window.jupyterapp;
               if (app.shell.leftCollapsed === false) app.shell.collapseLeft(); }"""
@@ -452,7 +452,7 @@ class LabNotebook(NotebookPage):
         assert not outputs, f"a cell raised {outputs}"
 
     def reload(self) -> None:
-        """Save the notebook and load the page anew; the kernel lives on."""
+        """Save the notebook and load the page again. The kernel continues."""
         self.page.evaluate("() => window.jupyterapp.commands.execute('docmanager:save')")
         self.page.goto(self._url)
         self._wait_until_ready()
@@ -528,7 +528,7 @@ class SharedLab:
             self._watch.errors.clear()
 
     def close(self) -> None:
-        """Leave the page; the kernel ends with the server."""
+        """Leave the page. The kernel ends with the server."""
         self._context.close()
 
 

@@ -11,7 +11,7 @@ from glid_nb.geometry import Domain
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.solvers import Result
 
-from ..reference_map import DenseCheck, Measured
+from .reference_map import DenseCheck, Measured
 
 
 @functools.lru_cache(maxsize=4)
