@@ -311,6 +311,7 @@ from glid_nb.session import live_solver
 may_solve, solve = threading.Event(), live_solver.solve
 
 def prepared(*arguments, **named):
+    live_solver.solve = solve  # other tests use this kernel
     stage("compile")
     may_solve.wait(60)
     return solve(*arguments, **named)
@@ -327,7 +328,7 @@ def test_the_canvas_says_that_it_is_warming_up_and_takes_pins_meanwhile(
     shown = page.locator(".glid-prepared")
     assert not shown.is_visible()
     hand.settle()
-    book.value("None", setup=f"{PREPARED_AS_TOLD}model.add_handle({THREE[0]})")
+    book.value("None", setup=f"{PREPARED_AS_TOLD}model.set_energy(glid.ARAP())")
     shown.get_by_text("Warming up: 50 %").wait_for()
     # Visible right after the cell was run: at the top of the canvas, below the hint.
     pad, hint, box = (one.bounding_box() for one in (hand.pad, page.locator(".glid-notice"), shown))
@@ -335,11 +336,11 @@ def test_the_canvas_says_that_it_is_warming_up_and_takes_pins_meanwhile(
     assert hint is not None
     assert box is not None
     assert hint["y"] + hint["height"] <= box["y"] < box["y"] + box["height"] < pad["y"] + 80
-    for point in THREE[1:]:
+    for point in THREE:
         hand.click(point)
     book.wait_for("len(model.pose) == 3")
     book.screenshot("editor-warming-up")
-    book.value("None", setup="live_solver.solve = solve; may_solve.set()")
+    book.value("None", setup="may_solve.set()")
     shown.wait_for(state="hidden")
     hand.settle()
     assert hand.certified()
