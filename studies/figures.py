@@ -18,6 +18,8 @@ from studies.distortion import densities
 Array = NDArray[Any]
 
 DPI = 130
+WEBP = {"quality": 80, "method": 6}
+"""How figures are compressed. PNGs of the same figures are 4 to 5 times as large."""
 
 
 def figure(width: float, height: float) -> Figure:
@@ -26,10 +28,10 @@ def figure(width: float, height: float) -> Figure:
 
 
 def save(drawn: Figure, path: Path) -> None:
-    """Write a figure as PNG."""
+    """Write a figure as WebP."""
     path.parent.mkdir(parents=True, exist_ok=True)
     buffer = io.BytesIO()
-    drawn.savefig(buffer, format="png", facecolor="white", metadata={"Software": None})
+    drawn.savefig(buffer, format="webp", facecolor="white", pil_kwargs=WEBP)
     write_atomically(path, buffer.getvalue())
 
 

@@ -167,7 +167,7 @@ def _listed(app: Sphinx, folder: Path, path: str) -> Iterator[str]:
     into.mkdir(parents=True, exist_ok=True)
     yield "<ul>"
     for file in sorted(folder.iterdir()):
-        if file.suffix in (".csv", ".json", ".png"):
+        if file.suffix in (".csv", ".json", ".png", ".webp"):
             shutil.copy(file, into)
             name = escape(file.name)
             yield f'<li><a class="reference" href="{escape(folder.name)}/{name}">{name}</a></li>'

@@ -168,7 +168,7 @@ def draw(found: list[Measurement], folder: Path) -> None:
     figures.label_axes(axes, "shape and unknowns", "ms per iteration")
     axes.legend(fontsize=SMALL, frameon=False, ncols=3)
     axes.set_ylim(top=1.25 * axes.get_ylim()[1])
-    figures.save(figure, folder / "solves.png")
+    figures.save(figure, folder / "solves.webp")
 
 
 def drag_step(

@@ -72,7 +72,7 @@ def draw(cases: list[Measurement], folder: Path) -> None:
             label = METHODS[name][0].replace(" weights", "\nweights")
             axes.set_title(f"{label}\n{count}" if data is cases[0] else count, fontsize=SMALL)
         row[0].annotate(data["name"], (-0.1, 0.5), xycoords="axes fraction", ha="right")
-    figures.save(figure, folder / "folding.png")
+    figures.save(figure, folder / "folding.webp")
 
 
 def _draw_folds(axes: Any, data: Measurement, name: str) -> None:

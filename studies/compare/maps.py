@@ -131,7 +131,7 @@ def _draw(name: str, settings: Mapping[str, Setting], data: Measurement, folder:
         told += f"\nk, sigma_1, sigma_2 proved: {row['proved']}"
         ax.set_title(f"{row['map']}\n{told}", fontsize=SMALL)
     figures.color_bar(figure, colors, axes, "symmetric Dirichlet density")
-    figures.save(figure, folder / f"{name}.png")
+    figures.save(figure, folder / f"{name}.webp")
 
 
 def _study(name: str, shapes: Any, settings: Mapping[str, Setting]) -> Study:

@@ -44,7 +44,7 @@ def draw(found: list[Measurement], folder: Path) -> None:
         left, right = parts
         _draw_maps(left, data, rows)
         _draw_energies(right, data["runs"])
-        figures.save(figure, folder / f"progress-{data['name']}.png")
+        figures.save(figure, folder / f"progress-{data['name']}.webp")
 
 
 def _draw_maps(figure: Any, data: Measurement, rows: list[str]) -> None:

@@ -79,7 +79,7 @@ def test_bench_writes_its_tables(bench: Callable[..., None], tmp_path: Path) -> 
     assert [row["settings"] for row in table(out / "breakdown.csv")] == ["paper", "default"]
     assert float(row["drag step, ms"]) > 0
     assert len(table(out / "scaling-vertices.csv")) == 1
-    assert (out / "solves.png").exists()
+    assert (out / "solves.webp").exists()
 
     page = tmp_path / "speed.md"
     text = page.read_text()
