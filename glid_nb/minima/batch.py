@@ -130,7 +130,7 @@ def _poses(handles: ArrayLike, targets: ArrayLike, more: dict[str, Any]) -> list
     try:
         rows = np.asarray(targets)
     except ValueError as error:
-        raise PoseError(f"targets are no array of (poses, handles, 2): {error}") from error
+        raise PoseError(f"targets are not an array of (poses, handles, 2): {error}") from error
     if rows.ndim != 3 and rows.size:
         raise PoseError(f"targets have shape {rows.shape}; expected (poses, handles, 2)")
     poses = []

@@ -73,7 +73,7 @@ def test_an_empty_batch() -> None:
 
 
 def test_ragged_targets_are_refused() -> None:
-    with pytest.raises(PoseError, match=r"targets are no array of \(poses, handles, 2\)"):
+    with pytest.raises(PoseError, match=r"targets are not an array of \(poses, handles, 2\)"):
         solve_batch(domain("ell"), HANDLES, [[[0, 0]], [[0, 0], [1, 1]]])
 
 

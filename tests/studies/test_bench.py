@@ -110,7 +110,10 @@ def test_bench_measures_starts_and_batches(bench: Callable[..., None], tmp_path:
         (["bench", "--only", "hope"], "unknown study 'hope'; choose one of solves"),
         (["bench", "--repeats", "0"], "repeats is 0"),
         (["compare", "--only", "magic"], "unknown study 'magic'; choose one of progress"),
-        (["compare", "--reference", "nowhere"], "no JSON file in this folder holds a cage and handles"),
+        (
+            ["compare", "--reference", "nowhere"],
+            "no JSON file in this folder holds a cage and handles",
+        ),
     ],
 )
 def test_what_is_refused(tmp_path: Path, words: list[str], said: str) -> None:

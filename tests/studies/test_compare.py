@@ -167,7 +167,9 @@ def test_a_study_writes_its_table_and_figure(
 
 
 def test_reference_folders_are_checked(tmp_path: Path) -> None:
-    with pytest.raises(InputFileError, match="no JSON file in this folder holds a cage and handles"):
+    with pytest.raises(
+        InputFileError, match="no JSON file in this folder holds a cage and handles"
+    ):
         reference_cases(tmp_path)
     small().problem.save(tmp_path / "My Shape.json")
     assert list(reference_cases(tmp_path)) == ["my-shape"]

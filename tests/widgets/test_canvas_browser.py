@@ -114,16 +114,16 @@ def test_controls_and_overlays(open_notebook: OpenNotebook) -> None:
         page.locator(".glid-guide p", has_text=place).wait_for(state="hidden")
     page.locator(".lm-TabBar-tabLabel", has_text="Solver").click()
     # Single steps say what each did.
-    page.get_by_title("Let the solver wait").click()
+    page.get_by_title("Pause the solver").click()
     book.value("None", setup="model.drag(1, to=(5.5, 2.0))")
-    page.get_by_title("One frame's iterations").click()
+    page.get_by_title("Run the iterations of one frame").click()
     told = page.locator(".glid-solver-panel").get_by_text("panels split").first
     told.wait_for()
     projected = book.value("model.moment.frame.history[-1].hessian_modified")
     words = f"Hessian {'projected' if projected else 'exact'} · step length"
     assert words in told.inner_text()
     book.screenshot("editor-single-step")
-    page.get_by_title("Let the solver wait").click()
+    page.get_by_title("Pause the solver").click()
     told.wait_for(state="hidden")
     hand.settle()
     energy = page.locator(".glid-energy select")
