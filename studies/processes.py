@@ -1,4 +1,4 @@
-"""Measurements in a process of their own: its memory, its devices, its first compilation."""
+"""Measurements in separate processes: of memory, of devices, of the first compilation."""
 
 import json
 import os

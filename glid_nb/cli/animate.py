@@ -34,7 +34,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("--fps", type=float, default=25.0, metavar="N", help="frames per second, 0 to 100")
     seconds = "total length (default: that of the timeline or of the saved motion)"
     add("--seconds", type=float, metavar="S", help=seconds)
-    loop = "after the last pose: go to the first one, go back, or stop (default: as it is saved)"
+    loop = "after the last pose: go to the first one, go back, or stop (default: as saved)"
     add("--loop", choices=("loop", "ping-pong", "once"), help=loop)
     color = "a name, #rrggbb, or `transparent`, but not for .gif and .mp4 (default: white)"
     add("--background", type=_color, default="white", metavar="COLOR", help=color)

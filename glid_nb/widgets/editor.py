@@ -108,7 +108,7 @@ class Editor(ClosingWidget, ipywidgets.VBox):
         document = None if path is None else find_document(path)
         known = None if document is None else document.image
         if known is not None and image is not None and not np.array_equal(read_image(image), known):
-            what = f"{path} exists and is of another picture; leave the picture out to go on with"
+            what = f"{path} exists and is of another picture; leave the picture out to continue"
             raise DocumentError(f"{what} that session, or give another path")
         self.model = EditorModel(image, document=document, path=path)
         """The editor without its widgets."""

@@ -92,7 +92,7 @@ def batches(plan: GpuPlan, device: str, limit: float) -> Measurement:
         "shape": plan.shapes[0],
         "reference": _text(plan.reference),
         "sizes": SIZES[:2] if plan.quick else SIZES,
-        # The CPU runs no lockstep batches; a trial runs one size, for the lines.
+        # The CPU runs no lockstep batches; a trial runs one size, to test the lines.
         "lockstep": LOCKSTEP[: 1 if plan.quick else None] if device == "device" else [],
         "seconds": limit,
     }
