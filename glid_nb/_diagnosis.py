@@ -31,7 +31,7 @@ from glid_nb._runtime import (
 GIVES = {
     "lab": "JupyterLab and Notebook, for the editor and the course",
     "course": "all chapters of the course",
-    "check": "glid-check, which verifies proofs by a program of its own",
+    "check": "glid-check, an independent program that verifies proofs",
     "video": "MP4 and WebM",
     "compare": "other methods to compare with (SLIM, AQP, bounded distortion)",
     "cuda12": "JAX on an NVIDIA GPU, CUDA 12",

@@ -54,7 +54,7 @@ def about(where: str | Path, kind: type[InputError] = InputFileError) -> Iterato
             text = f"{where}: {text}"
         raise kind(text).with_traceback(error.__traceback__) from None
     except RecursionError:  # the checks recurse into nested lists
-        raise kind(f"{where}: it holds values that are nested too deep") from None
+        raise kind(f"{where}: its values are nested too deep") from None
 
 
 def did_you_mean(name: str, known: Iterable[str]) -> str:

@@ -142,7 +142,7 @@ def path_of(name: str | os.PathLike[str]) -> Path:
     except UnicodeEncodeError:
         possible = False
     if not possible:
-        raise InputFileError(f"{str(name)!r:.80} has a character that no file's name can have")
+        raise InputFileError(f"{str(name)!r:.80} has a character that file names cannot have")
     return Path(name)
 
 

@@ -171,7 +171,7 @@ def _shown(value: Any) -> str:
 
 
 def _refuse_constant(constant: str) -> None:
-    raise ValueError(f"it holds {constant}, which is no number")
+    raise ValueError(f"it holds {constant}, which is not a number")
 
 
 def _object(pairs: list[tuple[str, Any]]) -> dict[str, Any]:

@@ -1,13 +1,13 @@
 """Measure, and write tables and figures: ``python -m studies compare``, ``bench``, ``gpu``, ...
 
 ``bench`` times the solver on this machine: the paper's settings and ours, drag steps, first solves,
-growth with sizes, batches. ``compare`` measures the other methods on the same problems and makes
-the paper's figures anew; SLIM and the bounded distortion maps need the extra ``compare``.
-``motion`` measures what docs/motion.md says of motions between two poses. ``gpu`` measures the
-solver on a GPU and on the CPU beside it, within ``--seconds``.
+growth with size, batches. ``compare`` measures the other methods on the same problems and
+reproduces the paper's figures; SLIM and the bounded distortion maps need the extra ``compare``.
+``motion`` measures the numbers of docs/motion.md. ``gpu`` measures the solver on a GPU and on the
+CPU of the same machine, within ``--seconds``.
 
-Tables (CSV) and figures go into the folder OUT, the raw measurements into OUT/data. The tables in
-the page OUT.md are replaced, its text is left alone. A run that was interrupted goes on where it
+Tables (CSV) and figures go into the folder OUT, the raw measurements into OUT/data. The tables of
+the page OUT.md are replaced; its text stays unchanged. An interrupted run continues where it
 stopped.
 """
 
@@ -38,13 +38,13 @@ def main(arguments: Sequence[str] | None = None) -> None:
     one = "one study, may be repeated (default: all)"
     add("--only", action="append", metavar="STUDY", help=one)
     add("--repeats", type=int, default=9, metavar="N", help="timings of each kind (default 9)")
-    add("--quick", action="store_true", help="small sizes only, to try it out")
+    add("--quick", action="store_true", help="small sizes only, for a trial")
     add("--seconds", type=float, default=480.0, metavar="S", help="gpu: at most (default 480)")
-    trial = "gpu: cpu tries the study out without a GPU"
+    trial = "gpu: with cpu, a trial run without a GPU"
     add("--platform", choices=("gpu", "cpu"), default="gpu", help=trial)
     how = parser.add_mutually_exclusive_group()
-    how.add_argument("--fresh", action="store_true", help="measure again what is there already")
-    nothing = "measure nothing: tables and figures from OUT/data"
+    how.add_argument("--fresh", action="store_true", help="repeat measurements that exist")
+    nothing = "measure nothing; make tables and figures from OUT/data"
     how.add_argument("--render", action="store_true", help=nothing)
     chosen = parser.parse_args(arguments)
     out = chosen.out or Path(f"glid-nb-{chosen.what}")

@@ -27,7 +27,7 @@ class Case:
 
     @property
     def digest(self) -> str:
-        """Of the cage, the handles and their targets, to the last bit."""
+        """A hash of all bits of the cage, the handles and their targets."""
         digest = hashlib.sha256()
         pose = self.problem.pose
         for array in (*self.problem.domain.cage.loops, pose.handles, pose.targets):
@@ -48,9 +48,9 @@ def sample_case(name: str, kind: PoseKind) -> Case:
 
 
 def reference_cases(folder: Path) -> dict[str, Case]:
-    """The problems in a folder's JSON files by name in lower case; other files are left out.
+    """The problems in a folder's JSON files, by name in lower case; other files are ignored.
 
-    An InputFileError when no file there holds a problem, or one that has handles is not valid.
+    Raises an InputFileError if no file holds a problem, or if a problem is not valid.
     """
     cases = {}
     for path in sorted(folder.glob("*.json")):
@@ -59,5 +59,5 @@ def reference_cases(folder: Path) -> dict[str, Case]:
             name = re.sub(r"[^a-z0-9]+", "-", path.stem.lower())
             cases[name] = Case(name, Problem.load(path))
     if not cases:
-        raise InputFileError(f"{folder}: no JSON file there holds a cage and handles")
+        raise InputFileError(f"{folder}: no JSON file in this folder holds a cage and handles")
     return cases

@@ -1,7 +1,7 @@
 """The symmetric Dirichlet density of maps, and its mean over a shape's area.
 
-What a solver minimises depends on its space: ours takes the mean along the boundary, a method on a
-mesh that over the area. To compare where they end, all maps are measured here over one area.
+Our solver minimises the mean along the boundary, a method on a mesh the mean over the area. To
+compare their results, this module measures all maps over the area.
 """
 
 from typing import Any
@@ -41,7 +41,7 @@ def area_mean(density: Array, mesh: Triangulation) -> float:
 
 
 def harmonic_area_mean(map_: HarmonicMap, mesh: Triangulation) -> float:
-    """The area mean of a harmonic map's density, taken in the middle of each triangle."""
+    """The area mean of a harmonic map's density, sampled at the middle of each triangle."""
     return area_mean(density_at(map_, mesh.vertices[mesh.triangles].mean(axis=1)), mesh)
 
 

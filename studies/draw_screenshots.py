@@ -1,9 +1,9 @@
-"""Draws the README's pictures of the editor: Chromium shows it in JupyterLab, a hand uses it.
+"""Draws the README's pictures of the editor, in use in JupyterLab and Chromium.
 
     python -m studies.draw_screenshots [NAME ...]
 
-Run it from the repository's root; it needs the extra `test` and Chromium. The pictures go in docs/,
-with few colours, so that they are small.
+Run it from the repository's root; it needs the extra `test` and Chromium. The pictures are written
+to docs/, with few colours, so that the files are small.
 """
 
 import argparse
@@ -35,7 +35,7 @@ def main() -> None:
     parser.add_argument("names", nargs="*", metavar="NAME", help="by default all pictures")
     chosen = parser.parse_args()
     with tempfile.TemporaryDirectory() as folder, launched_chromium() as browser:
-        os.environ["GLID_NB_DATA"] = folder  # nobody's kept work is offered
+        os.environ["GLID_NB_DATA"] = folder  # so that no kept work is offered
         server = JupyterServer(Path(folder) / "jupyter")
         try:
             for name in chosen.names or PICTURES:
@@ -47,7 +47,7 @@ def main() -> None:
 
 
 def trace_tab(browser: Browser, server: JupyterServer) -> bytes:
-    """A leaf with eight holes, one of them dropped."""
+    """A leaf with eight holes, one of them removed."""
 
     def use(book: LabNotebook) -> None:
         book.page.locator(".lm-TabBar-tabLabel", has_text="Trace").click()
@@ -65,7 +65,7 @@ def trace_tab(browser: Browser, server: JupyterServer) -> bytes:
 
 
 def deform_tab(browser: Browser, server: JupyterServer) -> bytes:
-    """A frog in the middle of a drag, coloured by how much it is squeezed."""
+    """A frog during a drag, coloured by its compression."""
 
     def use(book: LabNotebook) -> None:
         hand = posed(book, "frog")
@@ -76,7 +76,7 @@ def deform_tab(browser: Browser, server: JupyterServer) -> bytes:
 
 
 def deform_tab_dark(browser: Browser, server: JupyterServer) -> bytes:
-    """A gecko with its source beside it and poses on the timeline, in the dark theme."""
+    """A gecko beside its undeformed shape, with poses on the timeline, in the dark theme."""
 
     def use(book: LabNotebook) -> None:
         book.theme("JupyterLab Dark")
@@ -106,7 +106,7 @@ PICTURES: dict[str, Callable[[Browser, JupyterServer], bytes]] = {
 def pictured(
     browser: Browser, server: JupyterServer, sample: str, use: Callable[[LabNotebook], None]
 ) -> bytes:
-    """The editor with a bundled sample, as PNG, after somebody used it."""
+    """A PNG of the editor with a bundled sample, after ``use`` acted on it."""
     settings = {"viewport": {"width": 1360, "height": 1080}, "device_scale_factor": DENSITY}
     with watched_page(browser, **settings) as page:
         book = LabNotebook(page, server, [CELL.format(sample=sample)])
@@ -114,7 +114,7 @@ def pictured(
             editor = page.locator(".glid-editor")
             editor.wait_for()
             book.wait_for("editor.deformation.solve(0.01)", 120)
-            # Only the editor: its cell's text would be a third of the picture.
+            # Hide the cell's code, which would fill a third of the picture.
             page.evaluate("document.querySelector('.jp-Cell-inputWrapper').style.display = 'none'")
             use(book)
             book.wait_for("editor.monitor.refresh(0.01)", 30)
@@ -126,7 +126,7 @@ def pictured(
 
 
 def posed(book: LabNotebook, sample: str, pad: int = 0) -> Hand:
-    """A hand on the canvas, with a bundled pose's handles where they belong."""
+    """A hand on the canvas, with a bundled pose's handles at rest."""
     path = glid_nb.samples.pose_path(sample, "extreme")
     load = f"pose = glid.io.load_pose({str(path)!r})"
     book.value("None", f"{load}\nmodel.set_pose(pose)\ncanvas.fit()")
@@ -135,7 +135,7 @@ def posed(book: LabNotebook, sample: str, pad: int = 0) -> Hand:
 
 
 def dragged(hand: Hand, share: float) -> None:
-    """All handles but the last on their way to the pose, and the last one held by the hand."""
+    """Move all handles by ``share`` of the way to the pose; the hand drags the last one there."""
     setup = (
         f"to = pose.handles + {share} * (pose.targets - pose.handles)\nto[-1] = pose.handles[-1]"
     )
@@ -155,7 +155,7 @@ def dragged(hand: Hand, share: float) -> None:
 
 
 def small(png: bytes) -> bytes:
-    """The same picture with few colours, rare ones among them."""
+    """The same picture with 256 colours, including rare ones."""
     image = Image.open(io.BytesIO(png)).convert("RGB")
     method, dither = Image.Quantize.MAXCOVERAGE, Image.Dither.NONE
     quantised = image.quantize(256, method=method, kmeans=1, dither=dither)

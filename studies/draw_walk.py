@@ -1,4 +1,4 @@
-"""Draws docs/walk.gif: a bundled picture walks, from five keyframes; proved at every instant.
+"""Draws docs/walk.gif: a bundled picture walks, by five keyframes; proved at every instant.
 
 Usage: python -m studies.draw_walk [OUT ...]    other names, such as walk.mp4 or walk.html, too
 """
@@ -11,7 +11,7 @@ import numpy as np
 import glid_nb
 
 SAMPLE, SECONDS, SIZE, FPS = "gecko", 1.2, 400, 20
-# Which pins swing, by how much to the side and along, and in which part of the step.
+# For each pin that swings: how far to the side and along, and its phase in the step.
 _SWING = {
     0: ((-0.6, 0.1), 0.0),  # head
     1: ((0.1, 1.0), 0.0),  # right hand
@@ -26,7 +26,7 @@ _SWING = {
 
 
 def walk() -> tuple[glid_nb.Motion, list[glid_nb.Pose]]:
-    """Five poses of a step that is repeated, and the motion through them."""
+    """Five poses of a repeated step, and the motion through them."""
     image = glid_nb.samples.image(SAMPLE)
     domain = glid_nb.Domain.from_cage(glid_nb.trace(image).cage)
     rest = glid_nb.io.load_pose(glid_nb.samples.pose_path(SAMPLE, "gentle"))

@@ -18,6 +18,8 @@ from studies.distortion import densities
 Array = NDArray[Any]
 
 DPI = 130
+WEBP = {"quality": 80, "method": 6}
+"""How figures are compressed. PNGs of the same figures are 4 to 5 times as large."""
 
 
 def figure(width: float, height: float) -> Figure:
@@ -26,22 +28,22 @@ def figure(width: float, height: float) -> Figure:
 
 
 def save(drawn: Figure, path: Path) -> None:
-    """Write a figure as PNG."""
+    """Write a figure as WebP."""
     path.parent.mkdir(parents=True, exist_ok=True)
     buffer = io.BytesIO()
-    drawn.savefig(buffer, format="png", facecolor="white", metadata={"Software": None})
+    drawn.savefig(buffer, format="webp", facecolor="white", pil_kwargs=WEBP)
     write_atomically(path, buffer.getvalue())
 
 
 def draw_map(
     axes: Axes, mesh: Triangulation, images: Array, pose: Array | None = None, most: float = 6.0
 ) -> Any:
-    """A map's image coloured by its distortion, folded triangles in black.
+    """Draw a map's image, coloured by its distortion; folded triangles are black.
 
-    ``pose`` (h, 4) holds targets and reached positions: cyan discs and black dots. Values above
-    ``most`` have its colour; :func:`color_bar` says so.
+    ``pose`` (h, 4) holds targets and reached positions, drawn as cyan discs and black dots. Values
+    above ``most`` have the colour of ``most``; :func:`color_bar` shows this.
     """
-    # From the left of the undeformed shape to its right: sheets over one another do not mingle.
+    # Draw from left to right of the undeformed shape, so that overlapping sheets stay separate.
     order = np.argsort(mesh.vertices[mesh.triangles, 0].mean(axis=1), kind="stable")
     triangles, density = mesh.triangles[order], densities(mesh, images)[order]
     folded = ~np.isfinite(density)
@@ -57,19 +59,19 @@ def draw_map(
     if folded.any():
         axes.add_collection(PolyCollection(list(images[triangles[folded]]), facecolors="black"))
     if pose is not None and len(pose):
-        # A line to what is still far from its target tells whose target that is.
+        # A line connects each handle with its target.
         axes.add_collection(LineCollection(list(pose.reshape(-1, 2, 2)), colors=CYAN, lw=0.7))
         axes.scatter(pose[:, 0], pose[:, 1], s=11, color=CYAN, lw=0, zorder=3)
         axes.scatter(pose[:, 2], pose[:, 3], s=1.5, color=INK, zorder=4)
     axes.margins(0.03)
-    # Boxes of different heights hang from one line, and their titles stand on it.
+    # Align boxes of different heights, and their titles, at the top.
     axes.set_aspect("equal", anchor="N")
     axes.set_axis_off()
     return colors
 
 
 def color_bar(drawn: Figure, colors: Any, axes: Any, label: str) -> None:
-    """A slim colour bar beside axes, with an arrow where a map in them exceeds its end."""
+    """A slim colour bar beside axes, with an arrow if a map in them exceeds its range."""
     most = colors.get_clim()[1]
     maps = [c for ax in np.ravel(axes) for c in ax.collections if isinstance(c, PolyCollection)]
     drawn_values = [values for c in maps if (values := c.get_array()) is not None and len(values)]
@@ -89,7 +91,7 @@ def color_bar(drawn: Figure, colors: Any, axes: Any, label: str) -> None:
 
 
 def label_axes(axes: Axes, x: str, y: str, title: str = "") -> None:
-    """Names of the axes and the look of all plots."""
+    """Label the axes, in the style of all plots."""
     tidy(axes)
     axes.set_xlabel(x, fontsize=SMALL)
     axes.set_ylabel(y, fontsize=SMALL)
@@ -97,5 +99,5 @@ def label_axes(axes: Axes, x: str, y: str, title: str = "") -> None:
 
 
 def values_of(energies: Any) -> Array:
-    """Energies as an array; those that are null in the file are infinite."""
+    """Energies as an array; null in the file means infinite."""
     return np.array([np.inf if e is None else e for e in energies], dtype=float)

@@ -10,7 +10,7 @@ import jax
 
 
 def machine() -> dict[str, Any]:
-    """What to say about a machine beside its numbers."""
+    """Processor, system, devices and versions, to be stored beside the measurements."""
     return {
         "processor": _processor(),
         "cores": os.cpu_count(),

@@ -1,4 +1,4 @@
-"""What lies between two poses: the bounded motion beside blending, and proofs under attack."""
+"""The motion between two poses: bounded motion and blending compared, and attacks on the proofs."""
 
 from itertools import pairwise
 from typing import Any
@@ -20,20 +20,20 @@ from studies.timing import timed
 from tests.support.reference_map import DenseCheck
 
 QUARTERS = (0.25, 0.5, 0.75)
-_SIZES = (0.01, 0.02, 0.04)  # of what is added to the identity's coefficients
-_PAIRS = 12  # of random maps, with each number of holes
+_SIZES = (0.01, 0.02, 0.04)  # of the noise added to the identity's coefficients
+_PAIRS = 12  # pairs of random maps for each number of holes
 TIMES, _POINTS = 200, 200_000
 
 
 def extremes(maps: Any) -> np.ndarray:
-    """(n, 2) largest k and least sigma_2 of maps, at points of the boundary."""
+    """(n, 2) largest k and least sigma_2 of each map, at points of the boundary."""
     points = uniform_panels(maps[0].domain.cage, 2000).start
     sizes = [np.abs(map_.wirtinger(points)) for map_ in maps]
     return np.array([[(fzb / fz).max(), (fz - fzb).min()] for fz, fzb in sizes])
 
 
 def excess(motion: Motion, shares: Any) -> float:
-    """By what share k or sigma_2 is worse on the way between two maps than at the worse one."""
+    """The share by which k or sigma_2 is worse between two maps than at the worse of the two."""
     curve, found = motion.curve, [0.0]
     for pair, (start, end) in zip(pairwise(curve.maps), pairwise(curve.times), strict=True):
         ends, way = extremes(pair), extremes([curve.map(start + s * (end - start)) for s in shares])
@@ -103,7 +103,7 @@ def pair(domain: Domain, seed: int) -> list[HarmonicMap]:
 
 
 def attack(holes: int, plan: Plan) -> Row:
-    """Motions of random maps; of the first pair's no bound may be contradicted anywhere."""
+    """Motions of random maps. Sampling the first pair's motions must not contradict a bound."""
     domain = flower(30, holes)
     pairs = [pair(domain, seed) for seed in range(2 if plan.quick else _PAIRS)]
     motions, rooms = [*map(Motion, pairs)], []

@@ -1,4 +1,4 @@
-"""Measurements in a process of their own: its memory, its devices, its first compilation."""
+"""Measurements in separate processes: of memory, of devices, of the first compilation."""
 
 import json
 import os
@@ -19,11 +19,11 @@ class StudyError(InputError):
 
 
 def in_new_process(how: Literal["-m", "-c"], program: str, given: Any, **environment: str) -> Any:
-    """What a program prints as JSON on its last line.
+    """The JSON value that a program prints on its last line.
 
-    ``-m`` and a module's name, or ``-c`` and a script, say which; ``given`` is written to its
-    standard input as JSON, and ``environment`` is set beside this process's variables. A
-    StudyError that ends with its last words when the process fails.
+    The program is ``-m`` and a module's name, or ``-c`` and a script. ``given`` is written to its
+    standard input as JSON. ``environment`` is added to this process's variables. If the process
+    fails, raises a StudyError that ends with the last line of its errors.
     """
     run = subprocess.run(
         [sys.executable, how, program],
@@ -40,18 +40,18 @@ def in_new_process(how: Literal["-m", "-c"], program: str, given: Any, **environ
 
 
 class Printed(NamedTuple):
-    """What a process has printed, line by line, when it ended or was stopped."""
+    """The lines that a process printed until it ended or was stopped."""
 
     lines: list[str]
     seconds: float
     ending: str
-    """Empty where it ended by itself and well."""
+    """Empty if the process ended by itself and without an error."""
 
 
 def printed_by(arguments: Sequence[str], given: Any, limit: float, **environment: str) -> Printed:
-    """The lines that Python prints when it is called with ``arguments`` and ``given`` as JSON.
+    """The lines that Python prints when called with ``arguments``; its input is ``given`` as JSON.
 
-    After ``limit`` seconds it is stopped. Neither that nor a failure is an error.
+    It is stopped after ``limit`` seconds. A stop or a failure raises nothing; see ``ending``.
     """
     lines, began = list[str](), time.perf_counter()
     with tempfile.TemporaryFile("w+", encoding="utf-8") as errors:
@@ -86,7 +86,7 @@ def printed_by(arguments: Sequence[str], given: Any, limit: float, **environment
 
 
 def _kill(process: subprocess.Popen[str]) -> None:
-    """End a process that leads a session of its own, and with it those that it has started."""
+    """End a process that leads its own session, and all processes that it started."""
     if hasattr(os, "killpg"):
         os.killpg(process.pid, signal.SIGKILL)
     else:
@@ -95,7 +95,7 @@ def _kill(process: subprocess.Popen[str]) -> None:
 
 
 def _variables(more: dict[str, str]) -> dict[str, str]:
-    # A GPU's memory is shared with the process that waits.
+    # The waiting process uses the same GPU, so leave it some memory.
     return {"XLA_PYTHON_CLIENT_PREALLOCATE": "false", **os.environ, **more}
 
 

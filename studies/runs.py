@@ -1,8 +1,7 @@
-"""Running one method and keeping what figures and tables need of it.
+"""Running one method and keeping the results that figures and tables need.
 
-Every method is run twice or more. The first run is watched, and its iterates are kept; the times
-that count are those of the last, which nothing looks at and which finds its programs compiled and
-in memory.
+Every method is run twice or more. The first run is watched, and its iterates are kept. Times are
+those of the last run: nothing watches it, and its programs are compiled and in memory.
 """
 
 import math
@@ -23,19 +22,19 @@ from studies.cases import Case
 Array = NDArray[Any]
 
 VISIBLE = 0.04
-"""World units: one pixel of a picture whose longer side, 20 units, is 500 pixels."""
+"""World units: one pixel, if the picture's longer side (20 units) has 500 pixels."""
 NEAR = 0.01
-"""An energy this close to its minimum, relatively, is near it."""
+"""Relative distance of an energy from its minimum that counts as near."""
 CRITERIA = ("energy", "rest", "map")
-"""When a method is there: its energy is near the minimum; no iteration moves its map visibly any
-more; its map is visibly at the minimum."""
+"""When a method has arrived: its energy is near the minimum; no later iteration moves the map
+visibly; the map is not visibly away from the minimum."""
 ENDED = ("converged", "stationary")
-"""How a run ends that got to its minimum."""
+"""The status of a run that reached its minimum."""
 
 P2P_WEIGHT = 1e5
 """``lambda`` throughout."""
 LIGHT_WEIGHT = 20.0
-"""``lambda`` of the published code, whose 1e5 is for a sum over 10^4 samples, without a half."""
+"""``lambda`` of the published code: its 1e5 weights a sum over 10^4 samples, without the 1/2."""
 MESH_VERTICES = 10_000
 _DISPLAY_VERTICES = 1_500
 _DEFAULTS = {"newton-staged": {"sampling": "uniform", "certificate": "lipschitz"}}
@@ -43,22 +42,22 @@ _ALL_KEPT, _APART = 128, 1.01
 
 
 class Watcher:
-    """A callback that keeps the images of points: the first 128 iterates, then ones 1 % apart.
+    """A callback that keeps the images of points: of the first 128 iterates, then in steps of 1 %.
 
-    It stops a method whose own steps have taken ``seconds`` together.
+    It stops a method when its steps have taken ``seconds`` in total.
     """
 
     def __init__(self, points: Array, seconds: float = math.inf) -> None:
         self.points, self.seconds = points, seconds
         self.images: dict[int, Array] = {0: points}
         self.moved = [0.0]
-        """Largest distance of a point from where the iterate before had it."""
+        """The largest movement of a point in each iteration."""
         self._last = points
         self._taken = 0.0
 
     def __call__(self, progress: Progress) -> bool:
         count = len(progress.history)
-        if 0 < count < len(self.moved):  # panels were split, nothing moved
+        if 0 < count < len(self.moved):  # only panels were split
             return False
         map_, step = progress.map, (progress.initial, *progress.history)[-1]
         images = map_.images if isinstance(map_, MeshMap) else map_(self.points)
@@ -71,7 +70,7 @@ class Watcher:
         return self._taken > self.seconds
 
     def distance(self, goal: Array) -> dict[int, float]:
-        """How far the kept iterates are from a goal, images of the same points."""
+        """Distances of the kept iterates from a goal, which holds images of the same points."""
         return {iteration: apart(images, goal) for iteration, images in self.images.items()}
 
 
@@ -81,7 +80,7 @@ def apart(images: Array, others: Array) -> float:
 
 
 def display_mesh(case: Case, count: int = _DISPLAY_VERTICES) -> Triangulation:
-    """The mesh on which a harmonic map is drawn."""
+    """The mesh for drawing a harmonic map."""
     return triangulate(case.problem.domain.cage, count, points=case.problem.pose.handles)
 
 
@@ -95,10 +94,10 @@ def run(
     runs: int = 1,
     **settings: Any,
 ) -> Result:
-    """The last of so many runs, started at the identity unless ``align`` is set.
+    """The last of ``runs`` runs, started at the identity unless ``align`` is set.
 
-    ``settings`` are the method's own and the options'. Methods on a mesh work on ``mesh``. The
-    callback is called after every iteration.
+    ``settings`` are settings of the method and fields of the options. Methods on a mesh work on
+    ``mesh``. The callback is called after every iteration.
     """
     own = methods.METHODS[method].kinds()
     value = methods.by_name(method, **{k: v for k, v in settings.items() if k in own})
@@ -113,12 +112,12 @@ def run(
 
 
 def entries(result: Result) -> tuple[Iteration, ...]:
-    """The start, then one entry per iteration."""
+    """The entry of the start, then one per iteration."""
     return (result.initial, *result.history)
 
 
 def outcome(result: Result) -> dict[str, Any]:
-    """History and ending as plain values."""
+    """A run's history and status as plain values."""
     certificate = result.certificate if isinstance(result.map, HarmonicMap) else None
     flips = [step.flips for step in entries(result) if step.flips is not None]
     return {
@@ -142,11 +141,11 @@ def reached(
     least: float,
     converged: bool,
 ) -> dict[str, int | None]:
-    """For each of :data:`CRITERIA` the iteration from which on it holds, or ``None``.
+    """For each of :data:`CRITERIA`, the first iteration from which on it holds, or ``None``.
 
-    Of the iterates ``distance`` has the largest distance from the map of the minimum, for some,
-    ``moved`` that from the iterate before, and ``energy`` the energy, of which ``least`` is the
-    minimum's. After the last of a method that has ``converged`` no movement comes.
+    ``distance`` holds, for some iterates, the largest distance from the minimum's map. ``moved``
+    holds for each iterate the largest distance from the iterate before, and ``energy`` its energy;
+    ``least`` is the energy of the minimum. A method that has ``converged`` moves no further.
     """
     near = {i: e <= (1 + NEAR) * least for i, e in enumerate(energy)}
     visible = np.flatnonzero(np.array(moved) > VISIBLE)
@@ -159,14 +158,14 @@ def reached(
 
 
 def _first_lasting(holds: dict[int, bool]) -> int | None:
-    """The first key from which on all values are true."""
+    """The first key such that its value and all later values are true."""
     last = max((i for i, so in holds.items() if not so), default=-1)
     return min((i for i in holds if i > last), default=None)
 
 
 def thumbnails(images: dict[int, Array], count: int) -> tuple[list[int], Array]:
-    """A few iterations up to the last, the first ones closer together, and their images."""
-    # From the last, so that of two equally near ones the later is taken.
+    """Some iterations up to the last, denser at the beginning, and their images."""
+    # In descending order, so that argmin takes the later one of two equally near iterations.
     kept = np.array(sorted(images)[1:] or sorted(images))[::-1]
     wanted = kept[0] * np.linspace(0, 1, count + 1)[1:] ** 2
     nearest = np.abs(kept[:, None] - wanted).argmin(axis=0)

@@ -1,4 +1,4 @@
-"""Measurements on disk, one JSON file each: an interrupted study goes on where it stopped."""
+"""Measurements on disk, one JSON file each, so that an interrupted study can continue."""
 
 import json
 import math
@@ -14,23 +14,23 @@ from studies.processes import StudyError
 Measurement = dict[str, Any]
 """Plain JSON values, and NumPy arrays under ``arrays``.
 
-On disk ``taken`` is the machine and ``of`` what was measured: a problem's digest, the settings.
+On disk, ``taken`` is the machine, and ``of`` names the problem's digest and the settings.
 """
 
 
 class Store:
     """A folder of measurements; ``here`` is this machine with its versions.
 
-    With ``fresh`` what is there already is measured again.
+    With ``fresh``, existing measurements are repeated.
     """
 
     def __init__(self, folder: Path, here: Measurement, fresh: bool = False) -> None:
         self.folder, self.here, self.fresh = folder, here, fresh
 
     def get(self, name: str, of: str, measure: Callable[[], Measurement]) -> Measurement:
-        """The measurement of a name, taken now unless it is there.
+        """The measurement of a name; taken now if it does not exist.
 
-        One that was taken on another machine or of something else is taken again.
+        If it was taken on another machine or with another ``of``, it is repeated.
         """
         found = None if self.fresh else self.kept(name)
         if found is None or (found["taken"], found["of"]) != (self.here, of):
@@ -43,9 +43,9 @@ class Store:
         return found
 
     def kept(self, name: str) -> Measurement | None:
-        """The measurement of a name that is there, wherever it was taken; None without.
+        """The existing measurement of a name, taken on any machine; None if there is none.
 
-        A StudyError names a file that is not JSON.
+        Raises a StudyError that names the file if it is not JSON.
         """
         path = self.folder / f"{name}.json"
         if not path.exists():
@@ -54,7 +54,7 @@ class Store:
             found = json.loads(path.read_text(encoding="utf-8"))
         except ValueError as error:
             raise StudyError(f"{path} is not a JSON file: {error}") from error
-        # Without its machine a number means nothing.
+        # A number without its machine is useless.
         if not isinstance(found, dict) or not {"taken", "of"} <= found.keys():
             return None
         if "arrays" in found:
@@ -62,7 +62,7 @@ class Store:
         return found
 
     def all(self, prefix: str) -> list[Measurement]:
-        """All measurements whose names begin with ``prefix`` and a hyphen, in their order."""
+        """All measurements whose names begin with ``prefix`` and a hyphen, sorted by name."""
         names = (path.stem for path in sorted(self.folder.glob(f"{prefix}-*.json")))
         return [found for name in names if (found := self.kept(name)) is not None]
 

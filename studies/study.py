@@ -14,18 +14,18 @@ from studies.tables import Row, update_page, write_csv
 
 @dataclass
 class Plan:
-    """What all studies of a run are told."""
+    """The settings of a run, for all its studies."""
 
     references: Mapping[str, Case] = field(default_factory=dict)
-    """Problems from files, by name; without them the bundled samples are measured."""
+    """Problems from files, by name. If there are none, the bundled samples are measured."""
     repeats: int = 9
     quick: bool = False
-    """Small sizes only, to see that everything runs."""
+    """Small sizes only, to test that everything runs."""
     detail: Callable[[str], None] = lambda _: None
-    """Told what is being done."""
+    """Called with the name of each step."""
 
     def case(self, name: str) -> Case:
-        """The problem of a name, or of a sample's name and pose such as ``gecko-extreme``."""
+        """The reference problem of this name, or a sample with a pose such as ``gecko-extreme``."""
         if name in self.references:
             return self.references[name]
         sample, _, kind = name.rpartition("-")
@@ -37,7 +37,7 @@ class Task(NamedTuple):
 
     name: str
     of: str
-    """What is measured: a problem's digest, the settings."""
+    """The problem's digest and the settings."""
     measure: Callable[[], Measurement]
 
 
@@ -45,8 +45,8 @@ class Task(NamedTuple):
 class Study:
     """Measurements, and the tables and figures made of them.
 
-    ``tasks`` lists what is to be measured; ``tables`` turns all measurements that there are into
-    tables by name, and ``draw`` into figures in a folder.
+    ``tasks`` lists the measurements to take. ``tables`` makes tables, by name, of all existing
+    measurements; ``draw`` draws figures of them into a folder.
     """
 
     name: str
@@ -58,7 +58,7 @@ class Study:
 def on_cases(
     names: Callable[[Plan], Sequence[str]], measure: Callable[[Case, Plan], Measurement]
 ) -> Callable[[Plan], list[Task]]:
-    """The tasks of a study that measures one case after the other."""
+    """The tasks of a study with one measurement for each case."""
 
     def tasks(plan: Plan) -> list[Task]:
         def task(case: Case) -> Task:
@@ -81,15 +81,15 @@ def run_studies(
 ) -> Path:
     """Measure; write tables and figures into ``out``, the tables into ``out.md`` and ``out-*.md``.
 
-    Measurements are kept in ``out/data``. What is there already is not measured again, unless the
-    problem, the settings or the machine differ, or with ``fresh``. ``only`` names the studies to
-    measure; tables and figures are made of all measurements that there are. Returns the page. A
-    StudyError for an unknown study, or a measurement that fails.
+    Measurements are kept in ``out/data``. An existing measurement is repeated only with ``fresh``,
+    or if the problem, the settings or the machine differ. ``only`` names the studies to measure;
+    tables and figures show all existing measurements. Returns the page. Raises a StudyError for
+    an unknown study, or if a measurement fails.
     """
     known = [study.name for study in studies]
     for name in only or ():
         if name not in known:
-            raise StudyError(f"unknown study {name!r}; choose of {', '.join(known)}")
+            raise StudyError(f"unknown study {name!r}; choose one of {', '.join(known)}")
     if plan.repeats < 1:
         raise StudyError(f"repeats is {plan.repeats}; it must be at least 1")
     store = Store(out / "data", machine(), fresh)

@@ -1,7 +1,7 @@
 """Tables as CSV files, and the same tables in a page of Markdown.
 
-A page marks the place of the table ``NAME.csv`` by ``<!-- table: NAME -->`` and, below it,
-``<!-- end -->``; what lies between is replaced, the rest of the page is left as it was written.
+A page marks the place of the table ``NAME.csv`` by ``<!-- table: NAME -->`` and ``<!-- end -->``.
+The text between the two is replaced; the rest of the page stays unchanged.
 """
 
 import csv
@@ -21,7 +21,7 @@ _PLACE = re.compile(r"<!-- table: ([\w-]+) -->\n.*?<!-- end -->", re.DOTALL)
 
 
 def write_csv(path: Path, rows: Sequence[Row]) -> None:
-    """Write a table; its columns are those of all rows, in the order in which they come."""
+    """Write a table with the columns of all rows, in their order of appearance."""
     columns = list(dict.fromkeys(name for row in rows for name in row))
     buffer = io.StringIO()
     writer = csv.writer(buffer, lineterminator="\n")
@@ -31,10 +31,10 @@ def write_csv(path: Path, rows: Sequence[Row]) -> None:
 
 
 def update_page(page: Path, folder: Path) -> None:
-    """Put the tables of a folder into the places that a page has for them.
+    """Put the tables of a folder into their places in a page.
 
-    A place whose table is not there stays as it is. Where there is no page one is made, with all
-    tables of the folder.
+    A place without a table in the folder stays unchanged. If the page does not exist, a page with
+    all tables of the folder is made.
     """
     if not page.exists():
         names = sorted(path.stem for path in folder.glob("*.csv"))
@@ -60,7 +60,7 @@ def markdown(path: Path) -> str:
 
 
 def cell(value: Any) -> str:
-    """A cell's text: numbers with three digits, nothing for what there is not."""
+    """A cell's text: numbers with three digits, nothing for a missing value."""
     if value is None or (isinstance(value, float) and math.isnan(value)):
         return ""
     if isinstance(value, float):
@@ -69,7 +69,7 @@ def cell(value: Any) -> str:
 
 
 def digits(value: float, count: int = 3) -> str:
-    """A number with so many digits; none of them are left out before the decimal point."""
+    """A number with ``count`` significant digits, but never rounded before the decimal point."""
     if value == 0 or not math.isfinite(value):
         return f"{value:g}"
     places = count - 1 - math.floor(math.log10(abs(value)))
@@ -82,7 +82,7 @@ def seconds(value: float) -> str:
 
 
 def percent(share: float) -> str:
-    """A share of 1 with two digits, none of them after the point from 10 on."""
+    """A share of 1 in percent, with two digits; whole percents from 10 on."""
     value = 100 * share
     if 0 < value < 0.005:
         return "<0.01%"

@@ -1,7 +1,8 @@
 """Repeated timings within one process.
 
-pyperf was tried and not kept: it times each function in processes of its own, twenty by default,
-each of which imports JAX and loads compiled programs first, and it cannot take functions in turn.
+We tried pyperf and did not keep it. It times each function in separate processes, twenty by
+default. Each process imports JAX and loads compiled programs first. And pyperf cannot alternate
+between functions.
 """
 
 import time
@@ -14,7 +15,7 @@ Timing = dict[str, float]
 """``median``, ``low`` and ``high`` (the quartiles) and ``least``, seconds; ``runs``."""
 
 LEAST_REPEATS = 3
-"""Timings that are taken however long one takes."""
+"""Timings that are always taken, even beyond the budget."""
 
 
 def timed(
@@ -30,11 +31,11 @@ def timed_in_turn(
     warm_up: int = 1,
     budget: float = float("inf"),
 ) -> dict[str, Timing]:
-    """Wall time of each function's calls, one of each after the other again and again.
+    """Wall time of the functions' calls. Each turn calls every function once.
 
-    A machine that is slow for a while is so for all of them, so their ratios stay. The first calls
-    warm up and do not count. After ``budget`` seconds no further turn begins, unless there were
-    fewer than :data:`LEAST_REPEATS`.
+    If the machine is slow for a while, all functions are slow, so their ratios hardly change. The
+    first ``warm_up`` turns do not count. After ``budget`` seconds no new turn begins, unless there
+    were fewer than :data:`LEAST_REPEATS`.
     """
     seconds: dict[str, list[float]] = {name: [] for name in functions}
     for _ in range(warm_up):

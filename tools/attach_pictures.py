@@ -1,8 +1,8 @@
 """Put pictures of the documentation into the notebooks that show them.
 
-A cell shows ``![...](attachment:NAME.png)``, which is ``docs/NAME.png`` once this was run. A path
-would lead nowhere in a copy, on Colab, and on a server whose folder is the notebook's own. Run
-``python tools/attach_pictures.py`` after pictures were drawn anew.
+For ``![...](attachment:NAME.png)`` in a cell, this attaches ``docs/NAME.png``. A path to the file
+would fail in a copy of the notebook, on Colab, and on a server that serves only the notebook's
+folder. Run ``python tools/attach_pictures.py`` after drawing pictures again.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ ATTACHED = re.compile(r"\]\(attachment:([^)]+)\)")
 
 
 def attach(cell: nbformat.NotebookNode) -> bool:
-    """Put what a Markdown cell shows into it; whether that is anything."""
+    """Attach a Markdown cell's pictures to it. Returns whether the cell has any."""
     names = ATTACHED.findall(cell.source)
     if names:
         data = {name: (ROOT / "docs" / name).read_bytes() for name in names}

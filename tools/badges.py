@@ -1,9 +1,9 @@
-"""Put the way to run it into every notebook: ``python tools/badges.py [OWNER/NAME]``.
+"""Tell in every notebook how to run it: ``python tools/badges.py [OWNER/NAME]``.
 
-Below the title a line with Binder, Colab and a download; below that a cell that installs the
-package on Colab and does nothing elsewhere. With the address of the public repository on GitHub the
-links open the notebook there; without it, the line leads to the page about hosts. Running it again
-replaces what it wrote. The links are words: pictures of a server would need a network when read.
+Adds two cells below the title: a line about Binder, Colab and a download, and a cell that installs
+the package on Colab and does nothing elsewhere. OWNER/NAME is the public repository on GitHub; with
+it, the line has links that open the notebook. Without it, the line links to the page about hosts.
+Another run replaces both cells. The links are words, because badge pictures would need a network.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ if "google.colab" in sys.modules:
 
 
 def line(notebook: str, repository: str | None = None) -> str:
-    """The line of links of a notebook, given its file's name."""
+    """The line of links for the notebook with this file name."""
     if repository is None:
         return (
             "Run it in JupyterLab or Notebook 7, on Binder (once the repository is public), or on "
@@ -43,7 +43,7 @@ def line(notebook: str, repository: str | None = None) -> str:
 
 
 def with_badges(book: nbformat.NotebookNode, notebook: str, repository: str | None = None) -> None:
-    """Put the two cells below the title, in place of those that are there."""
+    """Put the two cells below the title; replace them if they exist."""
     book.cells = [cell for cell in book.cells if cell.id not in ("run-it", "colab")]
     text = nbformat.v4.new_markdown_cell(line(notebook, repository), id="run-it")
     install = nbformat.v4.new_code_cell(COLAB, id="colab", metadata={"tags": ["remove-cell"]})

@@ -10,7 +10,7 @@ import { build } from "esbuild";
 const ROOT = path.dirname(path.dirname(fileURLToPath(import.meta.url)));
 export const BUILT = path.join(ROOT, "glid_nb", "page", "built");
 
-// The widgets are modules that anywidget imports; the exported page holds a plain script.
+// The widgets are modules, imported by anywidget. The exported page contains a plain script.
 const WIDGETS = {
   canvas: "canvas/main.js",
   clipboard: "clipboard/main.js",
@@ -27,7 +27,7 @@ const STYLES = {
 };
 
 /**
- * What the bundles hold, by their file names.
+ * The contents of the bundles, by their file names.
  * @returns {Promise<Map<string, Uint8Array>>}
  */
 export async function bundles() {
@@ -38,7 +38,7 @@ export async function bundles() {
     bundle: true,
     write: false,
     charset: "utf8",
-    // Every widget's model and every exported page holds its script.
+    // Every widget's model and every exported page contains its script, so keep it small.
     minifyWhitespace: true,
     lineLimit: 100,
     target: "es2022",

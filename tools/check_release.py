@@ -1,7 +1,7 @@
 """Check that a tag may be released: ``python tools/check_release.py v1.2.3 DISTRIBUTION ...``.
 
-The wheels and sdists of both distributions must be there, all of the tag's version, and the
-changelog must have a section for it.
+The wheels and sdists of both distributions must exist, with the tag's version. The changelog must
+have a section for that version.
 """
 
 from __future__ import annotations
@@ -16,14 +16,14 @@ _FILE = re.compile(r"(glid_nb|glid_check)-(.+?)(?:-py3-none-any)?(\.whl|\.tar\.g
 
 
 def problems(tag: str, files: list[str], changelog: str) -> list[str]:
-    """What speaks against releasing the files under the tag, in sentences."""
+    """The reasons against releasing the files under the tag, one sentence each."""
     version, found, seen = tag.removeprefix("v"), [], set[str]()
     if not re.fullmatch(r"v\d+\.\d+\.\d+((a|b|rc)\d+)?", tag):
         found.append(f"the tag {tag} is not of the form v1.2.3 or v1.2.3rc1")
     for file in files:
         match = _FILE.fullmatch(Path(file).name)
         if match is None:
-            found.append(f"{file} is no wheel or sdist of glid-nb or glid-check")
+            found.append(f"{file} is not a wheel or sdist of glid-nb or glid-check")
             continue
         seen.add(match[1] + match[3])
         if match[2] != version:

@@ -1,9 +1,9 @@
 """Checks a built site: ``python tools/check_site.py site``.
 
-Every link and anchor between its pages resolves, and in Chromium every page opens, at a phone's
-width and at a desk's, without an error in the console, a request that leaves the folder, or
-sideways scrolling. Searching finds a page. Pages are opened as files, without a server.
-``--links`` leaves the browser out.
+Every link and anchor between its pages must resolve. In Chromium, every page must open at the width
+of a phone and of a desktop, without an error in the console, a request outside the folder, or
+sideways scrolling. Searching must find a page. Pages are opened as files, without a server.
+``--links`` checks only the links.
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ _OVERFLOW = """() => {
 
 
 class Links(HTMLParser):
-    """What a page offers to link to, and what it links to."""
+    """The anchors of a page, and its links."""
 
     def __init__(self, text: str) -> None:
         super().__init__()
@@ -54,12 +54,12 @@ class Links(HTMLParser):
 
 
 def html_pages(site: Path) -> list[Path]:
-    """All but the theme's own templates."""
+    """All pages except the theme's own templates."""
     return sorted(p for p in site.rglob("*.html") if "_static" not in p.parts)
 
 
 def broken_links(site: Path) -> Iterator[str]:
-    """One sentence for every link whose file or anchor is not there."""
+    """One sentence for every link whose file or anchor does not exist."""
     pages = {path.resolve(): Links(path.read_text(encoding="utf-8")) for path in html_pages(site)}
     for page, links in pages.items():
         for target in links.targets:
@@ -69,13 +69,13 @@ def broken_links(site: Path) -> Iterator[str]:
             path = (page.parent / unquote(parts.path)).resolve() if parts.path else page
             name = page.relative_to(site.resolve())
             if not path.is_file():
-                yield f"{name}: {target} is no file"
+                yield f"{name}: {target} is not a file"
             elif path in pages and unquote(parts.fragment) not in pages[path].anchors:
                 yield f"{name}: {target} has no such anchor"
 
 
 class Visitor:
-    """A page of the browser that notes what goes wrong in it."""
+    """A page of the browser that records errors."""
 
     def __init__(self, browser: Browser, home: str, width: int, height: int) -> None:
         self.page = browser.new_page(viewport={"width": width, "height": height})
@@ -93,7 +93,7 @@ class Visitor:
             self.notes.append(f"asks for {request.url}")
 
     def visit(self, name: str) -> list[str]:
-        """What is wrong with a page."""
+        """The faults of a page."""
         self.notes.clear()
         self.page.goto(self.home + name)
         if name == "index.html":  # leads on to the start page
@@ -102,7 +102,7 @@ class Visitor:
         return [*self.notes, *(f"wider than the page: {element}" for element in wide)]
 
     def search(self, word: str) -> list[str]:
-        """What is wrong with searching for a word that is there; raises if nothing is found."""
+        """The faults of searching for an existing word; raises an error if nothing is found."""
         self.notes.clear()
         self.page.goto(f"{self.home}search.html?q={word}")
         self.page.wait_for_selector("#search-results li a", timeout=20_000)
@@ -124,7 +124,7 @@ def faults_in_browser(site: Path) -> Iterator[str]:
 def main(arguments: Sequence[str] | None = None) -> int:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("site", type=Path)
-    parser.add_argument("--links", action="store_true", help="leave the browser out")
+    parser.add_argument("--links", action="store_true", help="do not start the browser")
     given = parser.parse_args(arguments)
     found = list(broken_links(given.site))
     if not given.links:

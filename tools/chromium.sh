@@ -1,6 +1,6 @@
 #!/bin/sh
 # Installs Chromium for the browser tests through apt, if none is there.
-# A browser elsewhere is used when $GLID_NB_CHROMIUM names it.
+# $GLID_NB_CHROMIUM may name a browser elsewhere.
 set -eu
 if [ -n "${GLID_NB_CHROMIUM:-}" ] && [ -x "$GLID_NB_CHROMIUM" ]; then exit 0; fi
 for name in chromium chromium-browser google-chrome; do

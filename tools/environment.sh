@@ -1,9 +1,9 @@
 #!/bin/sh
-# Makes or updates a virtual environment with this package in it.
+# Makes or updates a virtual environment with this package.
 #   tools/environment.sh [EXTRA]      EXTRA: an extra of pyproject.toml, such as test or dev
-# $VENV names the environment, .venv without it; $PYTHON the interpreter, else the newest one that
-# tools/pythons.sh finds. $RESOLUTION=lowest-direct installs the oldest libraries that
-# pyproject.toml allows, by uv.
+# $VENV names the environment (default .venv), $PYTHON the interpreter (default: the newest one that
+# tools/pythons.sh finds). With $RESOLUTION=lowest-direct, uv installs the oldest libraries that
+# pyproject.toml allows.
 set -euf
 cd "$(dirname "$0")/.."
 extra=${1:-}

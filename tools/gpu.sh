@@ -1,9 +1,9 @@
 #!/bin/sh
 # Measures the solver on this machine's GPU, with the machine's own Python and JAX.
 #   tools/gpu.sh [ARGUMENTS]        those of `python -m studies gpu`
-#   tools/gpu.sh wheels [NAME...]   beforehand, with a network: what GPU machines lack, into wheels/
-# $PYTHON names the interpreter (default python3). Its environment stays as it is: what it lacks is
-# installed from wheels/ into build/gpu, without a network.
+#   tools/gpu.sh wheels [NAME...]   before, with a network: download missing packages into wheels/
+# $PYTHON names the interpreter (default python3). Its environment is not changed: missing packages
+# are installed from wheels/ into build/gpu, without a network.
 set -eu
 cd "$(dirname "$0")/.."
 python=${PYTHON:-python3}
@@ -12,7 +12,7 @@ lacking='shapely trimesh pythoncdt python-flint'
 
 say() { echo "glid-nb: $*" >&2; }
 
-# Names of packages of which the module (after the colon) cannot be imported.
+# Names of packages whose module (after the colon) cannot be imported.
 missing() {
     "$python" - "$@" <<'END'
 import importlib.util

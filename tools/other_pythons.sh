@@ -1,7 +1,7 @@
 #!/bin/sh
-# The fast tests, the demo and one chapter on every other Python of this machine than the newest
-# one, which `make test` takes; and on the oldest with the oldest libraries that are allowed.
-# Each has an environment of its own in build/pythons.
+# Runs the fast tests, the demo and one chapter on every Python of this machine except the newest,
+# which `make test` uses; and on the oldest with the oldest allowed libraries.
+# Each has its own environment in build/pythons.
 set -eu
 cd "$(dirname "$0")/.."
 

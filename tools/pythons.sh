@@ -1,8 +1,8 @@
 #!/bin/sh
-# Lists the Pythons of this machine that the package can use, the best first, one path a line:
-# released versions that it is tested with, the newest first, then others.
-#   tools/pythons.sh [--one-a-version]     with it, the first of each version, such as 3.12
-# Looked at: $PYTHON alone if it is set, else $PATH and the folders of pyenv.
+# Lists the Pythons of this machine that the package can use, the best first, one path per line:
+# first the tested versions, the newest first, then other released versions.
+#   tools/pythons.sh [--one-a-version]     only the first of each version, such as 3.12
+# Searches $PYTHON alone if it is set, else $PATH and the folders of pyenv.
 set -eu
 
 TESTED="3.14 3.13 3.12 3.11"
@@ -18,8 +18,8 @@ candidates() {
     done
 }
 
-# Its version, for sorting first whether it is tested; nothing if it is too old, not released, or a
-# build without the global lock, for which libraries have no wheels.
+# Prints whether the version is tested, then the version, for sorting. Prints nothing if it is too
+# old, not released, or a build without the global lock, for which libraries have no wheels.
 PROBE='
 import sys, sysconfig
 v = sys.version_info

@@ -1,7 +1,7 @@
 """Run notebooks in place and save their outputs: ``python tools/run_notebooks.py [NUMBER ...]``.
 
-Without numbers all chapters are run, one after the other. What is saved is the same however often
-it is run: no widgets, which a page without a kernel cannot show, no times, no versions.
+Without numbers all chapters are run, one after the other. Another run saves the same file: outputs
+have no widgets, which a page without a kernel cannot show, no times and no versions.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ WIDGET = "application/vnd.jupyter.widget-view+json"
 
 
 def without_widgets(cell: nbformat.NotebookNode) -> None:
-    """Of a cell that shows a widget keep the widget's picture, if it has one, and nothing else."""
+    """If a cell shows a widget, keep only the widget's picture, if there is one."""
     shown = [output for output in cell.outputs if output.get("data", {}).pop(WIDGET, None)]
     if shown:
         cell.outputs = [output for output in shown if "image/png" in output.data]
@@ -37,7 +37,7 @@ def run(path: Path) -> None:
         store_widget_state=False,
         coalesce_streams=True,
     )
-    # What nbclient sends to output widgets may make it miss a cell's reply, and wait for minutes.
+    # With these handlers, nbclient may miss a cell's reply and wait for minutes.
     client.comm_open_handlers.clear()
     client.execute()
     book.metadata = metadata  # without the version of Python
@@ -51,7 +51,7 @@ def main(numbers: list[str]) -> None:
     found = (sorted(FOLDER.glob(f"{number}_*.ipynb")) for number in numbers or ["[0-9][0-9]"])
     paths = list(itertools.chain.from_iterable(found))
     if not paths:
-        raise SystemExit(f"no chapter has a number of {', '.join(numbers)}\n\n{__doc__}")
+        raise SystemExit(f"no chapter has the number {' or '.join(numbers)}\n\n{__doc__}")
     for path in paths:
         begin = time.perf_counter()
         run(path)

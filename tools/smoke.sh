@@ -1,6 +1,6 @@
 #!/bin/bash
-# Installs the wheels of some folders into an empty environment and runs the demo and the checker
-# from an empty folder:   tools/smoke.sh FOLDER ...
+# Installs the wheels of some folders into an empty environment. Runs the demo and the checker in an
+# empty folder:   tools/smoke.sh FOLDER ...
 # $PYTHON names the interpreter, by default python.
 set -euo pipefail
 wheels=()

@@ -1,4 +1,4 @@
-"""Every picture leads to its file: on a phone a page shows less of it than there is."""
+"""Links every picture to its file, because on a phone the page shows it too small."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from sphinx.application import Sphinx
 
 
 def link(_app: Sphinx, document: nodes.document) -> None:
-    """Name a scale, as Sphinx links pictures that have one; notebooks' have a width already."""
+    """Set a scale: Sphinx links pictures with a scale. Notebooks' pictures have a width."""
     for image in document.findall(nodes.image):
         if not {"width", "height"} & set(image.attributes):
             image["scale"] = 100

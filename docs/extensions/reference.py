@@ -1,4 +1,4 @@
-"""What the reference's pages need beyond autodoc."""
+"""Adjusts autodoc for the pages of the reference."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ KEPT = {"name", "triangulation", "images", "areas", "flipped", "layered"}
 
 
 def strip_examples(_app: Sphinx, document: nodes.document) -> None:
-    """Examples end with an empty line for doctest, which need not be seen."""
+    """Remove the empty line at the end of examples; doctest needs it, readers do not."""
     for block in document.findall(nodes.literal_block):
         if block.get("language") == "pycon":
             text = block.astext().rstrip()
@@ -38,7 +38,7 @@ def strip_examples(_app: Sphinx, document: nodes.document) -> None:
 def signature(
     _app: Sphinx, what: str, name: str, value: Any, _options: Any, *_: str | None
 ) -> tuple[str, str] | None:
-    """None for what only the package makes, and a widget's own.
+    """No signature for classes that only the package makes; the real one for a widget.
 
     Traitlets hides a widget's constructor behind ``*args, **kwargs``.
     """
@@ -58,7 +58,7 @@ def signature(
 def skip_inner(
     app: Sphinx, what: str, name: str, _value: Any, _skip: bool, _options: Any
 ) -> bool | None:
-    """Of a method its name and its settings are for users; the rest is how it runs."""
+    """For a method, show only its name and its settings; the rest is internal."""
     if app.env.docname.endswith("reference/methods") and what == "class":
         return name not in KEPT or None
     return None
@@ -67,9 +67,9 @@ def skip_inner(
 def closing_words(
     _app: Sphinx, _what: str, _name: str, _value: Any, _options: Any, lines: list[str]
 ) -> None:
-    """Moves what a docstring says after its parameters in front of them.
+    """Move text after the parameters of a docstring in front of them.
 
-    The numpy style has no place for it there: it would be taken for one more parameter.
+    In the numpy style, this text would be read as one more parameter.
     """
     heads = [i for i in range(len(lines) - 1) if re.fullmatch("-{3,}", lines[i + 1].strip())]
     for head, end in reversed(list(itertools.pairwise([*heads, len(lines)]))):
@@ -83,7 +83,7 @@ def closing_words(
 
 
 def keep_notebooks_out(app: Sphinx) -> None:
-    """What is unpacked of notebooks goes beside the doctrees, not beside the site."""
+    """Write unpacked outputs of notebooks beside the doctrees, not beside the site."""
     folder = Path(app.doctreedir, "notebooks")
     config = app.env.mystnb_config  # type: ignore[attr-defined]
     app.env.mystnb_config = config.copy(  # type: ignore[attr-defined]

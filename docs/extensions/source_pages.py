@@ -1,13 +1,13 @@
 """Links from pages to the repository's files, each to a page of this site.
 
-- A link to a Python file, or its path in code type (`glid_nb/certificate/paper.py`), leads to a
+- A link to a Python file, or its path in code type (`glid_nb/certificate/paper.py`), opens a
   page with that source, at the first name in the link's text that the file defines.
-- A link to a folder leads to a list of its files, to be downloaded.
-- A name of a module below the package's parts (`glid_nb.certificate.paper.turning`) leads to its
-  source likewise.
-- A public name in code type (`glid.solve`, `HarmonicMap.sigma1`) leads to the reference.
+- A link to a folder opens a list of its files, for download.
+- A name of a module below the package's parts (`glid_nb.certificate.paper.turning`) opens its
+  source in the same way.
+- A public name in code type (`glid.solve`, `HarmonicMap.sigma1`) opens the reference.
 
-A path of a Python file that does not exist is a warning, so that no page outlives the code.
+If the Python file of a path does not exist, there is a warning, so that pages follow the code.
 """
 
 from __future__ import annotations
@@ -167,7 +167,7 @@ def _listed(app: Sphinx, folder: Path, path: str) -> Iterator[str]:
     into.mkdir(parents=True, exist_ok=True)
     yield "<ul>"
     for file in sorted(folder.iterdir()):
-        if file.suffix in (".csv", ".json", ".png"):
+        if file.suffix in (".csv", ".json", ".png", ".webp"):
             shutil.copy(file, into)
             name = escape(file.name)
             yield f'<li><a class="reference" href="{escape(folder.name)}/{name}">{name}</a></li>'

@@ -67,7 +67,7 @@ class Certificate:
 
     def __post_init__(self) -> None:
         if self.certified:  # only `_assembled` may set this, afterwards
-            vars(self).update(certified=False, reason="Undecided: no proof made this certificate.")
+            vars(self).update(certified=False, reason="Undecided: this certificate has no proof.")
 
     def __setstate__(self, state: dict[str, Any]) -> None:
         """From a pickle. There maps come without the proofs that they keep."""
@@ -78,7 +78,7 @@ class Certificate:
 
     def belongs_to(self, map: HarmonicMap) -> bool:
         """Whether it belongs to this map: the same coefficients on the same or an equal domain."""
-        check_type("map", map, HarmonicMap, "such as that of a result")
+        check_type("map", map, HarmonicMap, "for example result.map")
         own = self.map
         same = np.array_equal(own.phi, map.phi) and np.array_equal(own.psi, map.psi)
         return own is map or (same and own.domain.equals(map.domain))
@@ -159,8 +159,8 @@ def certify(
     if its proof fails, or if its bounds are further than the relative ``tightness`` from values
     that the map attains. The paper does not split panels.
     """
-    check_type("map", map, HarmonicMap, "such as that of a result")
-    check_type("panels", panels, Panels | None, "such as those of a certificate")
+    check_type("map", map, HarmonicMap, "for example result.map")
+    check_type("panels", panels, Panels | None, "for example certificate.panels")
     check_type("tightness", tightness, Real, "a positive number")
     if kind not in PROOFS:
         raise ValueError(f"unknown kind of certificate {kind!r}; choose one of {', '.join(PROOFS)}")
@@ -269,7 +269,7 @@ def _conclude(map: HarmonicMap, panels: Panels, known: Known, kind: CertificateK
         share = f"{int(unproved.sum())} of {len(panels)} panels could not be proved injective"
         reason = f"Undecided: {share}, the worst near {place(panels.middle[i])}."
     elif not (np.abs(known.ends) > errors).all():
-        reason = "Undecided: f_z is too small beside rounding errors to count its turns."
+        reason = "Undecided: f_z is as small as rounding errors, so its turns cannot be counted."
     elif sum(turns) != 0:
         zeros = "1 zero" if sum(turns) == 1 else f"{sum(turns)} zeros"
         reason = f"The map is not locally injective: f_z has {zeros} in the domain."

@@ -64,11 +64,11 @@ def global_injectivity(
     """
     if max_panels < 1:
         raise ValueError(f"max_panels is {max_panels}; it must be at least 1")
-    check_type("certificate", certificate, Certificate | None, "what glid_nb.certify returns")
+    check_type("certificate", certificate, Certificate | None, "pass what glid_nb.certify returns")
     certificate = certify(map) if certificate is None else certificate
     if not certificate.belongs_to(map):
         raise CertificateError(
-            "the certificate belongs to another map; leave it out, or give its own"
+            "the certificate belongs to another map; leave it out, or pass that of this map"
         )
     if not certificate.certified:
         reason = f"Undecided, because local injectivity is not certified: {certificate.reason}"
@@ -109,7 +109,7 @@ def global_injectivity(
         what = f"the images of the boundary near {where} touch or nearly do"
     else:
         what = f"the image of the boundary is too curved near {place(panels.middle[unresolved][0])}"
-    reason = f"Undecided: {what}; {len(panels)} pieces of the boundary do not tell."
+    reason = f"Undecided: {what}; {len(panels)} pieces of the boundary are too few to decide."
     return GlobalInjectivity("undecided", reason, len(panels))
 
 

@@ -80,7 +80,7 @@ def check_tiling(panels: Panels, cage: Cage) -> None:
         start, end = panels.start[own], panels.end[own]
         is_corner = np.isin(start, corners)
         if not np.array_equal(start[is_corner], corners) or not is_corner[0]:
-            raise _not_tiled(f"vertices of the {loop_name(i)} are no ends, or not in order")
+            raise _not_tiled(f"vertices of the {loop_name(i)} are not panel ends, or not in order")
         edge = np.cumsum(is_corner) - 1
         origin, along = corners[edge], (np.roll(corners, -1) - corners)[edge]
         direction = along / np.abs(along)

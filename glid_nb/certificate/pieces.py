@@ -82,10 +82,10 @@ def certify_step(first: HarmonicMap, last: HarmonicMap) -> PieceCertificate:
     Both maps must live on the same or equal domains, else a CertificateError is raised. If the
     first is not certified itself, nothing is proved and ``until`` is 0.
     """
-    check_type("first", first, HarmonicMap, "such as that of a result")
-    check_type("last", last, HarmonicMap, "such as that of a result")
+    check_type("first", first, HarmonicMap, "for example result.map")
+    check_type("last", last, HarmonicMap, "for example result.map")
     if not first.domain.equals(last.domain):
-        raise CertificateError("the two maps live on different domains; pass two maps of one")
+        raise CertificateError("the two maps have different domains; pass two maps of one domain")
     start = certificate_of(first)
     if not start.certified:
         worst = start.panels.middle[int(np.argmin(start.panels.sigma2_lower))]

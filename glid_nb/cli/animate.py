@@ -27,22 +27,22 @@ from glid_nb.session.unsolved import solved_document
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     add = parser.add_argument
     add("source", type=Path, metavar="SOURCE", help="a session, or a saved motion")
-    add("--out", type=Path, metavar="walk.mp4", required=True, help="where the result goes")
-    add("--picture", type=Path, metavar="IMAGE", help="of a saved motion: what it moves")
+    add("--out", type=Path, metavar="walk.mp4", required=True, help="the file to write")
+    add("--picture", type=Path, metavar="IMAGE", help="the picture of a saved motion")
     size = "pixels of the longer side (default: %(default)s); not for .html and .glb"
     add("--size", type=int, default=480, metavar="N", help=size)
     add("--fps", type=float, default=25.0, metavar="N", help="frames per second, 0 to 100")
-    seconds = "length of the whole (default: as the timeline or the saved motion has it)"
+    seconds = "total length (default: that of the timeline or of the saved motion)"
     add("--seconds", type=float, metavar="S", help=seconds)
-    loop = "after the last pose: the first one, the way back, or nothing (default: as above)"
+    loop = "after the last pose: go to the first one, go back, or stop (default: as saved)"
     add("--loop", choices=("loop", "ping-pong", "once"), help=loop)
-    color = "a name or #rrggbb, or `transparent`, for all but .gif and .mp4 (default: white)"
+    color = "a name, #rrggbb, or `transparent`, but not for .gif and .mp4 (default: white)"
     add("--background", type=_color, default="white", metavar="COLOR", help=color)
 
 
 def run(chosen: argparse.Namespace) -> None:
     out: Path = chosen.out
-    refuse_standard_output(out, "--out", "the suffix says the format, so name a file")
+    refuse_standard_output(out, "--out", "the suffix determines the format, so name a file")
     if not glid_nb.export.suffix_of(out.name):
         check_folder(out)
     else:
@@ -78,7 +78,7 @@ def _read(chosen: argparse.Namespace) -> tuple[Any, glid_nb.Motion, list[glid_nb
         return document.image, motion, [pose.pose for pose in document.poses]
     motion = glid_nb.Motion.load(chosen.source)
     if chosen.picture is None or chosen.loop not in (None, motion.repeat):
-        advice = "name its picture by --picture, and leave out --loop, for it has its own"
+        advice = "name its picture with --picture, and leave out --loop: it has its own setting"
         raise InputError(f"{chosen.source} is a saved motion: {advice}")
     if motion.image_size is None:
         doubt = f"{chosen.source} does not say how large its picture is"
@@ -102,5 +102,5 @@ def _color(text: str) -> tuple[int, int, int] | None:
     try:
         red, green, blue, *_ = ImageColor.getrgb(text)
     except ValueError:
-        raise argparse.ArgumentTypeError(f"{text!r:.40} is no colour") from None
+        raise argparse.ArgumentTypeError(f"{text!r:.40} is not a colour") from None
     return red, green, blue

@@ -73,7 +73,7 @@ def run(chosen: argparse.Namespace) -> None:
     out.mkdir(parents=True, exist_ok=True)
     notes = [*tracing.notes, *domain.notes]
     if cropped:
-        notes.append("deformed.png is zoomed out, for the shape leaves the picture's frame")
+        notes.append("deformed.png is zoomed out, because the shape leaves the picture's frame")
     moved = int((np.linalg.norm(pose.targets - pose.handles, axis=1) > 0).sum())
     rows = [
         ("picture", f"{source}, {tracing.frame.width} x {tracing.frame.height} pixels"),

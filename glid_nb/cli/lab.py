@@ -21,9 +21,10 @@ _BUNDLED = Path("notebooks") / "02_editor.ipynb"
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    add, folder = parser.add_argument, "where to work; made if it is missing (default: here)"
+    add = parser.add_argument
+    folder = "folder to work in; created if it is missing (default: this folder)"
     add("folder", nargs="?", type=Path, default=Path(), metavar="FOLDER", help=folder)
-    add("--print", action="store_true", help="only print what would be run")
+    add("--print", action="store_true", help="print the command without running it")
     add("jupyter", nargs="*", metavar="ARGUMENT", help="for JupyterLab, after --")
 
 

@@ -52,7 +52,7 @@ def planned(
         file = to.path / (given.stem + suffix)
         if (other := files.get(file)) is not None:
             what = f"{other} and {given} would both be written to {file}"
-            raise InputFileError(f"{what}; give them different names, or run them apart")
+            raise InputFileError(f"{what}; give them different names, or run them separately")
         files[file] = given
     to.path.mkdir(parents=True, exist_ok=True)
     return list(files)

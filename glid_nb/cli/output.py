@@ -66,7 +66,7 @@ def tell(text: str, *results: Path | None) -> None:
 def check_files(outputs: Iterable[Path | None], inputs: Iterable[str | Path | None]) -> None:
     """Raise an error if an output file cannot be made, or is also an input or another output. None
     is skipped."""
-    taken = [(Path(path), "it is read too") for path in inputs if path is not None]
+    taken = [(Path(path), "it is also an input") for path in inputs if path is not None]
     for path in outputs:
         if path is None or path is STANDARD_OUTPUT:
             continue
@@ -77,7 +77,7 @@ def check_files(outputs: Iterable[Path | None], inputs: Iterable[str | Path | No
         for other, why in taken:
             if same_file(path, other):
                 raise InputFileError(f"{path} would be overwritten, but {why}; name another file")
-        taken.append((path, "another result goes there"))
+        taken.append((path, "another result is written there"))
 
 
 def check_folder(path: Path) -> None:

@@ -30,15 +30,15 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("image", type=Path, metavar="IMAGE", help="the picture's file")
     maps = "as `glid-nb solve` writes it; or several"
     add("map", type=Path, nargs="+", metavar="map.json", help=maps)
-    out = "where the result goes; a folder for several, - for standard output"
+    out = "the file to write; a folder for several, - for standard output"
     add("--out", type=destination, metavar="picture.png", required=True, help=out)
     size = "pixels of the result (default: the picture's)"
     add("--size", type=_pixels, nargs=2, metavar=("W", "H"), help=size)
     view = "show the part of the plane that the picture covers (default), or all of the result"
     add("--view", choices=("source", "fit"), default="source", help=view)
-    how = "smooth (default), or nearest: every pixel is one of the picture's, as labels want it"
+    how = "smooth (default), or nearest: pixels keep the picture's values, for labels"
     add("--interpolation", choices=("smooth", "nearest"), default="smooth", help=how)
-    fill = "the value beside the shape with --interpolation nearest (default: 0)"
+    fill = "the value outside the shape with --interpolation nearest (default: 0)"
     add("--fill", type=float, default=0.0, metavar="X", help=fill)
 
 

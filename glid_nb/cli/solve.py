@@ -22,12 +22,12 @@ from glid_nb.cli.output import STANDARD_OUTPUT, check_files, finish, map_text, r
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     add = parser.add_argument
-    problem = "what is solved: a file, or several"
+    problem = "the file of a problem, or several"
     add("problem", type=Path, nargs="+", metavar="PROBLEM.json", help=problem)
-    add("--out", type=destination, metavar="map.json", help="where the map goes")
-    proof = "where the proof goes, for glid-check map.json proof.json"
+    add("--out", type=destination, metavar="map.json", help="file for the map")
+    proof = "file for the proof, for glid-check map.json proof.json"
     add("--proof", type=destination, metavar="proof.json", help=proof)
-    add("--report", type=destination, metavar="report.json", help="where the report goes")
+    add("--report", type=destination, metavar="report.json", help="file for the report")
     start = "a certified map of the same domain to start from (default: see --align)"
     add("--start", type=Path, metavar="map.json", help=start)
     refine = "solve again with finer bases until that lowers the energy by less than 1 %%"

@@ -23,7 +23,7 @@ from glid_nb.cli.output import check_files, step, tell, write
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     image = "the picture's file, or several"
     parser.add_argument("image", type=Path, nargs="+", metavar="IMAGE", help=image)
-    out = "where the cage goes; a folder for several, - for standard output"
+    out = "file for the cage; a folder for several, - for standard output"
     parser.add_argument("--out", type=destination, metavar="cage.json", required=True, help=out)
     add_trace_flags(parser)
 

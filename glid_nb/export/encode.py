@@ -65,7 +65,7 @@ def check_settings(size: Any, fps: Any, background: Any, suffix: str) -> None:
         remedy = "choose a background, or .apng or .webm"
         raise InputError(f"{suffix[1:].upper()} has no transparency; {remedy}")
     if suffix in _CODECS and importlib.util.find_spec("imageio_ffmpeg") is None:
-        needed = "MP4 and WebM need the package imageio-ffmpeg, which brings ffmpeg along"
+        needed = "MP4 and WebM need the package imageio-ffmpeg, which includes ffmpeg"
         raise InputError(f"{needed}: pip install 'glid-nb[video]'")
 
 
@@ -131,7 +131,7 @@ def _video(frames: Frames, fps: float, suffix: str, transparent: bool) -> bytes:
                     raise
         if ffmpeg.returncode or not path.is_file():
             said = log.read_text(encoding="utf-8", errors="replace")[-500:]
-            told = f"exit code {ffmpeg.returncode}: {said or 'it says nothing'}"
+            told = f"exit code {ffmpeg.returncode}: {said or 'no message'}"
             raise OSError(f"ffmpeg ({program}) could not write the {suffix} video, {told}")
         return path.read_bytes()
 

@@ -56,7 +56,7 @@ def textured_mesh(
     is in front. Raises a ValueError that names an argument out of range.
     """
     image = as_rgba8(image)
-    check_type("map", map, HarmonicMap, "such as that of a result", InputError)
+    check_type("map", map, HarmonicMap, "for example result.map", InputError)
     check_picture((image.shape[1], image.shape[0]), map)
     return _at_knots(image, MovingMesh.of(map, pose, n_vertices, tolerance))[0]
 

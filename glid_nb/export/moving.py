@@ -59,7 +59,13 @@ class MovingMesh:
         tolerance: float | None = None,
     ) -> Self:
         """A mesh that is fine enough for all maps. Each keyframe's pose gives the heights."""
-        check_type("the motion", shown, Motion | HarmonicMap, "give what moves", InputError)
+        check_type(
+            "the motion",
+            shown,
+            Motion | HarmonicMap,
+            "pass what to export",
+            InputError,
+        )
         poses = list(pose) if isinstance(pose, Sequence) else [pose]
         for one in poses:
             check_type("a pose", one, Pose | None, "give one for each keyframe", InputError)

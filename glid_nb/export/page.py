@@ -41,7 +41,7 @@ LONGEST_CHAIN = 1024  # vectors that fit in a block of uniforms on every device
 _OVERLAPS = {
     "yes": "no part lies over another",
     "no": "parts of the shape lie over one another",
-    "undecided": "whether parts lie over one another is not known",
+    "undecided": "it is not known whether parts of the shape lie over one another",
 }
 
 
@@ -68,7 +68,7 @@ def page_html(
     report(progress, 0, 3)
     checked("loop", bool, loop)
     texture = as_rgba8(image)
-    check_type("map", map, HarmonicMap | Motion, "such as that of a result", InputError)
+    check_type("map", map, HarmonicMap | Motion, "for example result.map", InputError)
     check_picture((texture.shape[1], texture.shape[0]), map)
     texture = bled(texture)
     mesh = MovingMesh.of(map, pose, _VERTICES, tolerance)

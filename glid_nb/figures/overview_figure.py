@@ -57,7 +57,7 @@ def overview(
     picture = as_rgba8(image)
     map, certificate = result.map, result.certificate
     if certificate is None or not isinstance(map, HarmonicMap):
-        raise TypeError("the overview shows a certified map; the result's is one of a mesh")
+        raise TypeError("the overview shows a certified map, but this result has a map of a mesh")
     pose = result.pose if pose is None else pose
     cage, pixels = map.domain.cage, _OVERSAMPLING * _DPI * width / 3
     sheet = DrawnMap.of(map, pose, _VERTICES, 0.5 * cage.longer_side / pixels)

@@ -167,7 +167,7 @@ class HarmonicMap(Rebuilt):
         The components of the difference are harmonic, so they are extreme on the boundary. The maps
         may have different offset cages.
         """
-        check_type("other", other, HarmonicMap, "such as that of a result")
+        check_type("other", other, HarmonicMap, "for example result.map")
         points = as_points(uniform_panels(self.domain.cage, n_points).start)
         return float(np.linalg.norm(self(points) - other(points), axis=1).max())
 

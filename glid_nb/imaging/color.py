@@ -111,7 +111,7 @@ def in_srgb(pixels: RGBA, space: ColorSpace, name: str) -> RGBA:
         return pixels
     matrix = _matrix_to_srgb(space.primaries)
     if matrix is None:
-        _warn(name, "its primaries (cHRM) are no triangle around its white")
+        _warn(name, "its primaries (cHRM) do not form a triangle around its white point")
         return pixels
     full = np.iinfo(pixels.dtype).max
     linear = space.curve(np.arange(full + 1) / full).astype(np.float32)

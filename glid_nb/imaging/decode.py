@@ -196,15 +196,15 @@ def _doubt_key(picture: Image.Image, name: str) -> None:
     """Correct the transparent colour of a decoded PNG of 16-bit colours, or warn about one that may
     have had other bits: Pillow does not tell how many bits the file had."""
     key = picture.info.get("transparency")
-    remedy = "give the file's path, or the picture before it is decoded"
+    remedy = "pass the file's path, or the picture before it is decoded"
     if isinstance(key, tuple) and max(key) > 255:
         picture.info["transparency"] = tuple(value >> 8 for value in key)
-        what = "was decoded to 8 bit, so more colours than one may be transparent"
+        what = "was decoded to 8 bit, so more than one colour may be transparent"
         warnings.warn(f"{name} {what}; {remedy}", ColorWarning, stacklevel=2)
     elif isinstance(key, int) and picture.mode == "L" and key < 16:
         values = np.flatnonzero(picture.histogram())
         if key not in values and (values % 17 == 0).all():
-            what = f"has the transparent grey {key}, which no pixel has since it was decoded"
+            what = f"has the transparent grey {key}, but no pixel has it after decoding"
             warnings.warn(f"{name} {what}; {remedy}", ColorWarning, stacklevel=2)
 
 

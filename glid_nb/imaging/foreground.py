@@ -198,7 +198,7 @@ def _choose_method(
     scribbles: Scribbles | None,
 ) -> tuple[ForegroundMethod, str]:
     if scribbles is not None:
-        return "scribbles", "scribbles, which were given"
+        return "scribbles", "scribbles, as scribbles were given"
     if background is not None or background_at is not None:
         return "color", "colour distance, as a background colour was given"
     alpha = image[..., 3]

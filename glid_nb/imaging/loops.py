@@ -49,7 +49,7 @@ def repair(loops: Loops, importance: Array, kept: Array, gap: float) -> list[str
         place = loops.points[back[-1]]
     count = np.count_nonzero(kept) - before
     vertices = "vertex was" if count == 1 else "vertices were"
-    where = f"{count} {vertices} kept, near ({place[0]:.0f}, {place[1]:.0f}) among others"
+    where = f"{count} {vertices} kept, for example near ({place[0]:.0f}, {place[1]:.0f})"
     return [f"simplification would have made the cage meet itself; {where}"] if count else []
 
 

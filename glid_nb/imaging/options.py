@@ -110,7 +110,7 @@ class TraceOptions:
     simplify: float | None = option(None, "How far simplification may move the outline, pixels")
     """Largest distance from the outline. Afterwards, edges that cut off a part of the shape are
     moved outwards. None: a value that gives a typical character 60 to 120 vertices."""
-    max_vertices: int | None = option(None, "Most vertices of the cage", least=3)
+    max_vertices: int | None = option(None, "Largest number of vertices of the cage", least=3)
     min_edge: float | None = option(None, "Shorter edges are merged, pixels")
     """Least length of an edge. Short edges make the harmonic basis stiff. None: a fifth of the mean
     edge."""

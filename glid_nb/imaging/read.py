@@ -88,7 +88,7 @@ def as_rgba(image: ArrayLike) -> RGBA:
     try:
         array: NDArray[Any] = np.asarray(image)
     except ValueError as error:  # rows of different lengths
-        raise TraceError(f"the image is no array: {error}") from None
+        raise TraceError(f"the image is not an array: {error}") from None
     if array.ndim not in (2, 3) or (array.ndim == 3 and not 0 <= array.shape[2] <= 4):
         wanted = "(h, w) or (h, w, c) with 1 to 4 channels (grey, grey + alpha, RGB, RGBA)"
         given = array.shape or type(image).__name__

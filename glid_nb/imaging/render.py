@@ -68,8 +68,8 @@ def render(
     Raises a RenderError when an argument is out of range, the map's cage does not fit the picture,
     or the map collapses the shape.
     """
-    check_type("map", map, HarmonicMap, "such as that of a result")
-    check_type("pose", pose, Pose | None, "for its depths")
+    check_type("map", map, HarmonicMap, "for example result.map")
+    check_type("pose", pose, Pose | None, "the pose gives the depths")
     if interpolation not in get_args(Interpolation):
         known = ", ".join(get_args(Interpolation))
         raise RenderError(f"unknown interpolation {interpolation!r:.60}; choose one of {known}")
@@ -114,7 +114,7 @@ def _values(image: ArrayLike | Texture, fill: float) -> NDArray[Any]:
     try:
         values: NDArray[Any] = np.asarray(image)
     except ValueError as error:  # rows of different lengths
-        raise RenderError(f"the image is no array: {error}") from None
+        raise RenderError(f"the image is not an array: {error}") from None
     if values.ndim not in (2, 3) or not values.size or values.dtype.kind not in "biufc":
         wanted = "(h, w) or (h, w, c) numbers, at least one"
         given = f"{values.dtype} of the shape {values.shape}"
@@ -151,7 +151,7 @@ def frame_of(
         exterior = deformed_loops(map)[0]
         shown, margin = np.stack([exterior.min(axis=0), exterior.max(axis=0)]), MARGIN
     if np.ptp(shown, axis=0).min() <= 0:
-        raise RenderError("the map collapses the shape to a point or a line; nothing is to be seen")
+        raise RenderError("the map collapses the shape to a point or a line; nothing is visible")
     return PixelFrame(width, height).showing(shown, margin)
 
 

@@ -70,12 +70,12 @@ def _labels(
     if not background.any():
         background[[0, -1], :] = background[:, [0, -1]] = True
         background &= ~foreground
-        notes = ("no background was scribbled: the picture's border was taken for it",)
+        notes = ("no background was scribbled, so the picture's border counts as background",)
         if not background.any():
             what = "the foreground strokes cover the whole border"
             raise TraceError(f"scribbles: {what}; press Background and paint over that")
     elif (foreground & background).any():
-        notes = ("foreground and background strokes overlap: they count for nothing there",)
+        notes = ("foreground and background strokes overlap: there, neither of them counts",)
     labels = np.zeros(size, dtype=np.int32)
     labels[foreground & ~background] = _FOREGROUND
     labels[background & ~foreground] = _BACKGROUND

@@ -21,7 +21,7 @@ Kind = Literal["rigid", "similarity"]
 
 # A point counts as on an edge if it is this close, relative to its distances from the edge's ends.
 _ON_EDGE = 1e-12
-_TAKEN = "mean value coordinates take the handles as their cage"
+_TAKEN = "mean value coordinates use the handles as their cage"
 _FLAT = 1e-12  # smaller areas, relative to the square of the shape's longer side, count as 0
 
 
@@ -42,7 +42,7 @@ class LinearMethod(MeshMethod):
         yield problem.at(w)
         count = flips(*problem.operators.wirtinger(w))
         over = f"{count} triangles are" if count else "no triangle is"
-        return Ending(Status.CONVERGED, f"A linear method, solved at once: {over} turned over.")
+        return Ending(Status.CONVERGED, f"A linear method, solved in one step: {over} turned over.")
 
 
 @dataclass(frozen=True)

@@ -86,7 +86,7 @@ def solve(
     inputs = Inputs(**problem, options=options or Options(), start=start, callback=callback)
     start_map = inputs.start_map
     if isinstance(start_map, HarmonicMap) and not start_map.domain.equals(domain):
-        raise StartError("the map to start from belongs to another domain; take one of this one")
+        raise StartError("the map to start from has another domain; pass a map of this domain")
     return search.run(method, inputs)
 
 
@@ -104,7 +104,7 @@ def refine(result: Result, gain: float = 0.01, callback: Callback | None = None)
     when the method has no unknowns in the harmonic subspace (a method on a mesh, or BDHM), a
     ValueError when ``gain`` is not between 0 and 1.
     """
-    check_type("result", result, Result, "what glid_nb.solve returns")
+    check_type("result", result, Result, "pass what glid_nb.solve returns")
     check_type("gain", gain, Real, "a share of the energy")
     if not isinstance(result.map, HarmonicMap) or result.n_unknowns is None:
         raise MethodError(f"{result.method} has no basis to refine; use a descent, such as Newton")

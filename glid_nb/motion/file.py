@@ -49,7 +49,7 @@ def texts(
         told["image_size_px"] = list(size)
     text = _json.json_text({"format": "glid_nb-motion", **shared, **told})
     if len(knots) > MOST_KNOTS or text.count(",") > _json.MOST_VALUES:
-        raise MotionError(f"no file holds {len(knots):,} maps like these; raise the tolerance")
+        raise MotionError(f"{len(knots):,} maps are too many for a file; raise the tolerance")
     if not proofs:
         return (text,)
     claims = {

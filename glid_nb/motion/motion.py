@@ -110,7 +110,7 @@ class Motion(Rebuilt):
             image_size=checked("image_size", tuple[int, int] | None, plain(image_size), **size),
         )
         if between == "linear" and any(self.turns):
-            raise MotionError(f"turns are {self.turns}; linear blending takes none, so give 0")
+            raise MotionError(f"turns are {self.turns}; linear blending allows no turns, so give 0")
 
     def __reduce__(self) -> tuple[Any, ...]:
         """A copy keeps the pieces that were made, and their proofs."""

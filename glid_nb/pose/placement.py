@@ -31,15 +31,15 @@ def misplaced(cage: Cage, points: Array) -> str:
     world = f"Handles are in world coordinates, x right and y up: {spans}"
     if (points >= 0).all() and points.max() > _PIXELS * max(abs(xmin), xmax, abs(ymin), ymax):
         call = "PixelFrame(width, height).to_world"
-        pixels = f"pixels (x, y) of a picture become that by {call}(handles)"
+        pixels = f"convert pixels (x, y) of a picture by {call}(handles)"
         return f"{world}; {pixels}, (row, column) by {call}(handles[:, ::-1])"
     for seen, code, others in (
         ("x and y look swapped", "handles[:, ::-1]", points[:, ::-1]),
         ("y looks upside down", "handles * [1, -1]", points * [1, -1]),
-        ("they look like rows, downwards, and columns", "handles[:, ::-1] * [1, -1]",
+        ("they look like rows and columns", "handles[:, ::-1] * [1, -1]",
          points[:, ::-1] * [1, -1]),
     ):  # fmt: skip
         if len(points) > 1 and cage.contains(others).all():
-            return f"{world}; {seen}, for all would lie inside as {code}"
+            return f"{world}; {seen}, because all handles would lie inside as {code}"
     near = cage.contains(points, _NEAR * cage.longer_side).all()
     return "" if near else world

@@ -67,7 +67,9 @@ class Stiffness:
         for i, stroke in enumerate(strokes):
             with about(f"stiffness[{i}]", StiffnessError):
                 if not isinstance(stroke, Mapping) or set(stroke) != set(Stroke._fields):
-                    raise StiffnessError(f"a stroke has {', '.join(Stroke._fields)}, no more")
+                    raise StiffnessError(
+                        f"a stroke has exactly the keys {', '.join(Stroke._fields)}"
+                    )
                 new = new.painted(**stroke)
         return new
 

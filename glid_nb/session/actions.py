@@ -260,7 +260,7 @@ def keep_between(state: EditState, time: float, map: HarmonicMap) -> EditState:
     """Save a map between two poses as a pose at its time, with the handles of the pose before."""
     index = bisect.bisect_right(state.timeline.times, time)
     if not index or np.abs(np.subtract(state.timeline.times, time)).min() < LEAST_GAP:
-        raise EditError(f"there is a pose at {time:g} s already, or none before")
+        raise EditError(f"there is already a pose at {time:g} s, or no pose before that")
     if not (proof := certificate_of(map)).certified:
         raise EditError(f"the map at {time:g} s cannot be kept. {proof.reason}")
     before = state.poses[index - 1]

@@ -400,7 +400,7 @@ class Deformation(Undoable[EditState], AbstractContextManager["Deformation"]):
             if error is not None:
                 return f"{name} could not be solved: {error}"
             if self._paused:
-                return f"{name} is not solved, for the solver is paused; let it go on"
+                return f"{name} is not solved, because the solver is paused; resume it"
             if self._closed:
                 return f"{name} was not solved before it was closed; open it again"
             return f"{name} is not solved yet; solve it first"
@@ -451,7 +451,7 @@ class Deformation(Undoable[EditState], AbstractContextManager["Deformation"]):
 
     def _check_open(self) -> None:
         if self._closed:
-            raise EditError("it is closed: what was deformed here can be read, but not changed")
+            raise EditError("it is closed: its state can be read, but not changed")
 
     def _go_to(self, history: History[EditState]) -> bool:
         if history is self.history:

@@ -118,7 +118,7 @@ def load_document(path: str | Path) -> Document:
         members = _read_archive(path)
         for name in (_JSON, _IMAGE):
             if name not in members:
-                raise DocumentError(f"{name} is missing; this is no glid_nb document")
+                raise DocumentError(f"{name} is missing; this is not a glid_nb document")
         data = _json.parse_json(members[_JSON], _JSON, "JSON", nan=False)
         version = _json.checked_version(data, "document", FORMAT_VERSION)
         optional = {"scribbles": _json.check_object}
@@ -156,7 +156,7 @@ def _read_archive(path: str | Path) -> dict[str, bytes]:
         if (kind := picture_format(data)) is not None:
             what = f"it is a {kind} picture; open it as the picture instead of as a session"
         elif zipfile.is_zipfile(io.BytesIO(data)):
-            what = f"it is no intact zip file: {error}"
+            what = f"it is not an intact zip file: {error}"
         else:
             what = "it is not a saved session, which is a zip file, or only a part of one"
         raise InputFileError(what) from None
@@ -188,12 +188,14 @@ def _read_png(data: bytes, size: tuple[int, int], mode: str, name: str) -> NDArr
     decoding.
     """
     if not data.startswith(b"\x89PNG\r\n\x1a\n"):
-        raise InputFileError(f"{name} is no PNG picture")
+        raise InputFileError(f"{name} is not a PNG picture")
     try:
         with Image.open(io.BytesIO(data), formats=["PNG"]) as picture:
             if picture.size != size or picture.mode != mode:
                 has = f"{name} has {picture.width} x {picture.height} pixels, mode {picture.mode}"
-                raise InputFileError(f"{has}; announced were {size[0]} x {size[1]}, mode {mode}")
+                raise InputFileError(
+                    f"{has}; the document announces {size[0]} x {size[1]}, mode {mode}"
+                )
             # Pillow's arrays of mode "1" hold the byte 255 for true.
             pixels = np.array(picture.convert("L")) > 0 if mode == "1" else np.array(picture)
     except InputFileError:

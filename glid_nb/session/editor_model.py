@@ -22,17 +22,17 @@ from glid_nb.session.timeline import Timeline
 from glid_nb.session.tracing import TracingModel, TracingState
 from glid_nb.session.worker import weakly
 
-_LOST = "{} outside the new outline and removed with the old one; Undo brings everything back."
+_LOST = "{} outside the new outline and removed with the old outline; Undo restores everything."
 _REPLACED = (
-    "Another picture starts another session. The one before{place} comes back with {step} in the "
+    "A new picture starts a new session. The session before{place} comes back with {step} in the "
     "Trace tab."
 )
 _NOT_KEPT = (
-    "The editor's data folder cannot be used: {}. Work that is in no session file, and choices of "
-    "exports, are not kept for the next editor. Save the session, or name another folder in the "
+    "The editor's data folder cannot be used: {}. Work that is in no session file and export "
+    "settings are not kept for the next editor. Save the session, or name another folder in the "
     "environment variable GLID_NB_DATA."
 )
-_NOT_VALID = "The outline in the Trace tab is not valid yet: this is the last one that was."
+_NOT_VALID = "The outline in the Trace tab is not valid yet: this is the last valid one."
 
 
 class KeptWorkError(OSError):

@@ -37,11 +37,11 @@ def build_report(result: Result) -> dict[str, Any]:
 
     Values that are not finite are null.
     """
-    check_type("result", result, Result, "what glid_nb.solve returns")
+    check_type("result", result, Result, "pass what glid_nb.solve returns")
     began = time.perf_counter()
     map_, certificate = result.map, result.certificate
     if certificate is None or not isinstance(map_, HarmonicMap):
-        raise TypeError("a report needs a certified map; the result's is one of a mesh")
+        raise TypeError("a report needs a certified map, but this result has a map of a mesh")
     injectivity = global_injectivity(map_, certificate)
     certify_time = time.perf_counter() - began
     energy, options = result.energy_measure, result.options

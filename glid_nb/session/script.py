@@ -31,7 +31,7 @@ def python_code(document: Document, picture: str = "picture.png", *, exact: bool
     several minima and the editor reached another one than a solve from the identity. Raises a
     DocumentError if there is no pose, or if the energy of a pose is a Python function.
     """
-    check_type("document", document, Document, "such as that of an editor")
+    check_type("document", document, Document, "for example editor.document")
     if not document.poses:
         raise DocumentError("the document has no pose yet, so there is no map to make")
     lines = ["import glid_nb as glid", "", *_domain_lines(document, picture)]
@@ -50,7 +50,7 @@ def python_code(document: Document, picture: str = "picture.png", *, exact: bool
 
 def _map_lines(pose: NamedPose, exact: bool) -> list[str]:
     if isinstance(pose.energy, CustomEnergy):
-        why = "its energy is a Python function, which cannot be written down"
+        why = "its energy is a Python function, which cannot be written as code"
         raise DocumentError(f"the pose {pose.name!r}: {why}")
     exact = exact and not pose.unsolved
     posed = _pose_lines(pose) if not exact or pose.pose.depths.any() else []

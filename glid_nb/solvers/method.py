@@ -117,7 +117,7 @@ class Method:
             raise MethodError(f"{cannot}; choose one of {', '.join(self.energies)}")
         other = "choose Newton's method, L-BFGS or another that moves the certified map"
         if pose.stiffness and not (self.stiffens and self.certified):
-            raise MethodError(f"{method} knows no stiff areas; clear them, or {other}")
+            raise MethodError(f"{method} does not support stiff areas; clear them, or {other}")
         if pose.oriented.any() and not self.certified:
             cannot = f"{method} cannot hold the angle or the scale of handle"
             raise MethodError(

@@ -61,13 +61,14 @@ def conflict(pose: Pose, missing: Array, worst: int) -> str:
     for i, j in sorted({(min(i, j), max(i, j)) for i in chosen for j in range(len(z)) if i != j}):
         before, after = abs(z[i] - z[j]), abs(w[i] - w[j])
         if after <= _TOGETHER * before:
-            return f"the targets of handles {i} and {j} are one place"
+            return f"the targets of handles {i} and {j} are the same place"
         if before <= _TOGETHER * after:
-            return f"handles {i} and {j} are nearly one place, and their targets {after:.2g} apart"
+            gap = f"their targets are {after:.2g} apart"
+            return f"handles {i} and {j} are nearly the same place, but {gap}"
     if len(z) > 2:
         left = _left(z, w)
         if _left(z.conj(), w) < min(_FITS, _BETTER * left):
-            return "the targets mirror the handles, and no map turns over"
+            return "the targets mirror the handles, and maps without folds cannot mirror"
         for i, j in itertools.combinations(sorted(chosen), 2):
             swapped = w.copy()
             swapped[[i, j]] = w[[j, i]]
@@ -99,4 +100,4 @@ def _turned_over(z: Any, w: Any, worst: int) -> str:
     if not over.any():
         return ""
     i, j, k = sorted(triangles[over][0].tolist())
-    return f"its targets turn the triangle of handles {i}, {j} and {k} over"
+    return f"the targets turn over the triangle of handles {i}, {j} and {k}"

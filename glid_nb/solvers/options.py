@@ -57,13 +57,13 @@ class Options:
     align: bool = option(True, "Begin at the best rigid motion to the targets", "Align")
     """Begin with the rigid motion that brings the handles closest to their targets. This motion
     changes neither distortion nor certificate and often saves half of the iterations."""
-    restarts: int = option(10, "Other ways to try after a high energy", "Restarts")
+    restarts: int = option(10, "Restarts to try after a high energy", "Restarts")
     """How many restarts (see :mod:`glid_nb.minima.ways`) a solve from the identity may try; 0
     tries none. It tries them when the first descent does not converge, ends at a high energy, or
     turns parts so far that they might turn the other way round. The result's ``attempts`` list what
     each of them reached."""
     max_iterations: int | None = option(
-        None, "Most iterations of one attempt; Newton's method makes 200", "Iterations"
+        None, "Largest number of iterations; 200 for Newton's method", "Iterations"
     )
     """Most iterations of one attempt, at least 0. The default is the method's: 200 for Newton's."""
     tolerance: float = option(
@@ -72,7 +72,10 @@ class Options:
     """The solve has converged when the decrease predicted by the Newton decrement, ``decrement^2 /
     2``, is below ``tolerance`` times the energy. Other methods have their own tolerances."""
     corrections: int = option(
-        MOST_CORRECTIONS, "Most steps by an old Hessian", "Corrections", most=MOST_CORRECTIONS
+        MOST_CORRECTIONS,
+        "Most steps with an old Hessian",
+        "Corrections",
+        most=MOST_CORRECTIONS,
     )
     """Most extra steps with the same Hessian, 0 to 3, in an iteration close to the minimum. They
     save iterations. Also, a solve that continues another one begins with the last Hessian of that

@@ -43,7 +43,7 @@ _TRACE, _DEFORM = 0, 1
 _FILES = 2  # of the tabs beside the canvas
 _LEAST_SIZE = 240  # CSS pixels, of the Trace tab, and of a canvas whose corner is dragged
 _SIDE_WIDTH, _PLOTS_HEIGHT = 460, 382  # CSS pixels
-_EMPTY = "<p style='padding:2em'>Open a picture in the Trace tab; what is traced appears here.</p>"
+_EMPTY = "<p style='padding:2em'>Open a picture in the Trace tab; the shape appears here.</p>"
 
 _LEFT = (
     "{left} was changed by another editor or program and stays as it is; this session is saved to "
@@ -108,7 +108,7 @@ class Editor(ClosingWidget, ipywidgets.VBox):
         document = None if path is None else find_document(path)
         known = None if document is None else document.image
         if known is not None and image is not None and not np.array_equal(read_image(image), known):
-            what = f"{path} exists and is of another picture; leave the picture out to go on with"
+            what = f"{path} exists and is of another picture; leave the picture out to continue"
             raise DocumentError(f"{what} that session, or give another path")
         self.model = EditorModel(image, document=document, path=path)
         """The editor without its widgets."""

@@ -37,7 +37,7 @@ class OccupiedError(ExportError):
 
     def __init__(self, paths: Sequence[Path]) -> None:
         names = ", ".join(str(path.absolute()) for path in paths)
-        super().__init__(f"{names}: there already; choose another name, or move it away")
+        super().__init__(f"already there: {names}; choose another name, or move it away")
         verb = "is" if len(paths) == 1 else "are"
         self.plain = (
             f"{names_of(paths)} {verb} in {paths[0].absolute().parent} already, not written by "

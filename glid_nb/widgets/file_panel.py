@@ -31,11 +31,11 @@ _LABEL = {"width": "58px", "flex": "0 0 auto"}
 _WIDE = {"width": "auto", "min_width": "0", "flex": "1 1 auto"}
 _VIEWS = (("Whole shape", "fit"), ("Original frame", "source"))
 _NO_AUTOSAVE = (
-    "What you do is kept for the next editor of this picture. Save writes it to a file, as it is."
+    "Your work is kept for the next editor of this picture. Save writes the session to a file."
 )
 _UNSAVED = (
-    "This session is in no file yet. Click again to open the other one without saving, or save it "
-    "under another name first."
+    "This session is not saved in a file yet. Click again to open the other one without saving, or "
+    "save this one under another name first."
 )
 _KEPT = "Another editor's work on this picture is kept, last changed on {:%d %B at %H:%M}."
 
@@ -132,7 +132,7 @@ class KeptOffer(Asking, ipywidgets.HBox):
 
         self.message = ipywidgets.HTML()
         self._say(_KEPT.format(changed))
-        look = "Bring it back", "history", "Go on with it"
+        look = "Restore it", "history", "Continue with it"
         back = self._button(*look, lambda sure: end(model.recover, sure))
         discard = self._button("Discard", "trash", "Delete it", lambda _: end(model.discard_kept))
         self.children, self.layout.display = [self.message, back, discard], "flex"
@@ -144,7 +144,7 @@ class OpenPanel(Asking, ipywidgets.VBox):
     def __init__(self, model: EditorModel) -> None:
         self.path = ipywidgets.Text(placeholder="session.glid", layout={"width": "280px"})
         """The file, relative to the notebook."""
-        look = "Open session", "folder-open", "Go on with a session file"
+        look = "Open session", "folder-open", "Continue with a session file"
         self.button = self._button(*look, lambda _: model.load(existing_path(self.path.value)))
         self.message = ipywidgets.HTML()
         row = ipywidgets.HBox([self.path, self.button])
@@ -242,8 +242,8 @@ class FilePanel(Asking, ipywidgets.VBox):
 
     def _add_buttons(self) -> None:
         made = self._button
-        go_on, beside = "Go on with the session file", "Write it beside the session file"
-        browser, lines = "Save it through the browser", "Copy the lines that make this map"
+        go_on, beside = "Continue with the session file", "Write the file beside the session file"
+        browser, lines = "Save the file through the browser", "Copy the Python code of this map"
         self.save_button = made("Save", "save", "Write the session file", self._save)
         self.open_button = made("Open", "folder-open", go_on, self._open, "Discard?")
         self.export_button = made("Write here", "file-export", beside, self._export)
@@ -352,7 +352,7 @@ class FilePanel(Asking, ipywidgets.VBox):
         self._moving.layout.display = "flex" if moving else "none"
         self.height.value = f"× {self.size[1]} px"
         path = self.model.autosave_path
-        text = _NO_AUTOSAVE if path is None else f"Saved by itself to {path.absolute()}"
+        text = _NO_AUTOSAVE if path is None else f"Saved automatically to {path.absolute()}"
         self.autosave.value = paragraph(text, "color:var(--jp-ui-font-color2,inherit)")
 
 

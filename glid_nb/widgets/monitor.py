@@ -23,15 +23,16 @@ _TONES = {"idle": GREY, "working": BLUE, "good": GREEN, "blocked": ORANGE, "erro
 _RATE_WINDOW = 1.0  # seconds over which frames are counted
 PLOTS = {  # for each plot: what it shows, and the section of the paper
     "Energy": (
-        "How far the shape is from undeformed, on a logarithmic axis: the energy's mean along the "
-        "boundary above its least value, 2 for the symmetric Dirichlet energy (blue, Section 6), "
-        "what the pins miss (orange), and the sum (20). Lines join the ends of solves."
+        "How far the shape is from undeformed, on a logarithmic axis. Blue: the energy's mean "
+        "along the boundary, above its least value, which is 2 for the symmetric Dirichlet energy "
+        "(Section 6). Orange: the penalty for pins away from their targets. Dark: the sum (20). "
+        "Lines connect the ends of solves."
     ),
     "Steps": (
-        "The Newton decrement, which falls to 0 as a minimum comes near, and the share of each "
-        "Newton step that was taken, 1 for all of it. The Hessian is projected as in Section 7 if "
-        "it has to be, and the line search shortens a step until the energy falls and the map is "
-        "certified (Section 9.2, Algorithm 1)."
+        "The Newton decrement, which falls to 0 near a minimum, and the share of each Newton step "
+        "that was taken; 1 is the whole step. The Hessian is projected if necessary (Section 7). "
+        "The line search shortens a step until the energy falls and the map is certified (Section "
+        "9.2, Algorithm 1)."
     ),
     "Time": (
         "How long each iteration took: energy, gradient, Hessian, factor, line search and "
@@ -39,8 +40,8 @@ PLOTS = {  # for each plot: what it shows, and the section of the paper
     ),
     "Certificate": (
         "The certified lower bound on σ₂ along the boundary (blue), loop by loop, and σ₂ itself at "
-        "samples (dark): while the bound is above 0 and the winding number is 0, the map folds "
-        "nowhere, also inside (Theorem 4.2). Section 8 has such bounds; ours are sharper."
+        "samples (dark). If the bound is above 0 and the winding number is 0, the map folds "
+        "nowhere, also inside (Theorem 4.2). Section 8 derives such bounds; ours are sharper."
     ),
 }
 

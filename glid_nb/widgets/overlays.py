@@ -24,7 +24,7 @@ PANEL_LEGEND = {  # the colour bar of the boundary's panels, for the page
     "moving": "σ₂ on the boundary now",
     "colors": list(MARGIN_COLORS),
     "ticks": [f"≥ {FULL_MARGIN:g}", f"{FULL_MARGIN / 2:g}", "0"],
-    "about": "What is proved on each panel of the boundary: where it is 0 the map might fold",
+    "about": "The value proved on each panel of the boundary; where it is 0, the map might fold",
 }
 
 _MOST_DIGITS = 22  # of all labels of a colour bar together

@@ -135,7 +135,7 @@ def _number(text: str, wanted: str, least: float, most: float, free: bool) -> fl
     except ValueError:
         number = np.nan
     if not least <= number <= most:
-        wrong = "no number" if np.isnan(number) else "out of range"
+        wrong = "not a number" if np.isnan(number) else "out of range"
         wanted += ", or nothing to leave it free" * free
         raise EditError(f"{text!r:.40} is {wrong}; type {wanted}")
     return number

@@ -14,7 +14,7 @@ from glid_nb.solvers import Iteration, Method, Options
 from glid_nb.widgets.controls import EditControls, button, paragraph, toggle
 
 _WORKS_ON = {"harmonic": "", "mesh": " · mesh", "linear": " · linear"}
-_UNPROVED = " Shown for comparison, without a proof; saved and exported is the last certified map."
+_UNPROVED = " Shown for comparison, without a proof. Save and export use the last certified map."
 _CUSTOM = CustomEnergy.label, CustomEnergy.name
 _FULL = {"width": "auto"}
 _STEPS = 12  # most single steps that are listed
@@ -71,13 +71,13 @@ class SolverPanel(EditControls):
             method = model.state.current.method
             act(lambda: model.set_method(method.name, **{**method.settings, name: value}))
 
-        self.method = _menu(_methods(), "What solves: ours, or another to compare with")
+        self.method = _menu(_methods(), "The method: ours, or another one for comparison")
         rows = {"name": ("Method", self.method)}
         method = FieldRows(lambda _, name: act(lambda: model.set_method(name)), rows)
         self.about = ipywidgets.HTML()  # what the method does
         self.settings = FieldRows(set_setting, {})  # the method's own settings
         self._shown: type[Method] | None = None
-        self.energy = _menu({name: e.label for name, e in ENERGIES.items()}, "What is minimised")
+        self.energy = _menu({name: e.label for name, e in ENERGIES.items()}, "Energy to minimise")
         self.s = ipywidgets.BoundedFloatText(
             1.0, min=1e-3, max=100.0, step=0.1, layout=_FULL, tooltip="The energy's parameter s"
         )
@@ -87,9 +87,9 @@ class SolverPanel(EditControls):
             _option_controls(deformation.state.current.options),
         )
         """The options, by their names."""
-        self.pause = toggle("Pause", "pause", "Let the solver wait", _FULL)
+        self.pause = toggle("Pause", "pause", "Pause the solver", _FULL)
         self._bind(self.pause, lambda paused: setattr(model, "paused", paused))
-        self.step = button("Step", "step-forward", "One frame's iterations", model.step)
+        self.step = button("Step", "step-forward", "Run the iterations of one frame", model.step)
         self.reset = button("Reset", "refresh", "The undeformed shape (0)", model.reset)
         self.clear = button("Clear pins", "eraser", "Remove all pins", model.clear_handles)
         self.steps = ipywidgets.HTML(layout={"height": "96px", "overflow": "hidden auto"})
@@ -112,7 +112,7 @@ class SolverPanel(EditControls):
         self.steps.layout.display = None if moment.paused else "none"
         history = moment.frame.history[-_STEPS:] if moment.paused and moment.frame else ()
         told = [paragraph(step_in_words(iteration)) for iteration in reversed(history)]
-        self.steps.value = "".join(told) or paragraph("Step tells here what it did.")
+        self.steps.value = "".join(told) or paragraph("Step shows its numbers here.")
 
     def _show(self) -> None:
         current = self.deformation.state.current

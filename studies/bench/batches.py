@@ -1,4 +1,4 @@
-"""Poses per second of ``solve_batch`` against the size of the batch and the number of devices.
+"""Poses per second of ``solve_batch``, by the size of the batch and the number of devices.
 
 XLA shows a CPU as two devices when the process is started with
 ``XLA_FLAGS=--xla_force_host_platform_device_count=2``.
@@ -22,11 +22,11 @@ OPTIONS = Options(restarts=0)
 
 _REPEATS = 3
 SPREAD = 0.05
-"""Standard deviation of what targets are moved by, world units."""
+"""Standard deviation of the targets' random moves, world units."""
 
 
 def measure(case: Case, plan: Plan) -> Measurement:
-    """Poses per second, targets moved a little at random: one by one, and in batches by size."""
+    """Poses per second with small random moves of the targets: one by one, and in batches."""
     domain, pose = case.problem.domain, case.problem.pose
     sizes, repeats = (SIZES[:1], 1) if plan.quick else (SIZES, _REPEATS)
     moves = np.random.default_rng(0).normal(scale=SPREAD, size=(max(sizes), *pose.targets.shape))
@@ -58,7 +58,7 @@ def _row(count: str, found: list[Measurement]) -> Row:
 
 
 def _tasks(plan: Plan) -> list[Task]:
-    """Of rex, or else of the first shape."""
+    """One task: rex, or else the first shape."""
     case = plan.case("rex" if "rex" in plan.references else bench_cases(plan)[0])
     name = f"{case.name}-{len(jax.local_devices())}"
     return [Task(name, f"{case.digest}, quick {plan.quick}", lambda: measure(case, plan))]

@@ -1,6 +1,6 @@
 """How time and memory grow with the cage, its holes and the handles.
 
-As a script it measures one size: a process of its own, whose peak memory is that size's.
+Run as a script, it measures one size in a separate process, to get the peak memory of that size.
 """
 
 import functools
@@ -37,11 +37,11 @@ SERIES = {
     "holes": tuple(Size(40, holes=n) for n in (0, 5, 10, 20, 35, 50)),
     "handles": tuple(Size(100, handles=n) for n in (2, 4, 16, 64, 200, 500)),
 }
-"""What grows in each series, all else being equal."""
+"""The sizes of each series; only one number grows."""
 
 _SHAPE = ("domain", "contains")
 _QUICK = Size(50)
-# What the exponents are of.
+# The size that the exponents refer to, if it is not the series' own.
 _AGAINST = {"holes": "unknowns"}
 _OPTIONS = Options(restarts=0)
 _REPEATS = 3
@@ -49,7 +49,7 @@ _BUDGET = 10.0  # seconds of one kind of timing, after which three are enough
 
 
 def flower(vertices: int, holes: int) -> Domain:
-    """A flower of radius about 8 with so many vertices, and triangular holes on a grid inside."""
+    """A flower of radius about 8 with triangular holes on a grid inside."""
     t = np.linspace(0, 2 * np.pi, vertices, endpoint=False)
     radius = 8 + 1.2 * np.sin(5 * t)
     exterior = radius[:, None] * np.stack([np.cos(t), np.sin(t)], axis=1)
@@ -92,11 +92,10 @@ def _tasks(plan: Plan) -> list[Task]:
 
 
 def measure_here(given: dict[str, Any]) -> dict[str, Any]:
-    """``step`` and ``before``: one iteration, and a call that takes none; ``memory`` in bytes.
+    """Times: ``step`` of one iteration, ``before`` of a call without iterations, ``domain`` of
+    checking and offsetting the cage, ``contains`` of testing a million points. ``memory`` in bytes.
 
-    ``domain`` checks and offsets the cage, ``contains`` asks it for a million points.
-
-    The iterations are those without corrections, which are equal work: one Hessian each.
+    The iterations have no corrections, so that each has the same work: one Hessian.
     """
     domain, pose = flower(given["vertices"], given["holes"]), ring_of_handles(given["handles"])
     first = solve(domain, pose, None, _OPTIONS)  # compiles, and splits panels
@@ -116,8 +115,8 @@ def measure_here(given: dict[str, Any]) -> dict[str, Any]:
 
 
 def peak_memory() -> int:
-    """Bytes of memory that this process held at most."""
-    # getrusage starts from what the parent process had; Linux counts this one alone in VmHWM.
+    """The largest memory of this process, bytes."""
+    # getrusage includes the parent's memory at the fork; VmHWM of Linux does not.
     status = Path("/proc/self/status")
     lines = status.read_text(encoding="utf-8").splitlines() if status.exists() else []
     own = [int(line.split()[1]) for line in lines if line.startswith("VmHWM")]
@@ -146,9 +145,9 @@ def tables(found: list[Measurement]) -> dict[str, list[Row]]:
 
 
 def local_exponents(x: np.ndarray, y: np.ndarray) -> np.ndarray:
-    """The power by which ``y`` grows from each size to the next.
+    """The exponent of ``y``'s growth from each size to the next.
 
-    NaN beside what is not positive, a difference of two timings that noise outweighs.
+    NaN next to values that are not positive: noise can make a difference of two times negative.
     """
     y = np.where(y > 0, y, np.nan)
     return np.diff(np.log(y)) / np.diff(np.log(x))

@@ -1,4 +1,4 @@
-"""Time per iteration, to convergence and of a drag step: the paper's settings and ours."""
+"""Time per iteration, to convergence, and of a drag step, with the paper's settings and ours."""
 
 from collections.abc import Callable
 from dataclasses import replace
@@ -29,7 +29,7 @@ DRAG = 0.01
 
 PAPER, DEFAULT, ALIGNED = "paper", "default", "paper-aligned"
 MODES = {PAPER: Options.paper(), DEFAULT: Options(restarts=0), ALIGNED: Options.paper(align=True)}
-"""``paper-aligned`` begins where ``default`` does, and differs in the method alone."""
+"""``paper-aligned`` has the start of ``default``, so only the method differs."""
 
 _MAKING_REPEATS = 3
 _BAR = 0.36
@@ -47,13 +47,12 @@ def iterations_to(result: Result, gap: float) -> int:
 
 
 def measure(case: Case, plan: Plan) -> Measurement:
-    """From the identity until the energy is within :data:`GAP` of its minimum by mode; a drag step.
+    """Solves by each mode until the energy is within :data:`GAP` of its minimum, and a drag step.
 
-    The modes are timed in turn. ``to_gap`` is the time of a whole call of ``solve`` for so many
-    iterations, with the domain's matrices at hand.
-    ``making`` is that of making the matrices, ``before`` that of a call that takes no iteration,
-    ``stages`` the stages' by themselves. The gap is to the minimum of each mode's own discrete
-    energy.
+    The modes are timed in turn. ``to_gap`` is the time of a whole call of ``solve`` with the needed
+    number of iterations, if the domain's matrices exist. ``making`` is the time to make the
+    matrices, ``before`` that of a call without iterations, ``stages`` that of each stage. The
+    minimum is that of each mode's own discrete energy.
     """
     domain, pose, repeats = case.problem.domain, case.problem.pose, plan.repeats
     whole = {mode: solve(domain, pose, None, options) for mode, options in MODES.items()}
@@ -79,7 +78,7 @@ def measure(case: Case, plan: Plan) -> Measurement:
 
 
 def _about(case: Case, mode: str, whole: Result, count: int, repeats: int) -> dict[str, Any]:
-    """What there is to say about one mode's solve of ``count`` iterations, beside its times."""
+    """The results of one mode's solve of ``count`` iterations, and further times."""
     domain, options, history = case.problem.domain, MODES[mode], whole.history[:count]
     certificate = whole.certificate
     assert certificate is not None
@@ -104,7 +103,7 @@ def _about(case: Case, mode: str, whole: Result, count: int, repeats: int) -> di
 
 
 def tables(found: list[Measurement]) -> dict[str, list[Row]]:
-    """Iterations, energies and times by shape; and where the time of an iteration goes."""
+    """Iterations, energies and times by shape; and the times of an iteration's stages."""
     return {
         "solves": [_solve_row(data) for data in found],
         "breakdown": [_breakdown_row(data[mode]) for data in found for mode in (PAPER, DEFAULT)],
@@ -112,7 +111,7 @@ def tables(found: list[Measurement]) -> dict[str, list[Row]]:
 
 
 def _per_iteration(solve: Measurement, part: str = "median") -> float:
-    """Seconds of an iteration: those of a solve, shared evenly."""
+    """Mean seconds of a solve's iterations."""
     return solve["to_gap"][part] / solve["iterations"]
 
 
@@ -168,13 +167,13 @@ def draw(found: list[Measurement], folder: Path) -> None:
     figures.label_axes(axes, "shape and unknowns", "ms per iteration")
     axes.legend(fontsize=SMALL, frameon=False, ncols=3)
     axes.set_ylim(top=1.25 * axes.get_ylim()[1])
-    figures.save(figure, folder / "solves.png")
+    figures.save(figure, folder / "solves.webp")
 
 
 def drag_step(
     case: Case, before: Result, repeats: int, budget: float = float("inf")
 ) -> dict[str, Any]:
-    """One target moved by :data:`DRAG`, from the converged map, to within :data:`DRAG_GAP`."""
+    """Move one target by :data:`DRAG` from the converged map; solve to within :data:`DRAG_GAP`."""
     domain, pose = case.problem.domain, case.problem.pose
     xmin, ymin, xmax, ymax = domain.cage.bounds
     targets = pose.targets.copy()

@@ -1,4 +1,4 @@
-"""Where the time of an iteration goes: its stages, each run by itself (paper Figure 9)."""
+"""The time of each stage of an iteration, run separately (paper Figure 9)."""
 
 from collections.abc import Callable
 from typing import Any
@@ -23,7 +23,7 @@ from studies.timing import timed
 
 STAGES = ("gradient", "hessian", "factor", "search", "certificate")
 
-# Enough to make a Hessian without its targets positive definite, whose nullspace is the motions.
+# A Hessian without targets is singular for rigid motions; this makes it positive definite.
 _RIDGE = 1e-3
 _SMALL = 1e-3
 
@@ -32,7 +32,7 @@ _SMALL = 1e-3
 def measure_stages(result: Result, repeats: int) -> dict[str, float]:
     """Median seconds of each of :data:`STAGES` at a solve's last map, warm.
 
-    The matrices have the padded sizes that the solver runs on.
+    The matrices are padded as in the solver.
     """
     disc, options = result.discretisation, result.options
     assert disc is not None

@@ -1,4 +1,4 @@
-"""Cold and warm starts: a first solve in a new process, without and with compiled programs kept."""
+"""Cold and warm starts: a first solve in a new process, without and with kept programs."""
 
 import tempfile
 
@@ -16,7 +16,7 @@ PARTS = {
 }
 
 _REPEATS = 3
-# Not a module of this package, whose import would come before the clock starts.
+# A script, because importing a module of this package would come before the clock starts.
 _FIRST_SOLVE = """
 import json, time
 began = time.perf_counter()
@@ -36,10 +36,10 @@ print(json.dumps({
 
 
 def measure(repeats: int) -> Measurement:
-    """Seconds until the first map of the bundled gecko; each time a process of its own.
+    """Seconds until the first map of the bundled gecko, each time in a new process.
 
-    ``cold`` with an empty folder of compiled programs, ``warm`` with what the cold start before
-    left there; each holds a timing for each of :data:`PARTS`.
+    ``cold`` starts with an empty folder of compiled programs, ``warm`` with the programs of the
+    cold start before it. Each holds a timing for each of :data:`PARTS`.
     """
     runs: dict[str, list[dict[str, float]]] = {"cold": [], "warm": []}
     for _ in range(repeats):

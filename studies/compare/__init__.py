@@ -1,4 +1,4 @@
-"""The other methods on the same problems, and the paper's figures and tables made anew."""
+"""The other methods on the same problems, and the paper's figures and tables reproduced."""
 
 from studies.compare import folding, hessian_samples, iteration_times, lipschitz, maps, progress
 

@@ -1,4 +1,4 @@
-"""Where linear methods fold, beside ours, which does not."""
+"""Linear methods fold; ours does not."""
 
 from collections.abc import Mapping
 from pathlib import Path
@@ -31,11 +31,11 @@ METHODS: Mapping[str, tuple[str, str, Mapping[str, Any]]] = {
     "mean-value": ("mean value coordinates", "mean-value", {}),
     "cauchy": ("Cauchy coordinates", "cauchy", {}),
 }
-"""What the page calls it, the method, and its settings."""
+"""For each: its title on the page, the method, and its settings."""
 
 
 def measure(case: Case, plan: Plan) -> Measurement:
-    """Every method's images of one mesh, and what of it is turned over."""
+    """Every method's images of one mesh, and the flipped triangles."""
     problem = case.problem
     mesh = triangulate(problem.domain.cage, MESH_VERTICES, points=problem.pose.handles)
     rest = MeshMap(mesh, mesh.vertices).areas
@@ -60,7 +60,7 @@ def measure(case: Case, plan: Plan) -> Measurement:
 
 
 def draw(cases: list[Measurement], folder: Path) -> None:
-    """A row for each shape, a column for each method; what is turned over stands out."""
+    """A row for each shape, a column for each method; flipped triangles stand out."""
     names = [name for name in METHODS if all(name in data["methods"] for data in cases)]
     figure = figures.figure(1.75 * len(names), 1.9 * len(cases))
     grid = figure.subplots(len(cases), len(names), squeeze=False)
@@ -72,7 +72,7 @@ def draw(cases: list[Measurement], folder: Path) -> None:
             label = METHODS[name][0].replace(" weights", "\nweights")
             axes.set_title(f"{label}\n{count}" if data is cases[0] else count, fontsize=SMALL)
         row[0].annotate(data["name"], (-0.1, 0.5), xycoords="axes fraction", ha="right")
-    figures.save(figure, folder / "folding.png")
+    figures.save(figure, folder / "folding.webp")
 
 
 def _draw_folds(axes: Any, data: Measurement, name: str) -> None:
@@ -80,32 +80,32 @@ def _draw_folds(axes: Any, data: Measurement, name: str) -> None:
     images, triangles = arrays[f"images_{name}"], arrays["triangles"]
     map_ = MeshMap(Triangulation(arrays["mesh"], triangles, 0), images)
     corners = images[triangles]
-    # Sheets show through one another; the turned-over ones lie on top, dark in grey as in colour.
+    # Sheets are transparent. Flipped triangles lie on top, and are dark in greyscale prints too.
     upright = list(corners[~map_.flipped])
     axes.add_collection(PolyCollection(upright, facecolors=SKY, lw=0, alpha=0.45))
     if map_.flipped.any():
-        # Folds can be slivers: their edges are wide enough not to be overlooked.
+        # Folds can be slivers, so their edges are drawn wide enough to be seen.
         turned = list(corners[map_.flipped])
         axes.add_collection(PolyCollection(turned, facecolors=INK, edgecolors=VERMILION, lw=1.2))
     outline = list(images[outline_of(triangles)])
     axes.add_collection(PolyCollection(outline, facecolors="none", edgecolors=INK, lw=HAIRLINE))
     targets = arrays["targets"]
     axes.scatter(targets[:, 0], targets[:, 1], s=9, color=CYAN, edgecolors=INK, lw=0.4, zorder=3)
-    # The box stays as it is, so that titles stand in a line.
+    # The box keeps its size, so that the titles are in one line.
     axes.set_aspect("equal", adjustable="datalim")
     axes.autoscale_view()
     axes.set_axis_off()
 
 
 def outline_of(triangles: Array) -> Array:
-    """(e, 2) edges that belong to one triangle."""
+    """(e, 2) edges that belong to one triangle only."""
     edges = np.sort(np.concatenate([triangles[:, [a, b]] for a, b in ((0, 1), (1, 2), (2, 0))]))
     unique, counts = np.unique(edges, axis=0, return_counts=True)
     return unique[counts == 1]
 
 
 def tables(found: list[Measurement]) -> dict[str, list[Row]]:
-    """Triangles turned over, and their share of the area."""
+    """Numbers of flipped triangles, and their shares of the area."""
     rows: list[Row] = []
     for data in found:
         folds = {

@@ -15,7 +15,7 @@ _RUNS = 2
 
 
 def measure(case: Case, plan: Plan) -> Measurement:
-    """A run for each number of samples."""
+    """One run for each number of samples."""
     runs = {}
     for count in SAMPLES:
         plan.detail(f"{case.name}: {count} Hessian samples")
@@ -26,7 +26,7 @@ def measure(case: Case, plan: Plan) -> Measurement:
 
 
 def tables(found: list[Measurement]) -> dict[str, list[Row]]:
-    """Iterations, energy and time by the number of samples."""
+    """Iterations, energy and time for each number of samples."""
     rows: list[Row] = []
     for data in found:
         for count, run_ in data["runs"].items():

@@ -30,16 +30,16 @@ TIMED: dict[str, dict[str, Any]] = {
     "aqp": {"max_iterations": 40},
     "arap-mesh": {"energy": ARAP()},
 }
-"""Settings of each method; a dozen iterations unless they say otherwise.
+"""Settings of each method. The default is 12 iterations.
 
-All but ours have the paper's samples and certificate, where they have any.
+All methods except ours use the paper's samples and certificate, if they use any.
 
-Ours runs to its end, for its iterations are not alike: those close to the minimum hold more steps.
+Ours runs to its end, because its iterations differ: close to the minimum they have more steps.
 """
 
 
 def measure(case: Case, plan: Plan) -> Measurement:
-    """Mean seconds of an iteration from the identity, the median of runs that nothing watches."""
+    """Mean seconds of an iteration from the identity: the median of several unwatched runs."""
     mesh = triangulate(case.problem.domain.cage, MESH_VERTICES, points=case.problem.pose.handles)
     known = available()
     seconds: dict[str, float] = {}
@@ -49,7 +49,7 @@ def measure(case: Case, plan: Plan) -> Measurement:
             continue
         plan.detail(f"{case.name}: {known[method].label}, one iteration")
         settings = {"max_iterations": 12, "mesh": mesh, **settings}
-        # The first run waits for programs that are compiled.
+        # The first run compiles the programs, so it does not count.
         runs = [run(method, case, **settings) for _ in range(1 + _RUNS)][1:]
         steps = [[step.time for step in entries(result)] for result in runs]
         unknowns = runs[0].n_unknowns or unknowns

@@ -1,4 +1,4 @@
-"""The paper's Lipschitz constants and BDHM's, and Newton's method under either (Figure 7)."""
+"""The paper's Lipschitz constants and BDHM's, and Newton's method with each (Figure 7)."""
 
 from typing import Any
 
@@ -23,11 +23,11 @@ Array = NDArray[Any]
 
 _MOST_ITERATIONS = 100
 PAPER_SEGMENTS = 529
-"""Those of Figure 7, but for edges that become whole numbers of them."""
+"""The number in Figure 7. Ours differs a little, because each edge has a whole number of them."""
 
 
 def measure(case: Case, plan: Plan) -> Measurement:
-    """Both kinds of constants on one map, and Newton's method under either."""
+    """Both kinds of constants on one map, and Newton's method with each."""
     runs = {}
     for name, certificate in (("ours", "lipschitz"), ("bdhm", "bdhm")):
         plan.detail(f"{case.name}: Newton with the Lipschitz constants of {name}")
@@ -52,7 +52,7 @@ def measure(case: Case, plan: Plan) -> Measurement:
 
 @double_precision
 def lipschitz_constants(map_: HarmonicMap, segments: int) -> tuple[Array, Array]:
-    """Constants of ``f_z`` on about that many segments: the paper's (Section 8), and BDHM's."""
+    """Constants of ``f_z`` on about ``segments`` segments: the paper's (Section 8), and BDHM's."""
     panels = uniform_panels(map_.domain.cage, segments)
     basis = basis_of(map_.domain)
     sing, start, end = basis.singularities, jnp.asarray(panels.start), jnp.asarray(panels.end)
@@ -68,14 +68,14 @@ def lipschitz_constants(map_: HarmonicMap, segments: int) -> tuple[Array, Array]
 
 
 def refused_segments(map_: HarmonicMap, constants: Any) -> int:
-    """On how many of the solver's fixed segments a map is not proved locally injective."""
+    """The number of the solver's fixed segments on which a map is not proved locally injective."""
     panels = uniform_panels(map_.domain.cage, UNIFORM_SAMPLES)
     proof = certify(map_, constants, panels, split=False)
     return int((~(proof.panels.sigma2_lower > 0)).sum())
 
 
 def tables(found: list[Measurement]) -> dict[str, list[Row]]:
-    """Means of the constants, and how Newton's method ends under either."""
+    """Means of the constants, and how Newton's method ends with each."""
     rows: list[Row] = []
     for data in found:
         ours, theirs = data["arrays"]["ours"], data["arrays"]["bdhm"]

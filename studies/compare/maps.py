@@ -30,13 +30,13 @@ _RUNS = 3
 
 @dataclass(frozen=True)
 class Setting:
-    """A method, its energy and what else it is told."""
+    """A method, its energy and its settings."""
 
     title: str
     method: str = "newton"
     energy: Energy | None = None
     settings: Mapping[str, Any] = field(default_factory=dict)
-    slow: bool = False  # run once, after two iterations that compile its programs
+    slow: bool = False  # timed once only; two iterations before compile its programs
 
 
 def _bdhm(title: str, k: float, sigma1: float, sigma2: float) -> Setting:
@@ -60,7 +60,7 @@ EXPONENTIAL_SETTINGS = {
 
 
 def measure_maps(case: Case, plan: Plan, settings: Mapping[str, Setting]) -> Measurement:
-    """The map of each setting, after the rigid alignment, with its distortion."""
+    """The map of each setting and its distortion, started from the rigid alignment."""
     display = display_mesh(case, _DISPLAY)
     arrays: dict[str, Array] = {
         "display": display.vertices,
@@ -131,7 +131,7 @@ def _draw(name: str, settings: Mapping[str, Setting], data: Measurement, folder:
         told += f"\nk, sigma_1, sigma_2 proved: {row['proved']}"
         ax.set_title(f"{row['map']}\n{told}", fontsize=SMALL)
     figures.color_bar(figure, colors, axes, "symmetric Dirichlet density")
-    figures.save(figure, folder / f"{name}.png")
+    figures.save(figure, folder / f"{name}.webp")
 
 
 def _study(name: str, shapes: Any, settings: Mapping[str, Setting]) -> Study:

@@ -1,9 +1,9 @@
-"""The minimum that a method on a mesh descends to, found by Newton's method on that mesh.
+"""The minimum to which a method on a mesh descends, found by Newton's method on that mesh.
 
-First-order methods come close to it so slowly that their own last map is no measure of where they
-go. Newton's method, started from one of their maps, is there after some tens of iterations. As in
-the harmonic subspace it takes the exact Hessian where that is positive definite, and elsewhere the
-one that is projected triangle by triangle (paper Section 7): the entries of ``K`` are the same.
+First-order methods approach it so slowly that their last map does not show where they go. Newton's
+method, started from one of their maps, arrives after some tens of iterations. As in the harmonic
+subspace, it uses the exact Hessian where that is positive definite, and elsewhere the Hessian
+projected triangle by triangle (paper Section 7): the entries of ``K`` are the same.
 """
 
 from typing import Any, Literal, NamedTuple
@@ -50,8 +50,8 @@ def mesh_minimum(
 
     Minimises ``E_iso + lambda / 2 sum |f(p_i) - q_i|^2`` with soft constraints, and ``E_iso`` with
     the handles at their targets with hard ones; ``E_iso`` is the mean over the mesh's area. The
-    start has the handles among its vertices, at their targets where the constraints are hard.
-    A NoMinimumError where it has inverted triangles, or the decrement stays above 1e-10.
+    handles are vertices of the start; with hard constraints they are at their targets. Raises a
+    NoMinimumError if the start has inverted triangles, or if the decrement stays above 1e-10.
     """
     problem = _Problem(start, pose, energy, constraints, p2p_weight)
     operators = problem.operators
@@ -62,11 +62,11 @@ def mesh_minimum(
         raise NoMinimumError("the start has inverted triangles")
     t, descent = 0.0, np.inf
     for _ in range(ITERATIONS):
-        # Far from the minimum the exact Hessian is hardly ever definite, and steps are cut short.
+        # Far from the minimum the exact Hessian is rarely definite, and t is below 1.
         direction, descent = problem.newton_step(w, fz, fzb, try_exact=t == 1)
         if descent / 2 <= _TOLERANCE * abs(total):
             return Minimum(np.stack([np.real(w), np.imag(w)], axis=-1), total)
-        # The longest of the steps 1, 1/2, ... that lowers the energy enough; none inverts.
+        # Halve the step until it lowers the energy enough; no step inverts a triangle.
         dfz, dfzb = operators.wirtinger(direction)
         t = min(1.0, _SAFETY * largest_step(fz, fzb, dfz, dfzb))
         before = total
@@ -89,7 +89,7 @@ def mesh_minimum(
 
 
 class _Problem:
-    """The energy and its derivatives, images being complex."""
+    """The energy and its derivatives; images are complex numbers."""
 
     def __init__(
         self,
@@ -118,7 +118,7 @@ class _Problem:
         return self.operators.energy(self.energy, fz, fzb) + p2p
 
     def newton_step(self, w: Array, fz: Array, fzb: Array, try_exact: bool) -> tuple[Array, float]:
-        """The direction, and how fast the energy falls along it: twice the decrement."""
+        """The direction, and the energy's rate of decrease along it, twice the decrement."""
         count = len(w)
         gradient = self.operators.gradient(self.energy, fz, fzb)
         gradient = gradient + self.weights * (w - self.goal)
@@ -135,7 +135,7 @@ class _Problem:
 
 
 def _hessian(operators: MeshOperators, energy: Energy, fz: Array, fzb: Array, exact: bool) -> Any:
-    """(2v, 2v) over the real parts, then the imaginary ones: ``sum_t B_t^T K_t B_t``, or K+."""
+    """(2v, 2v) ``sum_t B_t^T K_t B_t``, or with K+; real parts first, then imaginary parts."""
     k = _local(energy, fz, fzb)
     k = k if exact else positive_part(k)
     along_f, across_f = _components(operators.to_fz, fz)
@@ -172,9 +172,9 @@ def _local(energy: Energy, fz: Any, fzb: Any) -> LocalHessian:
 
 
 def _definite_factor(matrix: Any) -> Any | None:
-    """The factorisation of a symmetric matrix; ``None`` where it is not positive definite.
+    """The factorisation of a symmetric matrix; ``None`` if it is not positive definite.
 
-    With all pivots on the diagonal it is ``L D L^T``, whose ``D`` has the matrix's signs.
+    With all pivots on the diagonal it is ``L D L^T``, and ``D`` has the signs of the matrix.
     """
     options = {"SymmetricMode": True}
     try:

@@ -1,4 +1,4 @@
-"""How the solvers get to their minimum, by iterations and by time (Figures 1, 10 and 11)."""
+"""How the solvers approach their minimum, by iterations and by time (Figures 1, 10 and 11)."""
 
 from collections import defaultdict
 from typing import Any
@@ -38,16 +38,16 @@ from studies.tables import Row, digits
 Array = NDArray[Any]
 
 LIMITS = {"lbfgs": 2000, "newton-eigen": 120}
-"""Iterations after which these end if they have not converged; the paper's L-BFGS took 1,818."""
+"""Iteration limits of these methods. The paper's L-BFGS took 1,818 iterations."""
 MESH_SECONDS = 40.0
-"""Seconds of its own steps after which a method on a mesh ends."""
+"""Limit for a method on a mesh: total seconds of its steps."""
 _FOLLOWED = ("newton", "newton-eigen")
 _UNWATCHED = 2
 _THUMBNAILS = 4
 
 
 def measure(case: Case, plan: Plan) -> Measurement:
-    """Every method on one shape, started at the identity as in the paper."""
+    """Run every method on one shape, from the identity as in the paper."""
     display = display_mesh(case)
     pose = case.problem.pose
     mesh = triangulate(case.problem.domain.cage, MESH_VERTICES, points=pose.handles)
@@ -86,7 +86,7 @@ def measure(case: Case, plan: Plan) -> Measurement:
 
 
 def _variants(case: Case) -> dict[str, Any]:
-    """Runs that tell why the others end as they do."""
+    """Further runs, which explain how the others end."""
     limits: dict[str, Any] = {"max_iterations": LIMITS["lbfgs"], "p2p_weight": LIGHT_WEIGHT}
     staged = run("newton-staged", case, sampling="graded", certificate="hermite")
     lbfgs = run("lbfgs", case, initial="dirichlet", **limits)
@@ -99,8 +99,10 @@ def _variants(case: Case) -> dict[str, Any]:
 def _harmonic(
     method: str, case: Case, display: Triangulation
 ) -> tuple[dict[str, Any], Array, HarmonicMap]:
-    """A method in the harmonic subspace, images of some iterates, and its last map, which is its
-    minimum if it converged: of the run whose numbers count, the watched one may end beside it."""
+    """A method in the harmonic subspace: its numbers, images of some iterates, and its last map.
+
+    Numbers and last map are those of the unwatched run; the watched run may end a little apart.
+    """
     limit: dict[str, Any] = {"max_iterations": LIMITS.get(method)}
     watcher = Watcher(display.vertices)
     watched = run(method, case, callback=watcher, **limit) if method in _FOLLOWED else None
@@ -121,8 +123,8 @@ def _harmonic(
 def _on_mesh(
     method: str, case: Case, mesh: Triangulation, other: MeshMap | None, plan: Plan
 ) -> tuple[dict[str, Any], Array, MeshMap | None]:
-    """A method on a mesh, followed for a while, and last the minimum that it descends to, None
-    where there is none; ``other`` is that of another method."""
+    """A method on a mesh, followed for :data:`MESH_SECONDS`: its numbers, images of some iterates,
+    and the minimum to which it descends, or None. ``other`` is the minimum of another method."""
     plan.detail(f"{case.name}: {method}, followed for {MESH_SECONDS:.0f} s")
     settings: dict[str, Any] = {"mesh": mesh, "max_iterations": 1_000_000}
     watcher = Watcher(mesh.vertices, MESH_SECONDS)
@@ -156,8 +158,8 @@ def _on_mesh(
 
 
 def minimum_below(method: str, map_: MeshMap, other: MeshMap | None, pose: Pose) -> Minimum:
-    """The minimum of a method's energy below its map, or else, next to flat triangles, below
-    another one, which is a minimum of the same energy; NoMinimumError without either."""
+    """The minimum of a method's energy below its map. If none is found, because triangles are
+    nearly flat, the minimum below ``other``. Raises a NoMinimumError if there is neither."""
     constraints = "hard" if method == "aqp" else "soft"
     try:
         return mesh_minimum(map_, pose, SymmetricDirichlet(), constraints, P2P_WEIGHT)
@@ -168,8 +170,8 @@ def minimum_below(method: str, map_: MeshMap, other: MeshMap | None, pose: Pose)
 
 
 def area_mean_below(map_: HarmonicMap, mesh: Triangulation, pose: Pose) -> float | None:
-    """The distortion of the minimum of SLIM's energy to which a harmonic map leads on the mesh;
-    None where the mesh is too coarse for the map to be injective on it."""
+    """The distortion of the minimum of SLIM's energy below a harmonic map on the mesh; None if the
+    mesh is too coarse for the map to be injective on it."""
     start = MeshMap(mesh, map_(mesh.vertices))
     try:
         return mesh_area_mean(minimum_below("slim", start, None, pose).images, mesh)
@@ -178,12 +180,12 @@ def area_mean_below(map_: HarmonicMap, mesh: Triangulation, pose: Pose) -> float
 
 
 def ended_by(images: dict[int, Array], iterations: int, end: Array) -> dict[int, Array]:
-    """The iterates of a watched run before the last iteration of another, and where that ended."""
+    """The iterates of a watched run before iteration ``iterations``, and ``end`` at that one."""
     return {**{i: image for i, image in images.items() if i < iterations}, iterations: end}
 
 
 def _with_times(found: dict[str, int | None], time: list[float]) -> dict[str, Any]:
-    """Iteration and seconds of each criterion, or ``None``."""
+    """For each criterion its iteration and seconds, or ``None``."""
     return {
         name: None if (i := found[name]) is None else {"iteration": i, "time": time[i]}
         for name in CRITERIA
@@ -191,7 +193,7 @@ def _with_times(found: dict[str, int | None], time: list[float]) -> dict[str, An
 
 
 def tables(found: list[Measurement]) -> dict[str, list[Row]]:
-    """Iterations, times over ours, distortion, and variants."""
+    """Iterations, times relative to ours, distortion, and variants."""
     titles = {name: method.label for name, method in METHODS.items()}
     rows: dict[str, list[Row]] = defaultdict(list)
     for data in found:
@@ -215,7 +217,7 @@ def tables(found: list[Measurement]) -> dict[str, list[Row]]:
 
 
 def _ending(one: dict[str, Any]) -> str:
-    """Iterations until the end, with a + where it was not reached; on a mesh for each criterion."""
+    """Iterations until the end, with a + if it was not reached; on a mesh for each criterion."""
     if one.get("minimum") is not None:
         return " / ".join(
             f"{found['iteration']:,}" if found else f"{one['iterations']:,}+"
@@ -229,7 +231,7 @@ def _ending(one: dict[str, Any]) -> str:
 
 
 def _ratios(one: dict[str, Any], ours: list[float]) -> str:
-    """How many times longer than ours a method takes, for each criterion."""
+    """For each criterion, a method's time divided by ours."""
     if "reached" not in one:
         return "unconverged"
     return " / ".join(

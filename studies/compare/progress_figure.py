@@ -44,7 +44,7 @@ def draw(found: list[Measurement], folder: Path) -> None:
         left, right = parts
         _draw_maps(left, data, rows)
         _draw_energies(right, data["runs"])
-        figures.save(figure, folder / f"progress-{data['name']}.png")
+        figures.save(figure, folder / f"progress-{data['name']}.webp")
 
 
 def _draw_maps(figure: Any, data: Measurement, rows: list[str]) -> None:
@@ -60,14 +60,14 @@ def _draw_maps(figure: Any, data: Measurement, rows: list[str]) -> None:
     colors = None
     for (label, *row), method in zip(grid, rows, strict=True):
         mesh = meshes["mesh" if method in MESH else "display"]
-        handles = KDTree(mesh.vertices).query(arrays["handles"])[1]  # they are among the vertices
+        handles = KDTree(mesh.vertices).query(arrays["handles"])[1]  # handles are vertices
         pictures = arrays[f"images_{method}"]
         titles = [f"iteration {i}" for i in runs[method]["thumbnails"]]
         if runs[method].get("minimum") is not None:
             titles.append("its minimum")
         for axes in (label, *row):
             axes.set_axis_off()
-        # The last one under the last one, so that the ends of all methods stand in a column.
+        # Align rows at the right, so that the ends of all methods are in one column.
         for axes, title, images in zip(row[-len(titles) :], titles, pictures, strict=True):
             pose = np.hstack([arrays["targets"], images[handles]])
             colors = figures.draw_map(axes, mesh, images, pose, most)
@@ -106,9 +106,10 @@ def _draw_energies(figure: Any, runs: dict[str, Any]) -> None:
 
 
 def _least(runs: dict[str, Any], method: str) -> float:
-    """The minimum a method goes to: on its mesh, its own last where it converged, or ours.
+    """The energy that a method approaches: the minimum on its mesh, its own last energy if it
+    converged, or ours.
 
-    Samples differ between settings of Newton's method, and with them minima by some digits.
+    Settings of Newton's method differ in their samples, so their minima differ in some digits.
     """
     run = runs[method]
     if run.get("minimum") is not None:

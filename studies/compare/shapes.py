@@ -1,4 +1,4 @@
-"""Which shapes a comparison takes: the paper's where they are given, else our own."""
+"""The shapes of a comparison: the paper's if they are given, else our samples."""
 
 from collections.abc import Callable
 
@@ -14,5 +14,5 @@ def all_shapes(plan: Plan) -> tuple[str, ...]:
 
 
 def some(names: tuple[str, ...], otherwise: str) -> Callable[[Plan], tuple[str, ...]]:
-    """Those of the names that are given, or else a sample."""
+    """The given reference problems among ``names``, or else a sample."""
     return lambda plan: tuple(n for n in names if n in plan.references) or (otherwise,)

@@ -1,1 +1,1 @@
-"""How fast the editor and the tracer are."""
+"""The speed of the editor and the tracer."""

@@ -1,11 +1,11 @@
-// Runs in the page before anything else: notes pointers, drawn frames and bytes received.
+// Runs first in the page. Records pointers, drawn frames and received bytes.
 
 window.glid = { press: null, moves: [], frames: [], bytes: 0, canvasBytes: 0, firstFrame: null };
 
 {
   const { glid } = window;
-  const ID_WITHIN = 4096; // bytes of a message in which its widget is named
-  let waiting = []; // called with the time at which the next drawn frame was handed on
+  const ID_WITHIN = 4096; // the first bytes of a message, which name its widget
+  let waiting = []; // functions to call with the time of the next drawn frame
   let widgets = [];
 
   const now = () => performance.now();
@@ -58,7 +58,7 @@ window.glid = { press: null, moves: [], frames: [], bytes: 0, canvasBytes: 0, fi
     }
   };
 
-  // Notes when each change of a model's trait was drawn, with a sample to recognise it by.
+  // Records when each change of a model's trait was drawn, with a sample that identifies it.
   glid.watch = (model, trait, count, identities) => {
     widgets = identities;
     model.on(`change:${trait}`, () => {

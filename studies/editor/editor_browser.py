@@ -1,4 +1,4 @@
-"""How fast the editor is for a person: from the pointer to the page's drawn frame, in Chromium.
+"""The editor's latency for a user: from the pointer to the drawn frame of the page, in Chromium.
 
     python -m studies.editor.editor_browser [SAMPLE or PROBLEM.json] [--moves N] [--vertices N ...]
 
@@ -11,8 +11,8 @@ Run it from the repository's root; it needs the extra `test` and Chromium. In Ju
   the first drawn frame that was solved for it or for a later one, with the map evaluated in the
   vertex shader and in the kernel, at each number of display vertices.
 
-The kernel notes for which target each frame was solved, the page when it was drawn; the two are
-joined by the frame's own numbers.
+The kernel records each frame's target, the page the time when the frame was drawn. The frame's
+numbers identify it in both records.
 """
 
 import argparse
@@ -37,7 +37,7 @@ from tests.widgets.editor_page import MANAGER, Hand
 RATE = 60
 """Moves of the pointer per second."""
 
-# Programs compiled before are found in the folder that the environment names.
+# Compiled programs are kept in the folder of this variable.
 IMPORTS = """
 import os
 os.environ["GLID_NB_CACHE"] = {cache!r}
@@ -86,7 +86,7 @@ def main() -> None:
     chosen = parser.parse_args()
     shape = str(Path(chosen.shape).resolve()) if chosen.shape.endswith(".json") else chosen.shape
     print(chosen.shape, *machine().values())
-    # An installed package has its bytecode; without, each kernel would compile every module.
+    # An installed package has bytecode. Without bytecode, each kernel compiles every module.
     os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
     with tempfile.TemporaryDirectory() as folder, launched_chromium() as browser:
         print(f"Chromium {browser.version}, {RATE} moves a second wanted, plots on")
@@ -116,7 +116,7 @@ COLUMNS = (
     "vertices", "map in", "latency", "95 %", "solving", "95 %", "showing", "95 %",
     "frames/s", "moves/s", "canvas bytes", "all bytes",
 )  # fmt: skip
-"""Milliseconds; bytes on the wire for each frame, of the canvas and of everything."""
+"""Milliseconds; and transferred bytes per frame, of the canvas and in total."""
 
 
 def first_use(browser: Browser, server: JupyterServer, shape: str, cache: str) -> list[float]:
@@ -146,9 +146,9 @@ def first_use(browser: Browser, server: JupyterServer, shape: str, cache: str) -
 def dragged(browser: Browser, server: JupyterServer, setup: str, n_moves: int) -> list[float]:
     """Drag the last handle on a spiral, once to warm up and once for the measurement.
 
-    Returns the numbers of :data:`COLUMNS`: how long each pointer event waited until a frame was
-    drawn that was solved for it or a later one (median and 95th percentile), the same of a solve
-    and of the kernel's work for a frame beside it, rates and bytes.
+    Returns the numbers of :data:`COLUMNS`. The latency is the time from a pointer event until a
+    frame solved for it or for a later event was drawn. Latency, solves and the kernel's other work
+    for a frame have a median and a 95th percentile. Then come rates and bytes.
     """
     with notebook(browser, server, [setup]) as book:
         hand = Hand(book)
@@ -181,11 +181,11 @@ def dragged(browser: Browser, server: JupyterServer, setup: str, n_moves: int) -
 
 
 def spiral(hand: Hand, count: int) -> tuple[np.ndarray, float]:
-    """Drag the last handle; returns where its target was, and the seconds that the drag took."""
+    """Drag the last handle; returns its target before the drag, and the seconds of the drag."""
     start = np.array(hand.targets[-1])
     side = hand.book.value("float(canvas.deformation.state.domain.cage.longer_side)")
     turns = np.arange(1, count + 1) / RATE
-    # A spiral, so that no two targets are the same.
+    # On a spiral, all targets differ.
     radius = 0.08 * side * (0.5 + 0.5 * turns / turns[-1])
     angles = 2 * np.pi * turns
     points = start + radius[:, None] * np.stack([np.cos(angles) - 0.5, np.sin(angles)], axis=1)
@@ -207,17 +207,17 @@ def spiral(hand: Hand, count: int) -> tuple[np.ndarray, float]:
 def joined(
     times: np.ndarray, targets: np.ndarray, drawn: list[Any], known: list[dict[str, Any]]
 ) -> tuple[np.ndarray, int]:
-    """Milliseconds from each move to its frame, and how many frames were drawn.
+    """Milliseconds from each move to its frame, and the number of drawn frames.
 
-    ``times`` and ``targets`` are of the pointer's moves; ``drawn`` are times and samples of the
-    frames in the page, ``known`` samples and targets of the frames in the kernel.
+    ``times`` and ``targets`` belong to the pointer's moves. ``drawn`` holds times and samples of
+    the frames in the page, ``known`` samples and targets of the frames in the kernel.
     """
     solved_for = {tuple(frame["sample"]): frame["targets"][-1] for frame in known}
     latest = -1  # the last move that a frame has shown
     waits: list[float] = []
     for time_drawn, sample in drawn:
         target = solved_for.get(tuple(sample))
-        if target is None:  # of before the drag
+        if target is None:  # a frame from before the drag
             continue
         gaps = np.linalg.norm(targets - target, axis=1)
         move = int(np.argmin(gaps))
@@ -232,7 +232,7 @@ def joined(
 
 @contextmanager
 def notebook(browser: Browser, server: JupyterServer, cells: list[str]) -> Iterator[LabNotebook]:
-    """A notebook in a page that notes what happens, its kernel ended afterwards."""
+    """A notebook in a page that records events; its kernel is shut down at the end."""
     script = Path(__file__).with_suffix(".js").read_text(encoding="utf-8")
     with watched_page(browser, script) as page:
         book = LabNotebook(page, server, cells)

@@ -1,4 +1,4 @@
-"""What the kernel does for each frame of a canvas, noted down for a benchmark."""
+"""Records the kernel's work for each frame of a canvas, for a benchmark."""
 
 import time
 from collections.abc import Callable
@@ -12,34 +12,34 @@ from glid_nb.session.problem import Problem
 from studies.cases import sample_case
 
 N_SAMPLES = 64
-"""Numbers of a frame by which it is recognised in the page."""
+"""How many numbers of a frame identify it in the page."""
 
 
 class FrameLog:
-    """Notes, from now on, what a canvas sends and what that cost."""
+    """Records, from its creation on, the frames that a canvas sends and their cost."""
 
     def __init__(self, canvas: glid.widgets.DeformCanvas) -> None:
         self.canvas = canvas
         self.frames: list[dict[str, Any]] = []
-        """Of each frame: ``sample`` to recognise it, and the ``targets`` it was solved for."""
+        """For each frame: ``sample``, which identifies it, and the ``targets`` of its solve."""
         self.solving: list[float] = []
-        """Seconds of each solve, which the next target may have cut short."""
+        """Seconds of each solve; the next target may have stopped the solve early."""
         self.showing: list[float] = []
         """Seconds of each update of the canvas: evaluating, packing and sending."""
         live_solver.solve = _timed(live_solver.solve, self.solving)
         pane = canvas.pane
         pane.show = _timed(pane.show, self.showing)
-        # The canvas observes the model too, from before: it has sent the frame when this is told.
+        # The canvas observes the model since earlier, so it sends the frame before this is called.
         canvas.deformation.observe(self._note)
 
     def clear(self) -> None:
-        """Begin anew."""
+        """Forget everything recorded."""
         for rows in (self.frames, self.solving, self.showing):
             rows.clear()
 
     @property
     def source(self) -> tuple[str, str]:
-        """The widget whose trait carries a frame, by its identity, and the trait's name."""
+        """The identity of the widget that sends the frames, and the name of its trait."""
         scene = self.canvas.pane.scene
         if scene.evaluated_in == "shader":
             return str(self.canvas.pane.stage.model_id), "coefficients"
@@ -47,7 +47,7 @@ class FrameLog:
 
     @property
     def widgets(self) -> list[str]:
-        """Identities of the widgets that a frame goes through."""
+        """Identities of the widgets that send a part of a frame."""
         pane = self.canvas.pane
         attributes = [a.model_id for layer in pane.scene.layers for a in layer.attributes.values()]
         return [str(pane.stage.model_id), *map(str, attributes)]
@@ -67,7 +67,7 @@ class FrameLog:
 
 
 def load(shape: str) -> tuple[np.ndarray, glid.Domain, glid.Pose]:
-    """A bundled sample with its gentle pose, or a problem file under a blank picture."""
+    """A bundled sample with its gentle pose, or a problem file with a blank picture."""
     if shape.endswith(".json"):
         problem = Problem.load(shape)
         return np.full((200, 200, 4), 255, np.uint8), problem.domain, problem.pose

@@ -1,9 +1,9 @@
-"""How fast the outline follows the tracer's controls, on a picture of 2,000 pixels.
+"""The time in which the outline follows the tracer's controls, on a picture of 2,000 pixels.
 
     python -m studies.editor.tracer
 
 The picture is a bundled one on a plain ground. Each control is moved seven times through the
-tracer's model, as the widget does, with what the page is told included.
+tracer's model, as by the widget. The times include making the message to the page.
 """
 
 import itertools
@@ -41,7 +41,7 @@ def picture(side: int) -> np.ndarray:
 
 
 def controls(model: glid_nb.session.TracingModel) -> dict[str, Callable[[int], object]]:
-    """One movement of each control; the number makes it another one each time."""
+    """One movement of each control, different for each number."""
 
     def scribble(i: int) -> None:
         assert model.frame is not None

@@ -1,7 +1,7 @@
 """Poses per second of batches on this process's device.
 
-As a script it prints one line of JSON for each size, the smaller ones first, and stops before a
-size for which the time would not suffice.
+As a script it prints one line of JSON for each size, smaller sizes first. It stops before a size
+for which the time is too short.
 """
 
 import json
@@ -38,7 +38,7 @@ def poses_of(case: Case, count: int) -> np.ndarray:
 
 
 def one_by_one(case: Case) -> dict[str, Any]:
-    """Seconds of solving some poses one after the other."""
+    """Seconds to solve some poses one after the other."""
     domain, handles = case.problem.domain, case.problem.pose.handles
     goals = poses_of(case, _ALONE)
     solve(domain, Pose(handles, goals[0]), None, OPTIONS)
@@ -49,7 +49,7 @@ def one_by_one(case: Case) -> dict[str, Any]:
 
 
 def together(case: Case, count: int) -> dict[str, Any]:
-    """Seconds of one batch, and how many of its maps are certified."""
+    """Seconds of one batch, and the number of its certified maps."""
     domain, handles = case.problem.domain, case.problem.pose.handles
     goals = poses_of(case, count)
     began = time.perf_counter()
@@ -67,8 +67,8 @@ def together(case: Case, count: int) -> dict[str, Any]:
 
 @double_precision
 def lockstep(case: Case, count: int, repeats: int) -> dict[str, Any]:
-    """Seconds of the first call that takes so many poses on together, without and with what the
-    host does before and after it."""
+    """Seconds of the first call for ``count`` poses at once, without and with the work of the host
+    before and after it."""
     domain, handles = case.problem.domain, case.problem.pose.handles
     given = [
         Inputs(domain=domain, pose=Pose(handles, goal), energy=as_energy(None), options=OPTIONS)

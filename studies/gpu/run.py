@@ -17,7 +17,7 @@ from studies.store import Measurement, Store
 from studies.tables import update_page, write_csv
 
 SECONDS = 480.0
-"""What the whole study may take; every part may take its share of it."""
+"""The time limit of the whole study; every part has a share of it."""
 SHARES = {
     ("solves", "device"): 0.3,
     ("solves", "cpu"): 0.2,
@@ -25,16 +25,16 @@ SHARES = {
     ("batches", "cpu"): 0.06,
     ("tests", "device"): 0.18,
 }
-"""Each part's share of the time at most, in the order in which they run; some is left to start."""
+"""Each part's largest share of the time, in running order. The rest is for starting."""
 
 SIZES = (1, 4, 16, 64, 256, 1024, 4096)
 LOCKSTEP = (1, 4, 16, 64, 256)
 TESTS = ("energies", "certificate", "harmonic", "solvers", "methods", "motion")
-"""Folders of tests whose fast ones run on the device."""
+"""Folders of tests; the fast tests in them run on the device."""
 
 _TESTS = Path(__file__).resolve().parents[2] / "tests"
 _MOST_PROCESSES = 4
-_STAGES_OF = 2  # of so many shapes: each stage is a program more to compile
+_STAGES_OF = 2  # shapes whose stages are timed; each stage is another program to compile
 _MACHINE = """
 import json
 import jax
@@ -47,7 +47,7 @@ _ONE = re.compile(r"(\S+::.*\S) (PASSED|FAILED|ERROR|SKIPPED)\b")
 
 @dataclass(frozen=True)
 class GpuPlan:
-    """What all parts are told. ``platform`` is "gpu", or "cpu" to try the study out."""
+    """The settings of all parts. ``platform`` is "gpu", or "cpu" for a trial."""
 
     platform: str = "gpu"
     reference: Path | None = None
@@ -58,24 +58,24 @@ class GpuPlan:
 
     @property
     def shapes(self) -> list[str]:
-        """The reference shapes, then the samples' poses; the first one is what batches are of."""
+        """The reference shapes, then the samples' poses. Batches use the first one."""
         named = [] if self.reference is None else list(reference_cases(self.reference))
         named.sort(key=lambda name: name != "rex")
         samples = [f"{name}-{kind}" for kind in ("gentle", "extreme") for name in names()]
         return [*named, *samples][: 1 if self.quick else None]
 
     def environment(self, device: str) -> dict[str, str]:
-        """Variables of a process on the GPU, or on the CPU beside it."""
+        """Environment variables of a process on the GPU, or on the CPU of its machine."""
         on_cpu = device == "cpu" or self.platform == "cpu"
         return {"JAX_PLATFORMS": "cpu"} if on_cpu else {}
 
 
 Part = Callable[[GpuPlan, str, float], Measurement]
-"""What a part finds on a device, ``"device"`` or ``"cpu"``, within so many seconds."""
+"""Measures a part on a device, ``"device"`` or ``"cpu"``, within a number of seconds."""
 
 
 def solves(plan: GpuPlan, device: str, limit: float) -> Measurement:
-    """Each shape solved: what it comes to, and times."""
+    """Solves of each shape: results and times."""
     shapes = plan.shapes
     given = {
         "shapes": shapes,
@@ -87,12 +87,12 @@ def solves(plan: GpuPlan, device: str, limit: float) -> Measurement:
 
 
 def batches(plan: GpuPlan, device: str, limit: float) -> Measurement:
-    """One shape in many poses at once."""
+    """Batches of poses of one shape."""
     given = {
         "shape": plan.shapes[0],
         "reference": _text(plan.reference),
         "sizes": SIZES[:2] if plan.quick else SIZES,
-        # A CPU runs none; a trial shows that the lines are there.
+        # The CPU runs no lockstep batches; a trial runs one size, to test the lines.
         "lockstep": LOCKSTEP[: 1 if plan.quick else None] if device == "device" else [],
         "seconds": limit,
     }
@@ -100,9 +100,9 @@ def batches(plan: GpuPlan, device: str, limit: float) -> Measurement:
 
 
 def tests(plan: GpuPlan, device: str, limit: float) -> Measurement:
-    """The fast tests of the layers that compute; what has run when the time is up counts."""
+    """The fast tests of the layers that compute; those that end within the time count."""
     folders = TESTS[:1] if plan.quick else TESTS
-    # Several processes, where the plugin for that is installed, on one GPU.
+    # Several processes share the GPU, if pytest-xdist is installed.
     several = importlib.util.find_spec("xdist") is not None and not plan.quick
     words = ["-v", "-m", "not slow and not browser", "-p", "no:cacheprovider", "-p", "no:nbval"]
     words += ["-n", str(_MOST_PROCESSES)] if several else []
@@ -115,13 +115,13 @@ def tests(plan: GpuPlan, device: str, limit: float) -> Measurement:
         failing = sorted(name for name, how in own.items() if how in ("FAILED", "ERROR"))
         passed = list(own.values()).count("PASSED")
         rows.append({"folder": folder, "passed": passed, "failing": failing})
-    # Exit code 1 says that tests fail, and the table says which.
+    # Exit code 1 means that tests fail; the table names them.
     ended = "" if printed.ending.startswith("ended with exit code 1:") else printed.ending
     return {"rows": rows, "seconds": printed.seconds, "ended": ended}
 
 
 def outcomes_of(lines: Sequence[str]) -> dict[str, str]:
-    """How each test ended, from what ``pytest -v`` prints, with several processes or one."""
+    """How each test ended, read from the lines of ``pytest -v``, with or without xdist."""
     found = dict[str, str]()
     for line in lines:
         if said := _SEVERAL.search(line):
@@ -135,15 +135,15 @@ PARTS: dict[str, Part] = {"solves": solves, "batches": batches, "tests": tests}
 
 
 def run(out: Path, plan: GpuPlan, only: Sequence[str] | None, fresh: bool, measuring: bool) -> Path:
-    """Measure on the GPU, then on the CPU; returns the page that the tables are in.
+    """Measure on the GPU, then on the CPU; returns the page of the tables.
 
     Tables are written after every part, so that a stop loses little. A trial on the CPU writes
-    tables named ``trial-*``, for which no page has a place. A StudyError for an unknown part, or
-    where JAX finds no GPU.
+    tables named ``trial-*``, for which no page has a place. Raises a StudyError for an unknown
+    part, or if JAX finds no GPU.
     """
     for name in only or ():
         if name not in PARTS:
-            raise StudyError(f"unknown study {name!r}; choose of {', '.join(PARTS)}")
+            raise StudyError(f"unknown study {name!r}; choose one of {', '.join(PARTS)}")
     if plan.repeats < 1 or plan.seconds <= 0:
         raise StudyError(
             f"repeats is {plan.repeats} and seconds is {plan.seconds:g}; both must be positive"
@@ -168,7 +168,7 @@ def run(out: Path, plan: GpuPlan, only: Sequence[str] | None, fresh: bool, measu
 
 
 def machine(plan: GpuPlan) -> Measurement:
-    """The machine and its GPU; a StudyError where JAX does not find one."""
+    """The machine and its GPU; raises a StudyError if JAX finds no GPU."""
     found = in_new_process("-c", _MACHINE, None, **_on(plan, "device"))
     if found["platform"] != plan.platform:
         versions = found["versions"]
@@ -189,14 +189,14 @@ def _text(path: Path | None) -> str | None:
 
 
 def lines_of(printed: Printed) -> Measurement:
-    # The last line of a process that was stopped may be cut off.
+    # If the process was stopped, its last line may be cut off.
     whole = [line for line in printed.lines if line.endswith("\n") and line.startswith("{")]
     rows = [json.loads(line) for line in whole]
     return {"rows": rows, "seconds": printed.seconds, "ended": printed.ending}
 
 
 def _write(out: Path, prefix: str, store: Store) -> Path:
-    """All tables of what has been measured so far."""
+    """Write all tables of the measurements so far."""
     kept = {name: store.kept(f"{prefix}-{name}") for name in _kept_names()}
     found = {name: value for name, value in kept.items() if value is not None}
     out.mkdir(parents=True, exist_ok=True)

@@ -1,6 +1,6 @@
 """Energies, certificates and times of one shape after the other, on this process's device.
 
-As a script it prints one line of JSON for each shape, and begins with those that matter most.
+As a script it prints one line of JSON for each shape, the most important shapes first.
 """
 
 import json
@@ -29,11 +29,11 @@ OPTIONS = Options(restarts=0)
 
 _BUDGET = 2.0  # seconds of one kind of timing, after which three are enough
 _MOST_THREADS = 8
-_SMALL = 8  # numbers, in the smallest program that there is
+_SMALL = 8  # numbers in the smallest program
 
 
 def found(case: Case) -> dict[str, Any]:
-    """What one shape's solve comes to; ``first`` includes compiling or loading its programs."""
+    """The results of one shape's solve; ``first`` includes compiling or loading its programs."""
     began = time.perf_counter()
     result = _solved(case, OPTIONS)
     first = time.perf_counter() - began
@@ -52,7 +52,7 @@ def found(case: Case) -> dict[str, Any]:
 
 
 def times(case: Case, repeats: int) -> dict[str, Any]:
-    """Seconds of a solve, of a call that takes no iteration, and of a drag step."""
+    """Seconds of a solve, of a call without iterations, and of a drag step."""
     nothing = replace(OPTIONS, max_iterations=0)
     result = _solved(case, OPTIONS)
     return {
@@ -65,12 +65,12 @@ def times(case: Case, repeats: int) -> dict[str, Any]:
 
 
 def stages(case: Case, repeats: int) -> dict[str, Any]:
-    """Seconds of each stage by itself."""
+    """Seconds of each stage, run separately."""
     return {"staged": case.name, "stages": measure_stages(_solved(case, OPTIONS), repeats)}
 
 
 def certificate_of(result: Result) -> Certificate:
-    """The certificate of a map in the harmonic subspace, which has one."""
+    """The certificate of a result in the harmonic subspace."""
     assert result.certificate is not None
     return result.certificate
 
@@ -80,7 +80,7 @@ def _solved(case: Case, options: Options) -> Result:
 
 
 def dispatch(repeats: int) -> dict[str, float]:
-    """Seconds until the smallest program has been started and its result is known."""
+    """Seconds to start the smallest program and get its result."""
     program, numbers = jax.jit(lambda x: x + 1), jnp.zeros(_SMALL)
     return timed(lambda: program(numbers).block_until_ready(), 10 * repeats)
 
@@ -88,9 +88,9 @@ def dispatch(repeats: int) -> dict[str, float]:
 def operations(case: Case) -> dict[str, Any]:
     """Operations in the largest of a shape's programs: fusions, calls of libraries, loops, copies.
 
-    A GPU starts each of them anew in every turn of its loop.
+    A GPU launches each of them in every turn of a loop.
     """
-    step.run._ready.clear()  # of other shapes
+    step.run._ready.clear()  # forget the programs of other shapes
     _solved(case, OPTIONS)
     kinds = (" fusion(", " custom-call(", " while(", " conditional(", " copy(", " dot(")
     texts = [program.as_text() for program in step.run._ready.values()]
@@ -99,9 +99,9 @@ def operations(case: Case) -> dict[str, Any]:
 
 
 def main() -> None:
-    """Measure the shapes that standard input names.
+    """Measure the shapes named on standard input.
 
-    All are solved first, several at a time, for compiling takes one core each.
+    First all are solved, several at a time, because each compilation uses one core.
     """
     given = json.load(sys.stdin)
     glid_nb.enable_compilation_cache()
@@ -109,7 +109,7 @@ def main() -> None:
     plan = Plan({} if reference is None else reference_cases(Path(reference)))
     show({"dispatch": dispatch(repeats)})
     cases = [plan.case(name) for name in given["shapes"]]
-    show(found(cases[0]))  # by itself: its first solve is timed
+    show(found(cases[0]))  # alone, because its first solve is timed
     with ThreadPoolExecutor(min(os.cpu_count() or 1, _MOST_THREADS)) as pool:
         for done in as_completed([pool.submit(found, case) for case in cases[1:]]):
             show(done.result())
@@ -122,7 +122,7 @@ def main() -> None:
 
 
 def show(line: dict[str, Any]) -> None:
-    """Print one line, at once."""
+    """Print one line and flush it."""
     print(json.dumps(line), flush=True)
 
 

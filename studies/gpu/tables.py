@@ -1,4 +1,4 @@
-"""The tables of the study, from what its parts have found on both devices."""
+"""The tables of the study, made of its parts' results on both devices."""
 
 from typing import Any
 
@@ -13,7 +13,7 @@ Found = dict[str, Measurement]
 
 
 def tables(found: Found) -> dict[str, list[Row]]:
-    """Every table of which something has been measured."""
+    """Every table that has rows."""
     made = {
         "machine": _machine(found),
         "agreement": _agreement(found),
@@ -31,7 +31,7 @@ def _rows(found: Found, name: str, key: str) -> list[dict[str, Any]]:
 
 
 def _machine(found: Found) -> list[Row]:
-    """The machine; and of each part how long it took and how it ended."""
+    """The machine; for each part, its duration and how it ended."""
     rows: list[Row] = []
     if "machine" in found:
         here = found["machine"]["taken"]
@@ -49,7 +49,7 @@ def _machine(found: Found) -> list[Row]:
 
 
 def _agreement(found: Found) -> list[Row]:
-    """What both devices come to; empty cells where one has not come to a shape."""
+    """The results of both devices; a cell is empty if a device did not reach the shape."""
     rows: list[Row] = []
     for here, there in _both(found, "found"):
         off: float | None = None
@@ -81,7 +81,7 @@ def _solves(found: Found) -> list[Row]:
 
 
 def _both(found: Found, key: str) -> list[tuple[dict[str, Any], dict[str, Any] | None]]:
-    """The lines of each shape from the device and, where it is there, from the CPU."""
+    """The lines of each shape from the device and, if it exists, from the CPU."""
     others = {row[key]: row for row in _rows(found, "solves-cpu", key)}
     return [(row, others.get(row[key])) for row in _rows(found, "solves-device", key)]
 
@@ -95,7 +95,7 @@ def _pair(both: Any, number: Any) -> str:
 
 
 def _stages(found: Found) -> list[Row]:
-    """Where an iteration's time goes; beside it the least time that any program takes."""
+    """The time of an iteration's stages, and the least time of any program."""
     rows: list[Row] = []
     for device in ("device", "cpu"):
         name = f"solves-{device}"
@@ -134,7 +134,7 @@ def _batches(found: Found) -> list[Row]:
 
 
 def _lockstep(found: Found) -> list[Row]:
-    """The first call of a batch, and what of it is the device's."""
+    """The first call of a batch, and the device's part of its time."""
     return [
         {
             "poses in a call": row["poses"],

@@ -1,7 +1,7 @@
 """Shapes from a few points: smooth loops, limbs of varying thickness, blends.
 
-Every function takes world coordinates (y up, longer image side 20 units) and gives a shapely
-geometry, so that shapes can be united, cut and inset before they are inked.
+Every function takes world coordinates (y up, longer image side 20 units). Shapes are shapely
+geometries, so they can be united, cut and inset before they are inked.
 """
 
 from collections.abc import Iterable
@@ -23,10 +23,10 @@ ROUND = 24  # segments in a quarter circle: smooth at 2,000 px
 
 
 def spline(points: ArrayLike, *, closed: bool = False, steps: int = 16) -> Floats:
-    """(k, d) samples, ``steps`` a segment, of a smooth curve through (n, d) points.
+    """(k, d) samples, ``steps`` per segment, of a smooth curve through (n, d) points.
 
-    A centripetal Catmull-Rom spline; columns after x and y (a radius, say) go along. The first
-    point is not repeated at the end of a closed curve.
+    A centripetal Catmull-Rom spline. Columns after x and y, for example a radius, are interpolated
+    too. A closed curve does not repeat its first point.
     """
     knots = np.asarray(points, dtype=float)
     if closed:
@@ -51,7 +51,7 @@ def loop(points: ArrayLike) -> Polygon:
 
 
 def symmetric(right: Points) -> Polygon:
-    """Smooth shape that is its own mirror image; `right` runs from the y axis to the y axis."""
+    """Smooth mirror-symmetric shape; `right` runs from the y axis to the y axis."""
     return loop([*right, *((-x, y) for x, y in right[-2:0:-1])])
 
 
@@ -76,7 +76,7 @@ def tube(points: ArrayLike) -> Shape:
 
 
 def brush(points: ArrayLike, width: float, *, tip: float = 0.12) -> Shape:
-    """Brush stroke through (n, 2) points: full `width` in the middle, `tip` of it at both ends."""
+    """Brush stroke through (n, 2) points: `width` in the middle, `tip` times that at both ends."""
     line = spline(points, steps=12)
     lengths = np.concatenate([[0], np.cumsum(np.linalg.norm(np.diff(line, axis=0), axis=1))])
     t = lengths / lengths[-1]
@@ -89,7 +89,7 @@ def brush(points: ArrayLike, width: float, *, tip: float = 0.12) -> Shape:
 def along(points: ArrayLike, at: ArrayLike) -> tuple[Floats, Floats, Floats]:
     """Points, unit tangents, and unit normals to the left, (k, 2) each, of a smooth curve.
 
-    ``at`` are (k,) shares of its length, from 0 to 1.
+    ``at`` holds (k,) shares of the curve's length, from 0 to 1.
     """
     line = spline(np.asarray(points, dtype=float)[:, :2], steps=32)
     lengths = np.concatenate([[0], np.cumsum(np.linalg.norm(np.diff(line, axis=0), axis=1))])
@@ -110,7 +110,7 @@ def blend(shapes: Iterable[Shape], fillet: float) -> Shape:
 
 
 def rounded(shape: Shape, radius: float) -> Shape:
-    """The shape with its outer corners rounded to `radius`; parts thinner than that vanish."""
+    """The shape with outer corners rounded to `radius`; parts thinner than 2 `radius` vanish."""
     return shape.buffer(-radius, quad_segs=ROUND).buffer(radius, quad_segs=ROUND)
 
 

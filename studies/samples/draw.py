@@ -1,7 +1,7 @@
 """Draw the samples anew: ``python -m studies.samples.draw [NAME ...] [--out DIR]``.
 
-On the same versions of the libraries the files come out the same to the last bit; other versions
-of the rasteriser may move a pixel on an edge by a few grey levels.
+With the same versions of the libraries, the files are the same to the last bit. Another version of
+the rasteriser may change pixels on an edge by a few grey levels.
 """
 
 import argparse
@@ -25,14 +25,14 @@ def draw(name: str) -> NDArray[np.uint8]:
 
 
 def png(rgba: NDArray[np.uint8]) -> bytes:
-    """The pixels as a PNG file, packed as tightly as zlib can."""
+    """The pixels as a PNG file, with the strongest compression."""
     file = io.BytesIO()
     Image.fromarray(rgba).save(file, "PNG", optimize=True)
     return file.getvalue()
 
 
 def main(arguments: Sequence[str] | None = None) -> None:
-    """Draw the named samples, by default all, into a folder, by default the package's own."""
+    """Draw the named samples, by default all, into a folder, by default that of the package."""
     parser = argparse.ArgumentParser(prog="python -m studies.samples.draw", description=__doc__)
     parser.add_argument("names", nargs="*", metavar="NAME", help="default: all samples")
     parser.add_argument("--out", type=Path, metavar="DIR", help="default: into the package")

@@ -19,8 +19,8 @@ def eye(
 ) -> None:
     """Draw a round eye: eyeball, iris, pupil, two catch lights and, with `lid`, an upper lid.
 
-    `look` is the direction of the gaze, a vector of length 1 rolls the iris to the rim; `droop`
-    is the part of the eyeball that the lid covers.
+    `look` is the direction of the gaze; a vector of length 1 moves the iris to the rim. `droop` is
+    the share of the eyeball under the lid.
     """
     rim, ball = disc(x, y, radius), disc(x, y, radius * 0.88)
     sheet.fill(rim, hue.INK, within=within)

@@ -1,7 +1,7 @@
 """A sheet of paper to draw on: anti-aliased fills, soft shading, outlines of varying weight.
 
-Coverage comes from matplotlib's Agg rasteriser, the composition is plain NumPy. Light falls from
-the upper left; shades, highlights and the weight of the outline all follow it.
+Coverage comes from matplotlib's Agg rasteriser; NumPy composes the layers. Light falls from the
+upper left. Shades, highlights and the weight of the outline depend on it.
 """
 
 from collections.abc import Sequence
@@ -28,7 +28,7 @@ Mask: TypeAlias = NDArray[np.float32]
 
 @dataclass(frozen=True)
 class Linear:
-    """Colour that runs through `colours` from the point `start` to the point `end`."""
+    """A colour gradient through `colours` from the point `start` to the point `end`."""
 
     start: tuple[float, float]
     end: tuple[float, float]
@@ -53,8 +53,8 @@ def _ramp(t: NDArray[np.floating], colours: Sequence[str]) -> Mask:
 class Sheet:
     """A transparent sheet of `width` x `height` pixels, drawn on in world coordinates.
 
-    Fills go over what is there. With `within` they only tint what is there: the colour changes
-    inside that shape and the alpha channel stays, so the silhouette keeps one clean edge.
+    Fills cover earlier fills. With `within` they only tint: the colour changes inside that shape,
+    and the alpha channel stays unchanged, so the silhouette keeps one clean edge.
     """
 
     def __init__(self, width: int, height: int) -> None:
@@ -91,10 +91,11 @@ class Sheet:
         towards_light: bool = False,
         within: BaseGeometry | None = None,
     ) -> None:
-        """Round a filled shape off: a soft shadow inside its edge, on the side away from light.
+        """Make a filled shape look round: a soft shadow inside its edge, on the side away from
+        light.
 
-        `depth` is how far the shadow reaches in, in units; `towards_light` puts it on the lit
-        side instead, which with a pale colour is a sheen; `within` keeps it to a part of the shape.
+        `depth` is the width of the shadow, in units. `towards_light` puts it on the lit side; with
+        a pale colour this is a sheen. `within` restricts it to a part of the shape.
         """
         window = self._window(shape, 0)
         if window is None:
@@ -115,10 +116,10 @@ class Sheet:
         opacity: float = 1.0,
         within: BaseGeometry | None = None,
     ) -> None:
-        """Ink the inside edge of a shape; the line is heavier away from the light by `swell`.
+        """Ink the inside edge of a shape; away from the light the line is wider by `swell`.
 
-        Every pixel that the edge touches is inked as well, so that no paler rim is left there; the
-        alpha channel does not change.
+        Every pixel on the edge is inked too, so that no pale rim remains. The alpha channel does
+        not change.
         """
         inset = shape.buffer(-width, quad_segs=ROUND)
         core = moved(inset, LIGHT[0] * width * swell, LIGHT[1] * width * swell)
@@ -132,8 +133,8 @@ class Sheet:
         self._paint(window, mask, colour, over=False)
 
     def image(self, matte: str) -> NDArray[np.uint8]:
-        """The drawing as RGBA (h, w, 4), not premultiplied; what is transparent has the colour
-        `matte`, so that a careless resampler does not fringe the outline with black."""
+        """The drawing as RGBA (h, w, 4), not premultiplied. Transparent pixels have the colour
+        `matte`, so that simple resampling does not blacken the outline."""
         alpha = np.clip(self._alpha, 0, 1)[..., None]
         solid = self._rgb / np.maximum(alpha, 1 / 512)
         rgb = np.where(alpha > 1 / 512, solid, np.asarray(to_rgb(matte), np.float32))
@@ -141,7 +142,7 @@ class Sheet:
         return np.round(255 * np.clip(rgba, 0, 1)).astype(np.uint8)
 
     def _window(self, shape: BaseGeometry, margin: float) -> Window | None:
-        """Rows and columns of pixels that a shape can touch; None when it is off the sheet."""
+        """Rows and columns of pixels that a shape can touch; None if it is outside the sheet."""
         if shape.is_empty:
             return None
         x0, y0, x1, y1 = shape.bounds
@@ -154,7 +155,7 @@ class Sheet:
         return slice(top, foot), slice(left, right)
 
     def _coverage(self, shape: BaseGeometry, window: Window, blur: float = 0.0) -> Mask:
-        """Which part of each pixel of a window a shape covers, (rows, columns) in 0..1."""
+        """(rows, columns) share of each pixel of a window that a shape covers, 0 to 1."""
         pad = int(np.ceil(3 * blur * self.scale))
         rows, columns = window
         top, left = rows.start - pad, columns.start - pad
@@ -177,7 +178,7 @@ class Sheet:
         return mask[pad : high - pad, pad : wide - pad]
 
     def _paint(self, window: Window, mask: Mask, colour: Colour, *, over: bool) -> None:
-        """Lay a colour over what is there, or only tint what is there (alpha stays)."""
+        """Paint a colour over the window, or only tint it (alpha stays unchanged)."""
         rows, columns = window
         if isinstance(colour, str):
             paint = np.asarray(to_rgb(colour), np.float32)
@@ -195,7 +196,7 @@ class Sheet:
 
 
 def _path(shape: BaseGeometry) -> Path | None:
-    """The polygons of a shape as one compound path, holes wound against their exteriors."""
+    """The polygons of a shape as one compound path; holes have the opposite orientation."""
     rings = []
     for part in shapely.get_parts(shape):
         if part.geom_type == "Polygon" and not part.is_empty:

@@ -406,7 +406,7 @@ def test_a_certificate_that_no_proof_made_proves_nothing() -> None:
     for changed in ({"map": folded}, {"sigma2_lower": 1.0}, {"windings": (1, -1)}, {}):
         forged = replace(certificate, **changed)
         assert not forged.certified
-        assert "no proof made" in forged.reason
+        assert "has no proof" in forged.reason
         assert global_injectivity(forged.map, forged).verdict == "undecided"
         with pytest.raises(InputError, match="no proof"):
             proof_text(forged)

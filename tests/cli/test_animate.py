@@ -98,7 +98,7 @@ def test_a_saved_motion_moves_its_picture(run: Any, tmp_path: Path) -> None:
         assert np.asarray(read.convert("RGBA"))[0, 0, 3] == 0
     own = tmp_path / "a.apng"
     outcome = run("animate", tmp_path / "motion.json", "--picture", own, "--out", own)
-    assert (outcome.code, "it is read too" in outcome.err) == (1, True)
+    assert (outcome.code, "it is also an input" in outcome.err) == (1, True)
     assert run(*words, "--out", tmp_path / "b.gif", "--seconds", 2).code == 0
     assert opened(tmp_path / "b.gif")[0] == 5
 
@@ -131,7 +131,7 @@ def test_a_session_needs_two_poses_and_a_motion_its_picture(run: Any, tmp_path: 
     Motion([HarmonicMap.identity(shapes.domain()), shapes.bent()]).save(tmp_path / "motion.json")
     outcome = run("animate", tmp_path / "motion.json", "--out", tmp_path / "a.gif")
     assert outcome.code == 1
-    assert "name its picture by --picture" in outcome.err
+    assert "name its picture with --picture" in outcome.err
 
 
 def test_a_motion_that_folds_is_not_written(run: Any, tmp_path: Path) -> None:

@@ -216,7 +216,7 @@ def test_an_output_folder_in_which_the_result_would_replace_the_input(
     """In a folder, a result has the input's name."""
     before = problem.read_bytes()
     outcome = run("solve", problem, "--out", tmp_path)
-    assert_refused(outcome, problem, "would be overwritten, but it is read too")
+    assert_refused(outcome, problem, "would be overwritten, but it is also an input")
     assert problem.read_bytes() == before
 
 
@@ -302,7 +302,7 @@ def test_a_command_never_writes_over_its_input(
     before, out = file.read_bytes(), _names(file, tmp_path, kind)
     known = {"FILE": file, "OUT": out, "problem.json": problem, "plus.png": picture}
     outcome = run(*(known.get(word, word) for word in words.split()))
-    assert_refused(outcome, out, "would be overwritten, but it is read too")
+    assert_refused(outcome, out, "would be overwritten, but it is also an input")
     assert file.read_bytes() == before
 
 
@@ -322,7 +322,7 @@ def test_two_results_never_go_to_one_file(run, problem: Path, tmp_path: Path) ->
     link.symlink_to(out)
     for report in (out, link):
         outcome = run("solve", problem, "--out", out, "--report", report)
-        assert_refused(outcome, report, "another result goes there")
+        assert_refused(outcome, report, "another result is written there")
 
 
 def test_a_picture_of_another_size_than_the_maps(

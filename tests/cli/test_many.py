@@ -144,7 +144,7 @@ def test_a_picture_on_standard_output(map_file: Path, tmp_path: Path, capfdbinar
 @pytest.mark.parametrize(
     ("words", "message"),
     [
-        (("animate", "a.glid"), "--out -: the suffix says the format, so name a file"),
+        (("animate", "a.glid"), "--out -: the suffix determines the format, so name a file"),
         (("demo",), "--out -: 5 files are written, so name a folder"),
     ],
 )

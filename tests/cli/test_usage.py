@@ -25,7 +25,7 @@ WHOLE_PIXELS = "--size: a side is a whole number of pixels, 1 to 20000, not '10.
         (["render", "a.png", "m.json", "--out", "b.png", "--view", "top"], "invalid choice: 'top'"),
         (["render", "a.png", "m.json", "--out", "b.png", "--size", "0", "9"], "--size"),
         (["render", "a.png", "m.json", "--out", "b.png", "--size", "10.5", "20"], WHOLE_PIXELS),
-        (["animate", "a.glid", "--out", "b.gif", "--background", "reddish"], "is no colour"),
+        (["animate", "a.glid", "--out", "b.gif", "--background", "reddish"], "is not a colour"),
         (["demo", "--unheard-of"], "unrecognized arguments: --unheard-of"),
     ],
 )

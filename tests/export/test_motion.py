@@ -313,8 +313,8 @@ def test_what_is_not_proved_throughout_is_not_exported(kind: str, tmp_path: Path
     ("program", "message"),
     [
         ("/nonexistent/ffmpeg", "ffmpeg cannot be run, /nonexistent/ffmpeg: No such file or direc"),
-        ("/bin/false", r"ffmpeg \(/bin/false\) could not write .*, exit code 1: it says nothing"),
-        ("/bin/true", r"ffmpeg \(/bin/true\) could not write .*, exit code 0: it says nothing"),
+        ("/bin/false", r"ffmpeg \(/bin/false\) could not write .*, exit code 1: no message"),
+        ("/bin/true", r"ffmpeg \(/bin/true\) could not write .*, exit code 0: no message"),
     ],
 )
 def test_an_ffmpeg_that_fails_is_named(

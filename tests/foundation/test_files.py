@@ -177,7 +177,7 @@ def test_an_error_names_the_file_and_never_a_temporary_one(
 
 @pytest.mark.parametrize("name", ["a\0b.json", "\ud800.json"])
 def test_a_name_that_no_file_can_have(name: str) -> None:
-    told = r"\.json' has a character that no file's name can have$"
+    told = r"\.json' has a character that file names cannot have$"
     with pytest.raises(InputError, match=told):
         write_atomically(name, "")
     for read in (glid_nb.HarmonicMap.load, glid_nb.io.load_pose, glid_nb.io.load_document):

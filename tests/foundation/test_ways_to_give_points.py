@@ -114,7 +114,10 @@ def test_a_handle_just_outside_is_told_with_its_distance() -> None:
             [[120, 200], [400, 210]],
             "PixelFrame(width, height).to_world(handles), (row",
         ),
-        ([[2, -8], [2, 8]], "x and y look swapped, for all would lie inside as handles[:, ::-1]"),
+        (
+            [[2, -8], [2, 8]],
+            "x and y look swapped, because all handles would lie inside as handles[:, ::-1]",
+        ),
         ([[50, -80], [20, 80]], "and y from -3 to 3"),
     ],
 )
@@ -126,8 +129,9 @@ def test_handles_in_other_coordinates_are_recognised(handles: Any, hint: str) ->
 
 def test_handles_upside_down_are_recognised() -> None:
     low = Cage([[-10, -6], [10, -6], [10, -1], [-10, -1]])
-    assert "y looks upside down, for all would lie inside as handles * [1, -1]" in refused(
-        [[-5, 2], [5, 3]], low
+    assert (
+        "y looks upside down, because all handles would lie inside as handles * [1, -1]"
+        in refused([[-5, 2], [5, 3]], low)
     )
 
 

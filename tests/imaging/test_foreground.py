@@ -285,7 +285,7 @@ class TestScribbles:
     def test_the_border_stands_in_for_the_background(self):
         found = find(self.image, "scribbles", scribbles=Scribbles([[(40, 40)]]))
         assert agreement(found.mask()) > 0.99
-        assert any("border was taken" in note for note in found.notes)
+        assert any("border counts as background" in note for note in found.notes)
 
     def test_a_large_picture_is_scaled_down_and_the_result_up(self):
         coverage = disc(250, 800)

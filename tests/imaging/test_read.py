@@ -132,7 +132,7 @@ class TestWrongArrays:
             as_rgba(np.zeros((3, 3)).astype(dtype))
 
     def test_ragged_rows(self):
-        with pytest.raises(TraceError, match="the image is no array"):
+        with pytest.raises(TraceError, match="the image is not an array"):
             as_rgba([[1.0, 2.0], [3.0]])
 
     @pytest.mark.parametrize("value", [np.nan, np.inf, -np.inf])
@@ -279,7 +279,7 @@ class TestWrongFiles:
 
     @pytest.mark.parametrize("name", ["a\0b.png", "\ud800.png"])
     def test_a_name_that_no_file_can_have(self, name):
-        with pytest.raises(TraceError, match="has a character that no file's name can have"):
+        with pytest.raises(TraceError, match="has a character that file names cannot have"):
             read_image(name)
 
     def test_a_name_that_is_too_long(self):

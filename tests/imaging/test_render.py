@@ -333,7 +333,7 @@ def test_nearest_refuses_what_it_cannot_hold(domain: Domain):
     ):
         render(values, identity, interpolation="cubic")  # type: ignore[arg-type]
     for wrong in (np.zeros((3, 0)), np.zeros(4), np.array([["a"]]), [[1], [2, 3]]):
-        with pytest.raises(ValueError, match=r"the image (must be|is no array)"):
+        with pytest.raises(ValueError, match=r"the image (must be|is not an array)"):
             render(wrong, identity, interpolation="nearest")
     with pytest.raises(ValueError, match="a Texture has been prepared"):
         render(Texture.from_image(values), identity, interpolation="nearest")

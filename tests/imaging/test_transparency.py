@@ -233,14 +233,14 @@ class TestDecoded:
 
     def test_16_bit_colours_lose_bits_with_a_warning(self) -> None:
         picture = self.decoded(16, RGB, (300, 40000, 5))
-        with pytest.warns(ColorWarning, match="decoded to 8 bit.*give the file's path"):
+        with pytest.warns(ColorWarning, match="decoded to 8 bit.*pass the file's path"):
             image = read_image(picture)
         assert image[4, 5, 3] == 0
 
     def test_a_grey_of_few_bits_that_no_pixel_has_is_told(self) -> None:
         picture = Image.fromarray(np.arange(0, 256, 85, dtype=np.uint8)[None].repeat(4, axis=0))
         picture.info["transparency"] = 1  # of 2 bits
-        with pytest.warns(ColorWarning, match="transparent grey 1, which no pixel has"):
+        with pytest.warns(ColorWarning, match="transparent grey 1, but no pixel has"):
             read_image(picture)
 
 

@@ -297,7 +297,7 @@ def still(mesh: Triangulation) -> MeshMap:
 
 def test_a_foreign_triangulation_is_refused() -> None:
     shape, pose = problem("ell")
-    with pytest.raises(MethodError, match=r"handle 0 .* is no vertex of the triangulation"):
+    with pytest.raises(MethodError, match=r"handle 0 .* is not a vertex of the start's"):
         run_method("aqp", shape, pose, start=still(triangulate(shape.cage, 100)))
     mesh = triangulate(shape.cage, 100, points=pose.handles)
     result = run_method("aqp", shape, pose, start=still(mesh), max_iterations=3)

@@ -58,8 +58,8 @@ def test_a_method_is_a_value() -> None:
         ("lbfgs", {"initial": np.array(["identity"])}, "'initial' .* one of identity, dirichlet"),
         ("aqp", {"kappa": -1.0}, "'kappa' of .* a finite number at least 1, at which"),
         ("aqp", {"kappa": 0.5}, "'kappa' of .* a finite number at least 1"),
-        ("aqp", {"arap_iterations": 0}, "'arap_iterations' of .* at least 1, for the first brings"),
-        ("newton-shift", {"beta": 0}, "'beta' of .* greater than 0, for it is the least shift"),
+        ("aqp", {"arap_iterations": 0}, "'arap_iterations' of .* 1, because the first brings"),
+        ("newton-shift", {"beta": 0}, "'beta' of .* greater than 0, because it is the least shift"),
         ("harmonic-weights", {"power": 4}, "'power' .* must be one of 1, 2, 3"),
     ],
 )
@@ -73,7 +73,7 @@ def test_bad_settings_are_refused_by_name(name: Any, settings: dict, message: st
     [
         ("gauss-newton", SymmetricDirichlet(), "cannot minimise .* 'iso'"),
         ("aqp", ARAP(), "cannot minimise the energy 'arap'"),
-        ("slim", ARAP(), "ARAP, but that is no barrier: .* arap-mesh"),
+        ("slim", ARAP(), "ARAP, but it does not prevent flips: .* arap-mesh"),
         ("slim", "amips", "no AMIPS: the closest .* is exp.*without AMIPS' te"),
         ("slim", "exp", "minimises exp.sigma_1.2 .* s = 2, .*; got s = 1.0"),
     ],
@@ -129,7 +129,7 @@ def test_a_method_is_not_its_name() -> None:
 @pytest.mark.parametrize("name", ["newton", "lbfgs", "aqp"])
 def test_a_start_from_another_domain_is_refused(name: str) -> None:
     shape, pose = problem("ell")
-    with pytest.raises(StartError, match="belongs to another domain"):
+    with pytest.raises(StartError, match="has another domain"):
         run_method(name, shape, pose, start=HarmonicMap.identity(domain("ring")))
 
 

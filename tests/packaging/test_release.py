@@ -38,7 +38,7 @@ def test_another_version_is_refused_for_each_file() -> None:
 def test_a_missing_and_a_strange_file_are_named() -> None:
     found = problems("v1.2.3", [*FILES[:3], "dist/notes.txt"], CHANGELOG)
     assert found == [
-        "dist/notes.txt is no wheel or sdist of glid-nb or glid-check",
+        "dist/notes.txt is not a wheel or sdist of glid-nb or glid-check",
         "glid_check.tar.gz is missing",
     ]
 

@@ -95,7 +95,10 @@ test("a loop's return stays behind the last keyframe", () => {
 test("the note tells what is proved, or why not", () => {
   assert.match(noteOn(shown({}), [span({})]), /^Proved at every instant of 1\.00 s: σ₂ ≥ 0\.500/);
   assert.equal(noteOn(shown({}), [span({ status: "fails", reason: "It folds." })]), "It folds.");
-  assert.equal(noteOn(shown({}), [span({ status: "computing" })]), "Proving what lies between…");
+  assert.equal(
+    noteOn(shown({}), [span({ status: "computing" })]),
+    "Proving the motion between poses…",
+  );
   assert.match(noteOn(shown({ kernel: true }), [span({})]), /^Played by the kernel/);
   assert.match(noteOn(shown({ keyframes: keys(0) }), []), /^Keep a second pose/);
   assert.match(noteOn(shown({ recording: true }), [span({})]), /^Recording/);

@@ -130,7 +130,7 @@ def test_poses_that_were_left_before_they_were_solved_are_solved_first() -> None
         assert animation.worker.wait(TIMEOUT)
         assert misses(model)[1] > 0.1
         assert statuses(animation) == ["refused"]
-        assert "'Pose 2' is not solved, for the solver is paused" in animation.spans[0].reason
+        assert "'Pose 2' is not solved, because the solver is paused" in animation.spans[0].reason
         with pytest.raises(EditError, match="the solver is paused"):
             animation.motion  # noqa: B018
         model.paused = False

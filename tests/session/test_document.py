@@ -543,7 +543,7 @@ def test_no_number_that_is_not_one(
     tmp_path: Path, valid: dict[str, bytes], place: Callable[[float], Any], value: float
 ) -> None:
     text = json.dumps(place(value)(json.loads(valid["document.json"])))
-    refuse(tmp_path, zipped({**valid, "document.json": text.encode()}), "which is no number")
+    refuse(tmp_path, zipped({**valid, "document.json": text.encode()}), "which is not a number")
 
 
 def png(size: tuple[int, int], mode: str = "RGBA") -> bytes:
@@ -558,8 +558,8 @@ def png(size: tuple[int, int], mode: str = "RGBA") -> bytes:
         ({"document.json": b""}, "not JSON"),
         ({"document.json": b"\xff\xfe"}, "not JSON"),
         ({"document.json": b"[" * 100_000}, "not JSON"),
-        ({"image.png": b""}, "no PNG"),
-        ({"image.png": b"GIF89a"}, "no PNG"),
+        ({"image.png": b""}, "not a PNG"),
+        ({"image.png": b"GIF89a"}, "not a PNG"),
         ({"image.png": png((41, 30))}, "41 x 30"),
         ({"image.png": png((40, 30), "RGB")}, "mode RGB"),
         ({"image.png": png((40, 30))[:-30]}, "image.png is damaged"),

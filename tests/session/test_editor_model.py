@@ -117,12 +117,12 @@ def test_undo_brings_a_picture_back_with_its_poses(tmp_path: Path, kept: bool) -
         before = model.autosave_path
         words = model.apply_tracing()
         place = f" (in {before.name})" if before is not None else ""
-        assert f"The one before{place} comes back with Undo" in words
+        assert f"The session before{place} comes back with Undo" in words
         _pin(model, (4, 0))
     for _ in range(2):
         model.tracing.undo()
     place = " (in a-3.glid)" if kept else ""
-    assert f"The one before{place} comes back with Redo" in model.apply_tracing()
+    assert f"The session before{place} comes back with Redo" in model.apply_tracing()
     assert model.image is image
     assert model.deformation.state.poses == poses
     assert model.autosave_path == path

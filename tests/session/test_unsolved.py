@@ -107,7 +107,7 @@ def test_while_the_solver_is_paused_a_file_says_what_is_not_solved(
     model.save(path)
     assert [pose.name for pose in load_document(path).unsolved] == ["a", "a 1"]
     for name in ("a.png", "a.glb", "a.proof.json", "a.svg", "a.html"):
-        with pytest.raises(EditError, match="the pose 'a 1' is not solved, for the solver is pau"):
+        with pytest.raises(EditError, match="the pose 'a 1' is not solved, because the solver is"):
             exporting.export(model, tmp_path / name)
     with pytest.raises(EditError, match=r"the pose 'a' is not solved.*; the pose 'a 1' is not"):
         exporting.export(model, tmp_path / "a.gif")

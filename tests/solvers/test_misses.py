@@ -38,9 +38,17 @@ def at_rest(handles: Any, targets: Any) -> str:
         (SQUARE, SQUARE[:, ::-1] * 0.5 + 3, "the targets mirror the handles"),
         (FIVE, FIVE[[1, 0, 2, 3, 4]], "the targets of handles 0 and 1 are swapped"),
         (FIVE, FIVE[[0, 1, 4, 3, 2]] + [30, 7], "the targets of handles 2 and 4 are swapped"),
-        (SQUARE, SQUARE[[0, 0, 2, 3]], "the targets of handles 0 and 1 are one place"),
-        ([[0, 0], [0, 1e-3], [5, 0]], [[0, 0], [0, 5], [5, 0]], "handles 0 and 1 are nearly one"),
-        (SQUARE, [[-5, -5], [5, -5], [-6, -6], [-5, 5]], "triangle of handles 1, 2 and 3 over"),
+        (SQUARE, SQUARE[[0, 0, 2, 3]], "the targets of handles 0 and 1 are the same place"),
+        (
+            [[0, 0], [0, 1e-3], [5, 0]],
+            [[0, 0], [0, 5], [5, 0]],
+            "0 and 1 are nearly the same",
+        ),
+        (
+            SQUARE,
+            [[-5, -5], [5, -5], [-6, -6], [-5, 5]],
+            "turn over the triangle of handles 1, 2 and 3",
+        ),
         (SQUARE, SQUARE @ [[0.6, 0.8], [-0.8, 0.6]] + 40, None),
         (SQUARE, SQUARE + PULLED, None),
         ([[0, 0], [1, 0], [2, 0]], [[2, 0], [1, 0], [0, 0]], None),  # half a turn
@@ -68,7 +76,8 @@ def test_a_mirrored_square_is_told_in_message_and_report_at_every_scale() -> Non
         assert result.misses.max() > 4 * scale
         worst = int(result.misses.argmax())
         assert f" Handle {worst} is " in result.message
-        assert result.message.endswith("the targets mirror the handles, and no map turns over.")
+        why = "the targets mirror the handles, and maps without folds cannot mirror."
+        assert result.message.endswith(why)
         report = build_report(result)
         assert report["misses"] == result.misses.tolist()
         assert report["message"] == result.message

@@ -79,7 +79,7 @@ def test_bench_writes_its_tables(bench: Callable[..., None], tmp_path: Path) -> 
     assert [row["settings"] for row in table(out / "breakdown.csv")] == ["paper", "default"]
     assert float(row["drag step, ms"]) > 0
     assert len(table(out / "scaling-vertices.csv")) == 1
-    assert (out / "solves.png").exists()
+    assert (out / "solves.webp").exists()
 
     page = tmp_path / "speed.md"
     text = page.read_text()
@@ -107,10 +107,13 @@ def test_bench_measures_starts_and_batches(bench: Callable[..., None], tmp_path:
 @pytest.mark.parametrize(
     ("words", "said"),
     [
-        (["bench", "--only", "hope"], "unknown study 'hope'; choose of solves"),
+        (["bench", "--only", "hope"], "unknown study 'hope'; choose one of solves"),
         (["bench", "--repeats", "0"], "repeats is 0"),
-        (["compare", "--only", "magic"], "unknown study 'magic'; choose of progress"),
-        (["compare", "--reference", "nowhere"], "no JSON file there holds a cage and handles"),
+        (["compare", "--only", "magic"], "unknown study 'magic'; choose one of progress"),
+        (
+            ["compare", "--reference", "nowhere"],
+            "no JSON file in this folder holds a cage and handles",
+        ),
     ],
 )
 def test_what_is_refused(tmp_path: Path, words: list[str], said: str) -> None:

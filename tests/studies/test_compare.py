@@ -115,7 +115,7 @@ def test_progress_from_measurement_to_table(tmp_path: Path) -> None:
     assert aqp["left"] < VISIBLE
     assert aqp["minimum"] <= aqp["energy"][-1] <= aqp["minimum"] * (1 + 1e-3)
     progress.draw([data], tmp_path)
-    assert shades(tmp_path / "progress-bent.png").std() > 5
+    assert shades(tmp_path / "progress-bent.webp").std() > 5
     variants = data["variants"]
     assert variants["projected Hessian, our samples"]["status"] == "converged"
     assert 2 <= data["area_mean_aligned"] <= ours * (1 + 1e-6)
@@ -157,7 +157,7 @@ def test_a_study_writes_its_table_and_figure(
     page = tmp_path / "figures.md"
     assert capsys.readouterr().out.strip() == str(page)
     assert "| bar-extreme | minimises $E_{exp}$ |" in page.read_text(encoding="utf-8")
-    assert (out / "exponential.png").stat().st_size > 10_000
+    assert (out / "exponential.webp").stat().st_size > 10_000
     kept = json.loads((out / "data" / "exponential-bar-extreme.json").read_text())
     iso, exponential = kept["runs"]["iso"], kept["runs"]["exp"]
     assert exponential["status"] == "converged"
@@ -167,7 +167,9 @@ def test_a_study_writes_its_table_and_figure(
 
 
 def test_reference_folders_are_checked(tmp_path: Path) -> None:
-    with pytest.raises(InputFileError, match="no JSON file there holds a cage and handles"):
+    with pytest.raises(
+        InputFileError, match="no JSON file in this folder holds a cage and handles"
+    ):
         reference_cases(tmp_path)
     small().problem.save(tmp_path / "My Shape.json")
     assert list(reference_cases(tmp_path)) == ["my-shape"]

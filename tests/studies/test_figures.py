@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from matplotlib.figure import Figure
+from PIL import Image
 
 from glid_nb.geometry import triangulate
 from studies import figures
@@ -34,7 +35,7 @@ def test_a_map_is_in_the_picture_with_its_targets(tmp_path: Path) -> None:
     axes = figure.subplots()
     pose = np.array([[9.0, 0.0, 1.0, 0.0]])
     figures.draw_map(axes, MESH, MESH.vertices, pose)
-    figures.save(figure, tmp_path / "map.png")
+    figures.save(figure, tmp_path / "map.webp")
     low, high = np.array([axes.get_xlim(), axes.get_ylim()]).T
     assert (low < MESH.vertices.min(axis=0)).all()
     assert (high > np.vstack([MESH.vertices, pose[:, :2]]).max(axis=0)).all()
@@ -43,11 +44,12 @@ def test_a_map_is_in_the_picture_with_its_targets(tmp_path: Path) -> None:
 def test_a_picture_is_whole_or_the_one_before(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    path = tmp_path / "new" / "figure.png"
+    path = tmp_path / "new" / "figure.webp"
     figures.save(figures.figure(1, 1), path)
     whole = path.read_bytes()
-    assert whole.startswith(b"\x89PNG")
-    assert b"IEND" in whole
+    with Image.open(path) as picture:
+        picture.load()
+        assert picture.format == "WEBP"
 
     def interrupted(_: Figure, target: object, **__: object) -> None:
         # Half of the picture is written, whether a path or a file is given.

@@ -44,7 +44,7 @@ def test_from_measurement_to_table(tmp_path: Path, monkeypatch: pytest.MonkeyPat
         assert counted["share"] == pytest.approx(area[turned].sum() / area.sum())
     assert max(counted["flips"] for counted in found.values()) > 0
     folding.draw([{"name": "bent", **data}], tmp_path)
-    with Image.open(tmp_path / "folding.png") as picture:
+    with Image.open(tmp_path / "folding.webp") as picture:
         pixels = np.asarray(picture.convert("L"))
     assert (pixels < 50).mean() > 2e-4
     (row,) = folding.tables([{"name": "bent", **data}])["folding"]

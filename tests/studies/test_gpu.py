@@ -104,7 +104,7 @@ def test_without_a_gpu_one_sentence_says_so(
 @pytest.mark.parametrize(
     ("words", "said"),
     [
-        (["--only", "hope"], "unknown study 'hope'; choose of solves, batches, tests"),
+        (["--only", "hope"], "unknown study 'hope'; choose one of solves, batches, tests"),
         (["--repeats", "0"], "repeats is 0 and seconds is 480; both must be positive"),
         (["--seconds", "0"], "repeats is 9 and seconds is 0; both must be positive"),
     ],

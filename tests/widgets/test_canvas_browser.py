@@ -113,17 +113,17 @@ def test_controls_and_overlays(open_notebook: OpenNotebook) -> None:
         about.click()
         page.locator(".glid-guide p", has_text=place).wait_for(state="hidden")
     page.locator(".lm-TabBar-tabLabel", has_text="Solver").click()
-    # Single steps report what they did.
-    page.get_by_title("Let the solver wait").click()
+    # Single steps say what each did.
+    page.get_by_title("Pause the solver").click()
     book.value("None", setup="model.drag(1, to=(5.5, 2.0))")
-    page.get_by_title("One frame's iterations").click()
+    page.get_by_title("Run the iterations of one frame").click()
     told = page.locator(".glid-solver-panel").get_by_text("panels split").first
     told.wait_for()
     projected = book.value("model.moment.frame.history[-1].hessian_modified")
     words = f"Hessian {'projected' if projected else 'exact'} · step length"
     assert words in told.inner_text()
     book.screenshot("editor-single-step")
-    page.get_by_title("Let the solver wait").click()
+    page.get_by_title("Pause the solver").click()
     told.wait_for(state="hidden")
     hand.settle()
     energy = page.locator(".glid-energy select")
@@ -328,7 +328,7 @@ def test_the_canvas_says_that_it_is_warming_up_and_takes_pins_meanwhile(
     shown = page.locator(".glid-prepared")
     assert not shown.is_visible()
     hand.settle()
-    book.value("None", setup=f"{PREPARED_AS_TOLD}model.set_energy(glid.ARAP())")
+    book.value("None", setup=f"{PREPARED_AS_TOLD}model.set_energy(glid.energies.ARAP())")
     shown.get_by_text("Warming up: 50 %").wait_for()
     # Visible right after the cell was run: at the top of the canvas, below the hint.
     pad, hint, box = (one.bounding_box() for one in (hand.pad, page.locator(".glid-notice"), shown))

@@ -576,8 +576,8 @@ def test_the_numbers_of_pins_and_the_model_show_each_other() -> None:
         assert model.pose.targets.tolist() == [[2.5, 0], [-2, 0.25]]
         assert model.pose.depths.tolist() == [0.5, -1]
         for field, refused, needed in (
-            (bar.x, "", "is no number; type a coordinate, such as 7.5<"),
-            (bar.y, "abc", "is no number; type a coordinate"),
+            (bar.x, "", "is not a number; type a coordinate, such as 7.5<"),
+            (bar.y, "abc", "is not a number; type a coordinate"),
             (bar.y, "1e30", "is out of range; type a coordinate"),
             (bar.depth, "1e30", "is out of range; type a depth from -100 to 100<"),
         ):
@@ -590,7 +590,7 @@ def test_the_numbers_of_pins_and_the_model_show_each_other() -> None:
         assert np.degrees(model.pose.angles[0]) == pytest.approx(30)
         assert (model.pose.scales[0], model.pose.weights[0]) == (1.5, 0.01)
         bar.angle.value = "much"
-        assert "is no number; type an angle" in bar.refusal.value
+        assert "is not a number; type an angle" in bar.refusal.value
         assert bar.angle.value == "30"
         for refused in ("-1", "1e9", "0"):
             bar.scale.value = refused

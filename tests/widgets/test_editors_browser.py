@@ -137,7 +137,7 @@ def test_an_opened_session_and_another_picture_are_seen(open_notebook: OpenNoteb
     page.get_by_title("Write the session file").click()
     page.get_by_text("Saved", exact=False).first.wait_for()
     book.value("None", setup="before = editor.canvas")
-    page.get_by_title("Go on with the session file").click()
+    page.get_by_title("Continue with the session file").click()
     book.wait_for("editor.canvas is not before")
     again = Hand(book, canvas="editor.canvas")
     assert again.handles == handles
@@ -200,6 +200,6 @@ def test_work_survives_a_restart_of_the_kernel(open_notebook: OpenNotebook) -> N
     book.run_all()
     page.get_by_text("work on this picture is kept").wait_for()
     book.screenshot("editor-kept-work")
-    page.get_by_role("button", name="Bring it back").click()
+    page.get_by_role("button", name="Restore it").click()
     book.wait_for("len(editor.pose) == 1")
     assert not page.get_by_role("button", name="Discard").is_visible()

@@ -144,7 +144,7 @@ def test_stiff_areas_stay_with_another_outline_and_other_pins(hand: Hand) -> Non
     model.set_domain(Domain.from_cage(Cage(cage.exterior[cage.exterior[:, 0] > -1])))
     assert model.pose.stiffness([[2, 0.2]]).tolist() == [1]
     assert len(model.pose.stiffness.within(model.state.domain.cage)) == 1
-    with pytest.raises(MethodError, match="'mls' knows no stiff areas"):
+    with pytest.raises(MethodError, match="'mls' does not support stiff areas"):
         model.set_method("mls")
 
 

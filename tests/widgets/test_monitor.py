@@ -269,7 +269,7 @@ def test_a_frame_says_where_its_solves_began(model: Deformation) -> None:
 def test_a_single_step_says_what_it_did(model: Deformation) -> None:
     model.paused = True
     panel = SolverPanel(model)
-    assert "Step tells here" in panel.steps.value
+    assert "Step shows its numbers here" in panel.steps.value
     model.add_handles([(2, 0), (-2, 0)])
     model.drag(0, to=(3.0, 1.0))
     for count in (1, 2):

@@ -49,7 +49,7 @@ def test_a_ring_turns_and_scales_and_the_list_takes_numbers(open_notebook: OpenN
     field = page.get_by_label("Angle °")
     field.fill("much")
     field.press("Enter")
-    refusal = page.get_by_text("'much' is no number")
+    refusal = page.get_by_text("'much' is not a number")
     refusal.wait_for()
     refusal.click(trial=True)  # nothing covers it
     note = page.locator(".glid-timeline-note")

@@ -107,7 +107,7 @@ def test_a_cut_out(
     # Mistakes, and their remedies.
     page.get_by_label("Angle °").fill("much")
     page.keyboard.press("Enter")
-    page.get_by_text("is no number").wait_for()
+    page.get_by_text("is not a number").wait_for()
     shot("mistake")
     hand.click((x, y), button="right")
     shot("menu")
@@ -123,7 +123,7 @@ def test_a_cut_out(
     page.locator(".glid-editor.jupyter-widgets-disconnected").wait_for()
     shot("restarted")
     book.run_all()
-    page.get_by_role("button", name="Bring it back").click()
+    page.get_by_role("button", name="Restore it").click()
     book.wait_for(f"len(editor.pose) == {len(PINS)} and editor.pose.names[0] == 'head'")
     shot("brought-back")
     page.get_by_role("tab", name="Files").click()

@@ -111,7 +111,7 @@ class BoundedProblem:
 
 
 def _bound(default: float, **limits: float) -> Any:
-    why = ", for the method starts at an isometry"
+    why = ", because the method starts at an isometry"
     return field(default=default, metadata={**limits, "why": why})
 
 

@@ -119,7 +119,7 @@ class _Descent(GeneratedDescent):
                 break
         else:
             why = now.certificate.reason
-            raise MethodError(f"the identity is not proved to keep the bounds: {why}")
+            raise MethodError(f"the identity could not be proved to keep the bounds: {why}")
         while True:
             yield functools.partial(self._at, now)
             with single_blas_thread():
@@ -165,8 +165,8 @@ class _Descent(GeneratedDescent):
             if solved.decrease <= none and solved.status == "Solved":
                 if self.active.excess < 1:
                     return _blocked("giving back some of the margin costs more than it gains")
-                why = "with the frames held fixed no map within the bounds has an energy that is"
-                why = f"{why} lower by more than {self.method.tolerance:g} of it"
+                share = f"more than {self.method.tolerance:g} of it"
+                why = f"with fixed frames, no map within the bounds lowers the energy by {share}"
                 return Ending(Status.CONVERGED, f"The solver converged: {why}.")
             reached = now.v + solved.change
             wider = self.active.and_violated(reached)

@@ -24,7 +24,7 @@ _REFUSED = {
     "amips": "has no AMIPS: the closest of its energies, EXP_CONFORMAL, is "
     "exp((sigma_1/sigma_2 + sigma_2/sigma_1)/2), without AMIPS' terms of area and with no s; use "
     "MIPS(), or AMIPS with the method aqp",
-    "arap": "has ARAP, but that is no barrier: maps creep up to the first flat triangle, stay "
+    "arap": "has ARAP, but it does not prevent flips: maps stop at the first flat triangle, stay "
     "there and at last turn it over; use the method arap-mesh, or SymmetricDirichlet()",
     "exp": "minimises exp(sigma_1^2 + sigma_1^-2 + sigma_2^2 + sigma_2^-2), which is exp(s E_iso) "
     "with s = 2, and its Python bindings cannot set the factor; got s = {s}; use "

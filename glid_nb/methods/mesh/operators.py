@@ -156,7 +156,7 @@ def _vertices_at(mesh: Triangulation, points: Array, tolerance: float) -> Array:
     missing = np.flatnonzero(gap > tolerance)
     if missing.size:
         i = int(missing[0])
-        what = f"handle {i} at {place(points[i])} is no vertex of the triangulation of the start"
+        what = f"handle {i} at {place(points[i])} is not a vertex of the start's triangulation"
         raise MethodError(f"{what}; make it with triangulate(cage, points=handles), or give none")
     return index.astype(np.int32)
 

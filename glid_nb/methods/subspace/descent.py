@@ -38,7 +38,7 @@ _LONGEST = 10.0
 _CREEPING = 1e-6
 _FOLDS = "the map is too close to folding for this method; the last certified map is returned."
 _JAMMED = f"No step on the search direction lowers the energy, whose gradient is not zero: {_FOLDS}"
-_CREPT = f"Steps gain next to nothing any more, though the gradient is not zero: {_FOLDS}"
+_CREPT = f"Steps hardly lower the energy any more, though the gradient is not zero: {_FOLDS}"
 
 
 @dataclass(frozen=True)

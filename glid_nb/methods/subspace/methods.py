@@ -209,7 +209,9 @@ class NewtonShift(SecondOrderMethod):
     name = "newton-shift"
     label = "Newton, shifted diagonal"
 
-    beta: float = field(default=1e-3, metadata={"above": 0, "why": ", for it is the least shift"})
+    beta: float = field(
+        default=1e-3, metadata={"above": 0, "why": ", because it is the least shift"}
+    )
 
     def direction(self, at: DirectedDescent) -> Array:
         iso = at.hessian("exact")

@@ -222,52 +222,52 @@ const corner=(turn,radius)=>[at[0]+radius*Math.cos(angle+turn),at[1]+radius*Math
 pen,[[corner(0,11),corner(2.4,9),corner(-2.4,9)]],TARGET_FILL);strokePath(pen,[[1.6,TARGET_EDGE]])}}
 function drawCursor(pen,[x,y]){const arm=(dx,dy)=>[[x+4*dx,y+4*dy],[x+13*dx,y+13*dy]];lines(pen,[arm(
 1,0),arm(-1,0),arm(0,1),arm(0,-1)],[[4,PALE],[1.6,WANTED]])}var HELP=[["Pins",[["Click the shape","pin a point"],["Drag a pin, or the shape","move it there; the\
- shape follows, and never folds"],["Right-click, long touch, Menu key","what can be done with a pin,\
- or with the shape there"],["Delete","remove the selected pins; with Shift keep the shape"],["Ring a\
-round a pin: drag it, or its knob","turn the shape there, scale it there"],["< >, + -, X","turn, sca\
-le; leave both free again"],["Page Down, Page Up, [ ]","selected pins and what is around them go bac\
-k, come forward"],["Arrow keys","nudge selected pins, with Shift farther; else move a cursor"],["Ent\
-er","show the cursor; pin or select there"]]],["Selecting",[["Shift-click, A","select several pins, \
-all pins"],["Shift and drag, Ctrl and drag","select the pins in a box, in a lasso"],[", .","select t\
-he pin before, the next pin, and bring it into view; so does a click on an arrow at the edge"],["Esc",
-"cancel a drag; select nothing"]]],["Poses",[["Ctrl+Z, Ctrl+Shift+Z","undo, redo"],["Ctrl+C, Ctrl+V",
-"copy the pose, put it on this or a similar shape"],["M","swap left and right"],["0","back to the un\
-deformed shape"]]],["Stiff areas",[["B, E","paint what should stay as it is, erase it; Esc lays the \
-brush down"]]],["View",[["Wheel, two fingers","zoom"],["Middle button, Space and drag","move the vie\
-w"],["F","see everything"],["P","the picture alone, for lectures; Esc brings the rest back"],["W","t\
-he whole screen"]]],["Timeline",[["Space","play the motion through the poses, pause; on the canvas t\
-oo"],["Arrow keys, Home, End","step in time, with Shift to the next pose; first, last pose"],["Alt a\
-nd arrow keys","move the pose in time; Delete removes it"]]]];var Legend=class{element=make("div",{className:"glid-legend"});show(model,moving){const bars=[model.
+ shape follows, and never folds"],["Right-click, long touch, Menu key","a menu for the pin or the sh\
+ape there"],["Delete","remove the selected pins; with Shift keep the shape"],["Ring around a pin: dr\
+ag it, or its knob","turn the shape there, scale it there"],["< >, + -, X","turn, scale; free both a\
+gain"],["Page Down, Page Up, [ ]","send selected pins and their surroundings back, forward"],["Arrow\
+ keys","nudge selected pins, with Shift farther; else move a cursor"],["Enter","show the cursor; pin\
+ or select there"]]],["Selecting",[["Shift-click, A","select several pins, all pins"],["Shift and dr\
+ag, Ctrl and drag","select the pins in a box, in a lasso"],[", .","select the pin before, the next p\
+in, and bring it into view; so does a click on an arrow at the edge"],["Esc","cancel a drag; select \
+nothing"]]],["Poses",[["Ctrl+Z, Ctrl+Shift+Z","undo, redo"],["Ctrl+C, Ctrl+V","copy the pose, put it\
+ on this or a similar shape"],["M","swap left and right"],["0","back to the undeformed shape"]]],["S\
+tiff areas",[["B, E","paint stiff areas, erase them; Esc ends painting"]]],["View",[["Wheel, two fin\
+gers","zoom"],["Middle button, Space and drag","move the view"],["F","see everything"],["P","the pic\
+ture alone, for lectures; Esc brings the rest back"],["W","the whole screen"]]],["Timeline",[["Space",
+"play the motion through the poses, pause; on the canvas too"],["Arrow keys, Home, End","step in tim\
+e, with Shift to the next pose; first, last pose"],["Alt and arrow keys","move the pose in time; Del\
+ete removes it"]]]];var Legend=class{element=make("div",{className:"glid-legend"});show(model,moving){const bars=[model.
 get("legend"),model.get("panel_legend")].filter(bar=>bar.title);this.element.replaceChildren(...bars.
 map(bar=>colorBar(bar,moving)));this.element.hidden=!bars.length;this.element.dataset.corner=model.get(
 "legend_corner")}};function colorBar({title,moving,colors,ticks,about},moves){const gradient=`backgr\
 ound: linear-gradient(to right, ${colors.join(", ")})`;const labels=ticks.map(tick=>make("span",{},tick));
 return make("div",{className:"glid-legend-part",title:about},make("div",{className:"glid-legend-titl\
 e"},moves&&moving||title),make("div",{className:"glid-legend-bar",style:gradient}),make("div",{className:"\
-glid-legend-ticks"},...labels))}var FIRST="Click the shape to pin a point, then drag the pin · ? shows all keys";var PAINT="Paint w\
-hat should stay as it is · E erases · Esc when done";var Notices=class{notice=make("div",{className:"\
+glid-legend-ticks"},...labels))}var FIRST="Click the shape to pin a point, then drag the pin · ? shows all keys";var PAINT="Paint a\
+reas that should stay stiff · E erases · Esc when done";var Notices=class{notice=make("div",{className:"\
 glid-notice",role:"status"});prepared=make("div",{className:"glid-prepared",role:"status"});tell(refusal,painting,first){
 const advice=painting?PAINT:first&&FIRST;const{notice}=this;notice.textContent=refusal||advice||"";notice.
 hidden=!notice.textContent;notice.classList.toggle("glid-first",!refusal)}prepare(share){const{prepared}=this;
 prepared.hidden=share>=1;prepared.textContent=`Warming up: ${Math.round(100*share)} %`;prepared.style.
 backgroundSize=`${100*share}% 100%, auto`}};var REACH={mouse:13,pen:16,touch:26};var KEYS=/^(Arrow\w+|Page\w+|Delete|Backspace|Escape|Enter|[0fa,.[\]<>+=xmbe-])$/i;
-var TARGET_TIP="where it should be. Drag it; a right click shows what else; Shift-click selects seve\
-ral";var IMAGE_TIP="where the shape has got to. The cyan disk is where it should be";var COVERED=". \
-Another part of the shape covers it";var RING_TIPS={turn:"Drag around the pin to turn the shape ther\
-e; X leaves it free again",scale:"Drag away from the pin or towards it to scale the shape there; X l\
-eaves it free again"};var PinBehaviour=class{reach=REACH;keys=KEYS;constructor(canvas){this.canvas=canvas;
-this.actions={"?":canvas.help.toggle,contextmenu:()=>canvas.openMenu(),p:()=>canvas.room?.alone(),w:()=>canvas.
-room?.fullScreen()}}get painting(){return this.canvas.painting}changed(){this.canvas.redraw()}menu(place,found){
-this.canvas.openMenu(place,found)}tapped(){this.canvas.box.dispatchEvent(new CustomEvent("glid:play",
-{bubbles:true}))}find(point,reach){const{view,marks,shapes,painting}=this.canvas;if(shapes.motion||painting)
-return null;const mark=markAt(marks,point,reach);return mark??ringAt(view,marks,view.toScreen(point),
-reach/view.unit/2)}encloses(found,e){if(found)return null;if(e.shiftKey)return"box";return e.ctrlKey||
-e.metaKey?"lasso":null}held({mark}){const{selected,targets}=this.canvas.marks;const pressed=Number(mark);
-const moved=selected.includes(pressed)?selected:[pressed];return new Map(moved.map(i=>[i,targets[i]]))}cursor(found){
-this.canvas.box.title=this.#tip(found);return found?"grab":"crosshair"}#tip(found){if(!found)return"";
-if(found.part)return RING_TIPS[found.part];const{marks,model}=this.canvas;const mark=Number(found.mark);
-const name=["Pin",mark+1,model.get("names")[mark]].join(" ").trim();const tip=found.reached?IMAGE_TIP:
-TARGET_TIP;return`${name}: ${tip}${marks.hidden.includes(mark)?COVERED:""}`}};async function copied(text){try{await navigator.clipboard.writeText(text);return true}catch{return copiedBySelection(
+var TARGET_TIP="where it should be. Drag it; a right click shows more; Shift-click selects several";
+var IMAGE_TIP="where the shape is now. The cyan disk is where it should be";var COVERED=". Another p\
+art of the shape covers it";var RING_TIPS={turn:"Drag around the pin to turn the shape there; X free\
+s it again",scale:"Drag away from the pin or towards it to scale the shape there; X frees it again"};
+var PinBehaviour=class{reach=REACH;keys=KEYS;constructor(canvas){this.canvas=canvas;this.actions={"?":canvas.
+help.toggle,contextmenu:()=>canvas.openMenu(),p:()=>canvas.room?.alone(),w:()=>canvas.room?.fullScreen()}}get painting(){
+return this.canvas.painting}changed(){this.canvas.redraw()}menu(place,found){this.canvas.openMenu(place,
+found)}tapped(){this.canvas.box.dispatchEvent(new CustomEvent("glid:play",{bubbles:true}))}find(point,reach){
+const{view,marks,shapes,painting}=this.canvas;if(shapes.motion||painting)return null;const mark=markAt(
+marks,point,reach);return mark??ringAt(view,marks,view.toScreen(point),reach/view.unit/2)}encloses(found,e){
+if(found)return null;if(e.shiftKey)return"box";return e.ctrlKey||e.metaKey?"lasso":null}held({mark}){
+const{selected,targets}=this.canvas.marks;const pressed=Number(mark);const moved=selected.includes(pressed)?
+selected:[pressed];return new Map(moved.map(i=>[i,targets[i]]))}cursor(found){this.canvas.box.title=
+this.#tip(found);return found?"grab":"crosshair"}#tip(found){if(!found)return"";if(found.part)return RING_TIPS[found.
+part];const{marks,model}=this.canvas;const mark=Number(found.mark);const name=["Pin",mark+1,model.get(
+"names")[mark]].join(" ").trim();const tip=found.reached?IMAGE_TIP:TARGET_TIP;return`${name}: ${tip}${marks.
+hidden.includes(mark)?COVERED:""}`}};async function copied(text){try{await navigator.clipboard.writeText(text);return true}catch{return copiedBySelection(
 text)}}function copiedBySelection(text){const focused=document.activeElement;const area=document.createElement(
 "textarea");area.value=text;area.setAttribute("readonly","");Object.assign(area.style,{position:"fix\
 ed",top:"0",left:"0",opacity:"0"});document.body.append(area);area.select();try{return document.execCommand(
@@ -292,9 +292,9 @@ disconnect()})}alone(on=!this.#last.alone){const root=this.#root;if(!root||!on&&
 return}root.classList.toggle("glid-alone",on);this.#measure();root.scrollIntoView({block:on?"start":
 "nearest"});this.pad.focus({preventScroll:true});if(!on&&document.fullscreenElement)document.exitFullscreen()}fullScreen(){
 if(document.fullscreenElement){document.exitFullscreen();return}this.#root?.requestFullscreen().catch(
-error=>{save(this.model,{notice:`There is no full screen here: ${error.message}`})})}#escape(e){if(e.
-key!=="Escape"||!this.#last.alone)return;if(this.pad.matches(":active, :has(.glid-menu, :popover-ope\
-n)"))return;e.stopPropagation();this.alone(false)}#measureSoon(){clearTimeout(this.#timer);this.#timer=
+error=>{save(this.model,{notice:`Full screen is not possible here: ${error.message}`})})}#escape(e){
+if(e.key!=="Escape"||!this.#last.alone)return;if(this.pad.matches(":active, :has(.glid-menu, :popove\
+r-open)"))return;e.stopPropagation();this.alone(false)}#measureSoon(){clearTimeout(this.#timer);this.#timer=
 setTimeout(()=>this.#measure(),SETTLE)}#measure(){const root=this.pad.closest(".glid-editor");const column=this.
 pad.closest(".glid-column");const around=column?.parentElement;if(!root||!around||!column.clientWidth)
 return;if(!this.#root)this.observer.observe(around);this.#root=root;const room=this.#roomIn(root,column,

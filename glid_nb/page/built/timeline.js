@@ -51,31 +51,32 @@ M3 4.5h10 M6.5 4.5v-2h3v2 M4.5 4.5l.6 9h5.8l.6-9"};function icon(name){return`<s
 glid-icon"){return make("button",{title,"aria-label":title,className,onclick,innerHTML:icon(name)})}var KERNEL="Played by the kernel (too large for shaders). ";function seconds(time){return`${time.toFixed(
 2)} s`}function noteOn({keyframes,recording,kernel},spans){const bad=spans.find(({reason})=>reason);
 const note=state(keyframes.length,recording,bad?.reason,spans);return kernel&&spans.length&&!bad?KERNEL+
-note:note}function state(count,recording,reason,spans){if(recording)return"Recording: drag a pin; wh\
-at it does becomes keyframes.";if(reason)return reason;if(spans.some(({status})=>status==="computing"))
-return"Proving what lies between…";const last=spans.at(-1);if(!last)return count<2?"Keep a second \
-pose to see what lies between.":"";const least=Math.min(...spans.flatMap(({sigma2})=>sigma2));const lasts=seconds(
-last.end-spans[0].start);return`Proved at every instant of ${lasts}: σ₂ ≥ ${least.toFixed(3)}.`}var EASINGS=[["linear","Even"],["in","Ease in"],["out","Ease out"],["in-out","Ease in, out"]];var REPEATS=[
-["once","Once"],["loop","Loop"],["ping-pong","Ping-pong"]];var ONION="Onion skin of the pose that is\
- edited: outlines of those before (blue) and after (orange)";var KEEP="Keep this pose and go on with\
- a copy; between poses, keep what is seen";var Bar=class{recording=false;onionOn=false;constructor({
-play,keep,act,edit}){this.play=iconButton("play","Play, pause (Space)",play);this.repeat=menu("Play \
-once, in a loop, or there and back",REPEATS,repeat=>act("set_repeat",{repeat}));this.clock=make("spa\
-n",{className:"glid-time",role:"timer"});this.record=iconButton("record","Record: keep the next drag\
- as keyframes",()=>act("record",{on:!this.recording}));this.onion=iconButton("onion",ONION,()=>act("\
-onion",{on:!this.onionOn}));this.keep=make("button",{className:"glid-keep",title:KEEP,onclick:keep});
-const copy=iconButton("copy","Duplicate this pose",()=>edit("duplicate_pose"));this.remove=iconButton(
-"trash","Delete this pose (Delete)",()=>edit("delete_pose"));this.name=make("input",{type:"text","ar\
-ia-label":"Name of the pose",title:"Name of the pose",maxLength:200,onchange:()=>edit("rename_pose",
-{name:this.name.value})});this.easing=menu("How the motion leaves this pose",EASINGS,easing=>edit("s\
-et_easing",{easing}));this.save=iconButton("export","Export the motion",()=>act("export"));this.element=
-make("div",{className:"glid-bar",role:"toolbar","aria-label":"Motion"},...[this.play,this.repeat,this.
-clock,gap()],...[this.record,this.onion,gap()],...[this.keep,copy,this.remove,this.name,this.easing,
-this.save])}update({keyframes,active,repeat,recording,onion,exports},moved){const{name,easing}=keyframes[active];
-const alone=keyframes.length<2;this.repeat.value=repeat;this.easing.value=easing;if(document.activeElement!==
-this.name||moved)this.name.value=name;this.remove.disabled=alone;for(const control of[this.play,this.
-save,this.repeat,this.easing]){control.disabled=alone}this.save.hidden=!exports;this.recording=recording;
-this.onionOn=onion;this.record.ariaPressed=String(recording);this.onion.ariaPressed=String(onion)}showTime(place,end,playing,between){
+note:note}function state(count,recording,reason,spans){if(recording)return"Recording: drag a pin; it\
+s movement becomes keyframes.";if(reason)return reason;if(spans.some(({status})=>status==="computing"))
+return"Proving the motion between poses…";const last=spans.at(-1);if(!last)return count<2?"Keep a \
+second pose to see the motion between them.":"";const least=Math.min(...spans.flatMap(({sigma2})=>sigma2));
+const lasts=seconds(last.end-spans[0].start);return`Proved at every instant of ${lasts}: σ₂ ≥ ${least.
+toFixed(3)}.`}var EASINGS=[["linear","Even"],["in","Ease in"],["out","Ease out"],["in-out","Ease in, out"]];var REPEATS=[
+["once","Once"],["loop","Loop"],["ping-pong","Ping-pong"]];var ONION="Onion skin: outlines of the po\
+ses before (blue) and after (orange) the edited pose";var KEEP="Keep this pose and continue with a c\
+opy; between poses, keep the shown shape";var Bar=class{recording=false;onionOn=false;constructor({play,
+keep,act,edit}){this.play=iconButton("play","Play, pause (Space)",play);this.repeat=menu("Play once,\
+ in a loop, or there and back",REPEATS,repeat=>act("set_repeat",{repeat}));this.clock=make("span",{className:"\
+glid-time",role:"timer"});this.record=iconButton("record","Record: keep the next drag as keyframes",
+()=>act("record",{on:!this.recording}));this.onion=iconButton("onion",ONION,()=>act("onion",{on:!this.
+onionOn}));this.keep=make("button",{className:"glid-keep",title:KEEP,onclick:keep});const copy=iconButton(
+"copy","Duplicate this pose",()=>edit("duplicate_pose"));this.remove=iconButton("trash","Delete this\
+ pose (Delete)",()=>edit("delete_pose"));this.name=make("input",{type:"text","aria-label":"Name of t\
+he pose",title:"Name of the pose",maxLength:200,onchange:()=>edit("rename_pose",{name:this.name.value})});
+this.easing=menu("How the motion leaves this pose",EASINGS,easing=>edit("set_easing",{easing}));this.
+save=iconButton("export","Export the motion",()=>act("export"));this.element=make("div",{className:"\
+glid-bar",role:"toolbar","aria-label":"Motion"},...[this.play,this.repeat,this.clock,gap()],...[this.
+record,this.onion,gap()],...[this.keep,copy,this.remove,this.name,this.easing,this.save])}update({keyframes,
+active,repeat,recording,onion,exports},moved){const{name,easing}=keyframes[active];const alone=keyframes.
+length<2;this.repeat.value=repeat;this.easing.value=easing;if(document.activeElement!==this.name||moved)
+this.name.value=name;this.remove.disabled=alone;for(const control of[this.play,this.save,this.repeat,
+this.easing]){control.disabled=alone}this.save.hidden=!exports;this.recording=recording;this.onionOn=
+onion;this.record.ariaPressed=String(recording);this.onion.ariaPressed=String(onion)}showTime(place,end,playing,between){
 const does=playing?"pause":"play";if(this.play.dataset.does!==does)this.play.innerHTML=icon(does);this.
 play.dataset.does=does;this.clock.textContent=`${place.toFixed(2)} / ${seconds(end)}`;this.keep.textContent=
 between?"Keep it":"Keep"}};function gap(){return make("span",{className:"glid-gap"})}function menu(label,choices,act){

@@ -61,30 +61,31 @@ this.#drawing=requestAnimationFrame(()=>this.#release())}#release(){this.#stop()
 this.#flush()}#stop(){clearTimeout(this.#overdue);clearTimeout(this.#timeout);cancelAnimationFrame(this.#drawing)}};
 function connectNoMoreComms(kernel){const status=kernel?.statusChanged;const connect=status?.connect;
 if(!connect||Object.hasOwn(status,"connect"))return;status.connect=(slot,receiver)=>!String(slot).includes(
-"_cleanSubshells")&&connect.call(status,slot,receiver)}var NUMBERS=[{name:"threshold",label:"Threshold",unit:"0–1",title:"Least value of what is foregrou\
-nd",end:1,power:1,digits:3},{name:"smoothing",label:"Smoothing",unit:"px",title:"Blur before the out\
-line is taken",end:.01,power:2,digits:1},{name:"offset",label:"Offset",unit:"px",title:"How far the \
-cage stays from the shape",end:.05,power:1.5,digits:1},{name:"simplify",label:"Simplify",unit:"px",title:"\
+"_cleanSubshells")&&connect.call(status,slot,receiver)}var NUMBERS=[{name:"threshold",label:"Threshold",unit:"0–1",title:"Smallest value of the foregroun\
+d",end:1,power:1,digits:3},{name:"smoothing",label:"Smoothing",unit:"px",title:"Blur before tracing \
+the outline",end:.01,power:2,digits:1},{name:"offset",label:"Offset",unit:"px",title:"How far the ca\
+ge stays from the shape",end:.05,power:1.5,digits:1},{name:"simplify",label:"Simplify",unit:"px",title:"\
 How far simplification may move the outline",end:.03,power:1.5,digits:1},{name:"min_hole_area",label:"\
-Least hole",unit:"px²",title:"Smaller holes are filled",end:.1,power:4,digits:0}];var STEPS=1e3;var NumberControl=class{#most=1;#gesture=null;constructor(option,choose){
-const{name,label,unit,title,digits}=option;this.option=option;this.slider=make("input",{type:"range",
-min:0,max:STEPS,step:1,"aria-label":label});this.number=make("input",{type:"number",className:"glid-\
-number",min:0,step:"any",placeholder:"auto","aria-label":`${label} (${unit})`});this.auto=make("butt\
-on",{className:"glid-auto",title:"Let the tracer choose"},"auto");this.element=make("div",{className:"\
-glid-control",title,"data-name":name},make("label",{},label),this.auto,this.number,make("span",{className:"\
-glid-unit"},unit),this.slider);this.slider.addEventListener("input",()=>{this.#gesture??=Math.random().
-toString(36);const value=valueAt(this.#share,this.#most,option);this.number.value=value.toFixed(digits);
-this.auto.ariaPressed="false";choose({[name]:value},this.#gesture)});this.slider.addEventListener("c\
-hange",()=>{this.#gesture=null});this.number.addEventListener("change",()=>{const{value}=this.number;
-choose({[name]:value===""?null:Number(value)})});this.auto.addEventListener("click",()=>choose({[name]:null}))}get#share(){
-return Number(this.slider.value)/STEPS}update(shown){const{name,digits}=this.option;const value=shown.
-options[name];const seen=value??shown.automatic?.[name]??null;this.#most=endOf(this.option,shown);this.
-auto.ariaPressed=String(value===null);if(this.#gesture)return;this.number.value=seen===null?"":String(
-Number(seen.toFixed(digits)));if(seen===valueAt(this.#share,this.#most,this.option))return;this.slider.
-value=String(Math.round(STEPS*shareAt(seen,this.#most,this.option)))}};function endOf({unit,end},{size,
-component_area:area}){const whole={"0–1":1,px:Math.max(...size??[0]),"px²":area}[unit];return Math.
-max(end*whole,1e-9)}function valueAt(share,most,{power,digits}){return Number((most*share**power).toFixed(
-digits))}function shareAt(value,most,{power}){return Math.min(Math.max(value/most,0),1)**(1/power)}function statusOf(shown,refusal,busy){if(refusal)return{kind:"bad",text:refusal};if(busy)return{kind:"\
+Smallest hole",unit:"px²",title:"Smaller holes are filled",end:.1,power:4,digits:0}];var STEPS=1e3;
+var NumberControl=class{#most=1;#gesture=null;constructor(option,choose){const{name,label,unit,title,
+digits}=option;this.option=option;this.slider=make("input",{type:"range",min:0,max:STEPS,step:1,"ari\
+a-label":label});this.number=make("input",{type:"number",className:"glid-number",min:0,step:"any",placeholder:"\
+auto","aria-label":`${label} (${unit})`});this.auto=make("button",{className:"glid-auto",title:"Let \
+the tracer choose"},"auto");this.element=make("div",{className:"glid-control",title,"data-name":name},
+make("label",{},label),this.auto,this.number,make("span",{className:"glid-unit"},unit),this.slider);
+this.slider.addEventListener("input",()=>{this.#gesture??=Math.random().toString(36);const value=valueAt(
+this.#share,this.#most,option);this.number.value=value.toFixed(digits);this.auto.ariaPressed="false";
+choose({[name]:value},this.#gesture)});this.slider.addEventListener("change",()=>{this.#gesture=null});
+this.number.addEventListener("change",()=>{const{value}=this.number;choose({[name]:value===""?null:Number(
+value)})});this.auto.addEventListener("click",()=>choose({[name]:null}))}get#share(){return Number(this.
+slider.value)/STEPS}update(shown){const{name,digits}=this.option;const value=shown.options[name];const seen=value??
+shown.automatic?.[name]??null;this.#most=endOf(this.option,shown);this.auto.ariaPressed=String(value===
+null);if(this.#gesture)return;this.number.value=seen===null?"":String(Number(seen.toFixed(digits)));
+if(seen===valueAt(this.#share,this.#most,this.option))return;this.slider.value=String(Math.round(STEPS*
+shareAt(seen,this.#most,this.option)))}};function endOf({unit,end},{size,component_area:area}){const whole={
+"0–1":1,px:Math.max(...size??[0]),"px²":area}[unit];return Math.max(end*whole,1e-9)}function valueAt(share,most,{
+power,digits}){return Number((most*share**power).toFixed(digits))}function shareAt(value,most,{power}){
+return Math.min(Math.max(value/most,0),1)**(1/power)}function statusOf(shown,refusal,busy){if(refusal)return{kind:"bad",text:refusal};if(busy)return{kind:"\
 busy",text:"Working…"};if(!shown.size)return{kind:"idle",text:"No picture yet"};if(shown.problems.
 length){const kept="This is not a valid cage; the last valid cage is kept";return{kind:"bad",text:shown.
 loops.length?kept:"There is no cage yet"}}const text=cageOf(shown)+moreOn(shown);const{doubt}=shown;
@@ -93,13 +94,13 @@ loops}){return`Cage with ${loops.flat().length} vertices and ${holesIn(loops.len
 discarded,component,n_components:count}){if(discarded)return" · your edits were lost with the old ou\
 tline; Undo brings them back";if(count<2)return"";const which=component?`component ${component+1}`:"\
 the largest";return` · ${which} of ${count} components`}function holesIn(count){if(count<1)return"n\
-o holes";return count===1?"1 hole":`${count} holes`}var METHODS=[["auto","Auto","Chosen for the picture"],["alpha","Alpha","What is not transparent"],["\
-threshold","Brightness","What is darker, or brighter, than a threshold"],["color","Colour","What dif\
-fers from the background's colour"],["scribbles","Scribbles","What painted strokes mark"]];var OUTLINES=[
-["foreground","Paint over it","A few strokes over the shape, then over what is around it"],["polygon",
-"Draw its outline","Click corner after corner, or draw around the shape"],["rectangle","Rectangle","\
-Drag a rectangle"]];var MOST_LISTED=50;var LARGE=1e4;var Panel=class{constructor(act,stage){this.act=
-act;this.stage=stage;this.numbers=NUMBERS.map(option=>{return new NumberControl(option,(changes,gesture)=>this.#choose(
+o holes";return count===1?"1 hole":`${count} holes`}var METHODS=[["auto","Auto","Chosen for the picture"],["alpha","Alpha","Pixels that are not transpar\
+ent"],["threshold","Brightness","Pixels darker, or brighter, than a threshold"],["color","Colour","P\
+ixels that differ from the background's colour"],["scribbles","Scribbles","Pixels like those under p\
+ainted strokes"]];var OUTLINES=[["foreground","Paint over it","A few strokes over the shape, then ov\
+er the background"],["polygon","Draw its outline","Click the corners in turn, or draw around the sha\
+pe"],["rectangle","Rectangle","Drag a rectangle"]];var MOST_LISTED=50;var LARGE=1e4;var Panel=class{constructor(act,stage){
+this.act=act;this.stage=stage;this.numbers=NUMBERS.map(option=>{return new NumberControl(option,(changes,gesture)=>this.#choose(
 changes,gesture))});this.methods=METHODS.map(([method,label,title])=>{const onclick=()=>this.#choose(
 {method});return make("button",{title,role:"radio","data-value":method,onclick},label)});this.invert=
 make("input",{type:"checkbox",onchange:()=>this.#choose({invert:this.invert.checked})});this.inverts=
@@ -277,19 +278,19 @@ disk(pen,[x,y],7,"white",color,1.5);const across=[[x-3.5,y],[x+3.5,y]];const upr
 3.5]];tracePath(pen,[across,upright],false);pen.stroke()}var TOOLS={edit:{label:"Edit vertices and holes (V)",hint:"Drag a vertex · double-click an edge to a\
 dd one · right-click a vertex to delete it · click a hole to drop it"},foreground:{label:"Paint ov\
 er the shape (B)",hint:"Paint over the shape"},background:{label:"Paint over the background (N)",hint:"\
-Paint over what is around the shape"},color:{label:"Pick the background's colour (I)",hint:"Click a \
-pixel that shows the background's colour"},component:{label:"Pick the component to trace (C)",hint:"\
-Click the part of the picture to trace"},polygon:{label:"Draw the outline by hand (P)",hint:"Click c\
-orner after corner, or draw around the shape · double-click or Enter closes it · Esc starts anew"},
-rectangle:{label:"Draw a rectangle (R)",hint:"Drag a rectangle over the shape"}};var TOOL_NAMES=["ed\
-it","foreground","background","color","component","polygon","rectangle"];var HELP=[["Outline",[["V",
-"edit: drag a vertex, double-click an edge to add one, click a hole to drop or keep it"],["Right-cli\
-ck, Delete","remove a vertex"],["[ ]","select the vertex before, the next vertex"],["Arrow keys","nu\
-dge the selected vertex, with Shift farther"],["Ctrl+Z, Ctrl+Shift+Z","undo, redo"]]],["By hand",[["\
-B, N","paint over the shape, over the background"],["I, C","pick the background's colour, the compon\
-ent"],["P, R","draw the outline, a rectangle; Enter closes an outline, Esc gives it up"]]],["View",[
-["Wheel, + -, F","zoom after a click on the picture, fit the picture"],["Drag beside the outline","m\
-ove the view"]]]];var REACH={mouse:9,pen:12,touch:18};var ZOOM=1.25;var MARGIN=24;var HINT=8;var CALLOUT=24;var EDGE=8;
+Paint over the background around the shape"},color:{label:"Pick the background's colour (I)",hint:"C\
+lick a pixel that shows the background's colour"},component:{label:"Pick the component to trace (C)",
+hint:"Click the part of the picture to trace"},polygon:{label:"Draw the outline by hand (P)",hint:"C\
+lick the corners in turn, or draw around the shape · double-click or Enter closes it · Esc starts ov\
+er"},rectangle:{label:"Draw a rectangle (R)",hint:"Drag a rectangle over the shape"}};var TOOL_NAMES=[
+"edit","foreground","background","color","component","polygon","rectangle"];var HELP=[["Outline",[["\
+V","edit: drag a vertex, double-click an edge to add one, click a hole to drop or keep it"],["Right-\
+click, Delete","remove a vertex"],["[ ]","select the vertex before, the next vertex"],["Arrow keys",
+"nudge the selected vertex, with Shift farther"],["Ctrl+Z, Ctrl+Shift+Z","undo, redo"]]],["By hand",
+[["B, N","paint over the shape, over the background"],["I, C","pick the background's colour, the com\
+ponent"],["P, R","draw the outline, a rectangle; Enter closes an outline, Esc discards it"]]],["View",
+[["Wheel, + -, F","zoom after a click on the picture, fit the picture"],["Drag beside the outline","\
+move the view"]]]];var REACH={mouse:9,pen:12,touch:18};var ZOOM=1.25;var MARGIN=24;var HINT=8;var CALLOUT=24;var EDGE=8;
 var MOST_ZOOM=40;var FARTHEST=1e3;var COLORS=["accent","accent-soft","warn","warn-soft","faint","vei\
 l","foreground","background","check-light","check-dark"];var KEYS=/^(Arrow\w+|Delete|Backspace|Escape|Enter|[[\]vbnicpr])$/i;
 var Stage=class{canvas=make("canvas",{className:"glid-canvas",role:"application","aria-label":"Pictu\

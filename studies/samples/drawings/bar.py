@@ -1,4 +1,4 @@
-"""A checkered bar with draughtsmen on it: no holes, the plainest thing to bend."""
+"""A checkered bar with draughtsmen on it: no holes, the simplest shape to bend."""
 
 import numpy as np
 from numpy.typing import NDArray

@@ -17,7 +17,7 @@ ARM = [(1.2, 0.75, 0.66), (2.9, 0.78, 0.6), (4.6, -0.4, 0.54), (3.7, -1.75, 0.46
        (2.6, -2.2, 0.42)]  # fmt: skip
 LEG = [(0.95, -2.7, 1.05), (2.0, -4.1, 0.86), (2.0, -5.15, 0.62), (1.8, -5.9, 0.45)]
 TORSO = [(0, 1.6), (1.3, 1.15), (1.65, -0.2), (2.05, -1.8), (1.85, -3.2), (0, -3.9)]
-# the face is drawn upright, then lifted and form.turned about the neck
+# the face is drawn upright, then lifted and turned about the neck
 SKULL = [(0, 5.4), (1.6, 5.25), (2.95, 4.35), (3.2, 3.2), (2.2, 2.2), (0, 1.85)]
 TILT, LIFT, NECK = 7, 0.35, (0, 2.2)
 # x, y and size
@@ -85,7 +85,7 @@ def foot() -> form.Shape:
 
 
 def nod(shape: form.Shape) -> form.Shape:
-    """Bring a part of the upright face to its place on the tilted head."""
+    """Move a part of the upright face to its place on the tilted head."""
     return form.turned(form.moved(shape, 0, LIFT), TILT, NECK)
 
 

@@ -71,20 +71,20 @@ def draw() -> NDArray[np.uint8]:
 
 
 def lobe(vein: form.Points) -> form.Shape:
-    """The part of the blade about a side vein, widest before its end."""
+    """The part of the blade around a side vein, widest before its end."""
     places, _, _ = form.along(vein, [0.0, 0.25, 0.5, 0.75, 0.9, 0.98])
     return form.tube(np.column_stack([places, [0.5, 0.85, 0.95, 0.92, 0.72, 0.42]]))
 
 
 def window(low: form.Points, high: form.Points) -> form.Shape:
-    """A hole half way between two veins, drawn out along them."""
+    """A long hole half way between two veins, parallel to them."""
     at = [0.3, 0.4, 0.47]
     middle = (form.along(low, at)[0] + form.along(high, at)[0]) / 2
     return form.tube(np.column_stack([middle, [0.38, 0.47, 0.4]]))
 
 
 def fold(sheet: Sheet, vein: form.Points, blade: form.Shape) -> None:
-    """The blade falls off on the lower side of a vein and catches light on the upper."""
+    """Shade the lower side of a vein and lighten the upper side."""
     widths = [0.1, 0.3, 0.3, 0.1]
     dark = [(x + 0.1, y - 0.34, r) for (x, y), r in zip(vein, widths, strict=True)]
     light = [(x - 0.1, y + 0.34, r) for (x, y), r in zip(vein, widths, strict=True)]

@@ -103,7 +103,7 @@ def ribbon(sheet: Sheet, pot: form.Shape) -> None:
 
 
 def strip(x: form.Floats, top: float, foot: float) -> Polygon:
-    """What lies between two levels that sag like hoops round the pot."""
+    """The part between two levels that sag like hoops round the pot."""
     sag = 0.5 * (1 - (x / 4.2) ** 2)
     upper, lower = np.column_stack([x, top - sag]), np.column_stack([x, foot - sag])
     return Polygon(np.concatenate([upper, lower[::-1]]))

@@ -9,11 +9,11 @@ export const HELP = [
     [
       ["Click the shape", "pin a point"],
       ["Drag a pin, or the shape", "move it there; the shape follows, and never folds"],
-      ["Right-click, long touch, Menu key", "what can be done with a pin, or with the shape there"],
+      ["Right-click, long touch, Menu key", "a menu for the pin or the shape there"],
       ["Delete", "remove the selected pins; with Shift keep the shape"],
       ["Ring around a pin: drag it, or its knob", "turn the shape there, scale it there"],
-      ["< >, + -, X", "turn, scale; leave both free again"],
-      ["Page Down, Page Up, [ ]", "selected pins and what is around them go back, come forward"],
+      ["< >, + -, X", "turn, scale; free both again"],
+      ["Page Down, Page Up, [ ]", "send selected pins and their surroundings back, forward"],
       ["Arrow keys", "nudge selected pins, with Shift farther; else move a cursor"],
       ["Enter", "show the cursor; pin or select there"],
     ],
@@ -40,7 +40,7 @@ export const HELP = [
       ["0", "back to the undeformed shape"],
     ],
   ],
-  ["Stiff areas", [["B, E", "paint what should stay as it is, erase it; Esc lays the brush down"]]],
+  ["Stiff areas", [["B, E", "paint stiff areas, erase them; Esc ends painting"]]],
   [
     "View",
     [

@@ -9,12 +9,12 @@ import { markAt, ringAt } from "./marks.js";
 const REACH = { mouse: 13, pen: 16, touch: 26 }; // CSS pixels
 export const KEYS = /^(Arrow\w+|Page\w+|Delete|Backspace|Escape|Enter|[0fa,.[\]<>+=xmbe-])$/i;
 const TARGET_TIP =
-  "where it should be. Drag it; a right click shows what else; Shift-click selects several";
-const IMAGE_TIP = "where the shape has got to. The cyan disk is where it should be";
+  "where it should be. Drag it; a right click shows more; Shift-click selects several";
+const IMAGE_TIP = "where the shape is now. The cyan disk is where it should be";
 const COVERED = ". Another part of the shape covers it";
 const RING_TIPS = {
-  turn: "Drag around the pin to turn the shape there; X leaves it free again",
-  scale: "Drag away from the pin or towards it to scale the shape there; X leaves it free again",
+  turn: "Drag around the pin to turn the shape there; X frees it again",
+  scale: "Drag away from the pin or towards it to scale the shape there; X frees it again",
 };
 
 /** @implements {Behaviour} */

@@ -66,7 +66,7 @@ export class Room {
       return;
     }
     this.#root?.requestFullscreen().catch((error) => {
-      save(this.model, { notice: `There is no full screen here: ${error.message}` });
+      save(this.model, { notice: `Full screen is not possible here: ${error.message}` });
     });
   }
 

@@ -31,9 +31,8 @@ const REPEATS = [
   ["loop", "Loop"],
   ["ping-pong", "Ping-pong"],
 ];
-const ONION =
-  "Onion skin of the pose that is edited: outlines of those before (blue) and after (orange)";
-const KEEP = "Keep this pose and go on with a copy; between poses, keep what is seen";
+const ONION = "Onion skin: outlines of the poses before (blue) and after (orange) the edited pose";
+const KEEP = "Keep this pose and continue with a copy; between poses, keep the shown shape";
 
 export class Bar {
   recording = false;

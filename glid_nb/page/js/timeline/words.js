@@ -26,11 +26,12 @@ export function noteOn({ keyframes, recording, kernel }, spans) {
  * @param {Span[]} spans
  */
 function state(count, recording, reason, spans) {
-  if (recording) return "Recording: drag a pin; what it does becomes keyframes.";
+  if (recording) return "Recording: drag a pin; its movement becomes keyframes.";
   if (reason) return reason;
-  if (spans.some(({ status }) => status === "computing")) return "Proving what lies between…";
+  if (spans.some(({ status }) => status === "computing"))
+    return "Proving the motion between poses…";
   const last = spans.at(-1);
-  if (!last) return count < 2 ? "Keep a second pose to see what lies between." : "";
+  if (!last) return count < 2 ? "Keep a second pose to see the motion between them." : "";
   const least = Math.min(...spans.flatMap(({ sigma2 }) => sigma2));
   const lasts = seconds(last.end - spans[0].start);
   return `Proved at every instant of ${lasts}: σ₂ ≥ ${least.toFixed(3)}.`;

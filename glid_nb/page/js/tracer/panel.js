@@ -14,15 +14,15 @@ import { holesIn } from "./words.js";
 /** @type {[method: string, label: string, title: string][]} */
 const METHODS = [
   ["auto", "Auto", "Chosen for the picture"],
-  ["alpha", "Alpha", "What is not transparent"],
-  ["threshold", "Brightness", "What is darker, or brighter, than a threshold"],
-  ["color", "Colour", "What differs from the background's colour"],
-  ["scribbles", "Scribbles", "What painted strokes mark"],
+  ["alpha", "Alpha", "Pixels that are not transparent"],
+  ["threshold", "Brightness", "Pixels darker, or brighter, than a threshold"],
+  ["color", "Colour", "Pixels that differ from the background's colour"],
+  ["scribbles", "Scribbles", "Pixels like those under painted strokes"],
 ];
 /** @type {[tool: Tool, label: string, title: string][]} */
 const OUTLINES = [
-  ["foreground", "Paint over it", "A few strokes over the shape, then over what is around it"],
-  ["polygon", "Draw its outline", "Click corner after corner, or draw around the shape"],
+  ["foreground", "Paint over it", "A few strokes over the shape, then over the background"],
+  ["polygon", "Draw its outline", "Click the corners in turn, or draw around the shape"],
   ["rectangle", "Rectangle", "Drag a rectangle"],
 ];
 const MOST_LISTED = 50; // components

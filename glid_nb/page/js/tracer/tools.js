@@ -14,7 +14,7 @@ export const TOOLS = {
   foreground: { label: "Paint over the shape (B)", hint: "Paint over the shape" },
   background: {
     label: "Paint over the background (N)",
-    hint: "Paint over what is around the shape",
+    hint: "Paint over the background around the shape",
   },
   color: {
     label: "Pick the background's colour (I)",
@@ -27,8 +27,8 @@ export const TOOLS = {
   polygon: {
     label: "Draw the outline by hand (P)",
     hint:
-      "Click corner after corner, or draw around the shape · " +
-      "double-click or Enter closes it · Esc starts anew",
+      "Click the corners in turn, or draw around the shape · " +
+      "double-click or Enter closes it · Esc starts over",
   },
   rectangle: { label: "Draw a rectangle (R)", hint: "Drag a rectangle over the shape" },
 };
@@ -64,7 +64,7 @@ export const HELP = [
     [
       ["B, N", "paint over the shape, over the background"],
       ["I, C", "pick the background's colour, the component"],
-      ["P, R", "draw the outline, a rectangle; Enter closes an outline, Esc gives it up"],
+      ["P, R", "draw the outline, a rectangle; Enter closes an outline, Esc discards it"],
     ],
   ],
   [
