@@ -121,6 +121,7 @@ def _result(
         folded_area=folded_area,
         undecided_area=open_area,
         determinants=values,
+        signs=signs,
         outlines=boxes[:, [[0, 1], [2, 1], [2, 3], [0, 3]]],
     )
 
@@ -252,6 +253,7 @@ def measured(function: Function, bounds: Bounds) -> Audit:
         folded_area=0.0,
         undecided_area=float(_area(boxes).sum()),
         determinants=quotients,
+        signs=np.zeros(len(quotients), np.int8),
         outlines=boxes[:, [[0, 1], [2, 1], [2, 3], [0, 3]]],
     )
 

@@ -9,6 +9,7 @@ displacements of a grid. All inputs are floats or integers, which are taken as t
 """
 
 import math
+import sys
 from collections.abc import Sequence
 from typing import NamedTuple
 
@@ -92,14 +93,15 @@ def integers(arrays: Sequence[Array]) -> tuple[list[NDArray[np.object_]], int]:
 
 
 def as_float(number: int, exponent: int) -> float:
-    """number * 2**exponent, rounded; the sign is kept where the value underflows."""
+    """number * 2**exponent, rounded. The sign is kept where it underflows, and the largest float
+    stands for what overflows."""
     if not number:
         return 0.0
     spare = max(number.bit_length() - 1000, 0)
     try:
         value = math.ldexp(float(number >> spare), exponent + spare)
     except OverflowError:
-        return math.copysign(math.inf, number)
+        return math.copysign(sys.float_info.max, number)
     return value or math.copysign(_TINIEST, number)
 
 

@@ -103,6 +103,7 @@ def audit_field(field: Array, spacing: tuple[float, float] = (1.0, 1.0)) -> Audi
         text = f"It is free of folds, proved on {w + 1} x {h + 1} pixels; "
         text += f"the smallest determinant is {smallest:.3g}, at the pixel {at(where)}."
     bound = max(_per_area(at_least, spacing) * (1 - 1e-15), 0.0)
+    signs = np.sign(least).astype(np.int8)
     with np.errstate(over="ignore", under="ignore"):
         least = least / spacing[0] / spacing[1]
     return Audit(
@@ -119,6 +120,7 @@ def audit_field(field: Array, spacing: tuple[float, float] = (1.0, 1.0)) -> Audi
         folded_area=area,
         undecided_area=0.0,
         determinants=least,
+        signs=signs,
     )
 
 

@@ -105,6 +105,7 @@ def audit_mesh(source: Array, triangles: NDArray[np.int64], images: Array) -> Au
         folded_area=area,
         undecided_area=0.0,
         determinants=values,
+        signs=np.sign(values).astype(np.int8),
         outlines=corners,
     )
 

@@ -1,7 +1,11 @@
 """The result of an audit."""
 
+import math
 from dataclasses import dataclass, field
 from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import NDArray
 
 from glid_nb._arrays import Floats, Rebuilt, frozen
 from glid_nb._errors import InputError
@@ -47,11 +51,15 @@ class Audit(Rebuilt):
     determinants: Floats = field(repr=False)
     """The smallest determinant of each piece: (h - 1, w - 1) of a field, (p,) of others. For a
     function, one determinant inside each box."""
+    signs: NDArray[np.int8] = field(repr=False)
+    """The proved sign of each piece: 1 if its determinant is positive everywhere, -1 if it is
+    negative somewhere (of a box: everywhere). 0 is exact for fields and meshes; a box with 0 is
+    undecided."""
     outlines: Floats | None = field(repr=False, default=None)
     """(p, k, 2) corners, in the source, of the pieces. None for a field, whose cells are a grid."""
 
     def __post_init__(self) -> None:
-        vars(self).update(determinants=frozen(self.determinants))
+        vars(self).update(determinants=frozen(self.determinants), signs=frozen(self.signs))
         if self.outlines is not None:
             vars(self).update(outlines=frozen(self.outlines))
 
@@ -65,7 +73,13 @@ class Audit(Rebuilt):
         names = ("verdict", "kind", "message", "point", "determinant", "smallest", "where")
         names += ("lower_bound", "folded", "pieces", "folded_area", "undecided_area")
         values = {name: getattr(self, name) for name in names}
-        return {k: list(v) if isinstance(v, tuple) else v for k, v in values.items()}
+        return {name: _for_json(value) for name, value in values.items()}
+
+
+def _for_json(value: Any) -> Any:
+    if isinstance(value, tuple):
+        return list(value)
+    return None if isinstance(value, float) and not math.isfinite(value) else value
 
 
 def at(point: tuple[float, float]) -> str:

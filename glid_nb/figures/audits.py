@@ -37,12 +37,12 @@ def folds(audit: Audit) -> NotebookFigure:
     norm = Normalize(0.0, top if top > 0 else 1.0)
     look: Any = {"norm": norm, "cmap": style.distortion_colors().reversed()}
     if audit.outlines is None:
-        drawn = _draw_field(axes, audit.determinants, look)
+        drawn = _draw_field(axes, audit, look)
     else:
         drawn = PolyCollection([*audit.outlines], array=values, edgecolors="face", **look)
         drawn.set(linewidth=0.2, rasterized=True)
         axes.add_collection(drawn)
-        _hatch(axes, audit.outlines[audit.determinants < 0])
+        _hatch(axes, audit.outlines[audit.signs < 0])
     ring = {"markersize": 13, "fillstyle": "none", "color": INK, "clip_on": False}
     where = audit.point or audit.where
     axes.plot(*where, "o", path_effects=drawing.ON_WHITE, **ring)
@@ -67,18 +67,19 @@ def _folding(audit: Audit) -> str:
     return f"folds: {audit.folded:,} of {audit.pieces:,} {unit}"
 
 
-def _draw_field(axes: Axes, values: Floats, look: Any) -> Any:
+def _draw_field(axes: Axes, audit: Audit, look: Any) -> Any:
+    values, negative = audit.determinants, audit.signs < 0
     h, w = values.shape
     extent = (0, w, h, 0)
     drawn = axes.imshow(values, extent=extent, interpolation="nearest", **look)
-    folded = np.ma.masked_equal((values < 0).astype(np.uint8), 0)
+    folded = np.ma.masked_equal(negative.astype(np.uint8), 0)
     if folded.count():
         colors = ListedColormap([to_rgba(VERMILION)])
         axes.imshow(folded, cmap=colors, extent=extent, interpolation="nearest")
         if min(h, w) > 1:  # contours need two rows and columns
             x, y = np.arange(w) + 0.5, np.arange(h) + 0.5
             hatch: Any = {"levels": [0.5, 1.5], "colors": "none", "hatches": ["/////"]}
-            axes.contourf(x, y, (values < 0).astype(float), **hatch)
+            axes.contourf(x, y, negative.astype(float), **hatch)
     return drawn
 
 
