@@ -60,8 +60,8 @@ def determinants(edges: Edges, base: Pair = (0.0, 0.0)) -> Determinants:
         some = doubtful[first : first + _BATCH]
         whole, exponent = exactly(edges.taken(some), base)
         values[some] = [as_float(number, exponent) for number in whole]
-        with np.errstate(invalid="ignore"):
-            errors[some] = np.where(values[some] == 0, 0.0, 4 * np.spacing(np.abs(values[some])))
+        sizes = np.abs(values[some])
+        errors[some] = np.where(sizes == 0, 0.0, 2.0**-50 * sizes + 4 * _TINIEST)
     return Determinants(values, errors, len(doubtful))
 
 

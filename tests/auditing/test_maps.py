@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from typing import Any
 
 import numpy as np
@@ -12,6 +13,12 @@ from skimage.transform import ThinPlateSplineTransform
 
 import glid_nb as glid
 from glid_nb.auditing.splines import thin_plate
+
+pytestmark = [
+    pytest.mark.slow,
+    # scikit-image 0.26 calls what SciPy 1.18 deprecates.
+    pytest.mark.filterwarnings("ignore:.*distance_matrix:DeprecationWarning"),
+]
 
 Array = NDArray[Any]
 BOX = (0.0, 0.0, 10.0, 10.0)
@@ -77,15 +84,15 @@ def test_smaller_boxes_have_narrower_enclosures_even_at_a_centre() -> None:
     for size in (1e-1, 1e-3, 1e-5, 1e-7):
         box = np.array([[*(GRID[5] - size), *(GRID[5] + size)]])
         widths.append(spline.enclose(box).radius.max())
-    assert all(after < before / 30 for before, after in zip(widths, widths[1:], strict=False))
+    assert all(after < before / 30 for before, after in itertools.pairwise(widths))
 
 
 @pytest.mark.parametrize("kind", SPLINES)
-@pytest.mark.parametrize("size", [0.2, 0.5, 1.2])
+@pytest.mark.parametrize("size", [0.2, 1.2])
 def test_a_spline_is_decided_as_samples_are(kind: str, size: float) -> None:
     function = SPLINES[kind](moved(size))
-    audit = glid.audit(function, bounds=BOX)
-    dense = np.stack(np.meshgrid(*[np.linspace(0, 10, 201)] * 2), axis=-1).reshape(-1, 2)
+    audit = glid.audit(function, bounds=BOX, budget=40_000)
+    dense = np.stack(np.meshgrid(*[np.linspace(0, 10, 101)] * 2), axis=-1).reshape(-1, 2)
     sampled = np.linalg.det(jacobians(function, dense))
     if sampled.min() < -0.01:
         assert audit.verdict == "folds"

@@ -29,7 +29,7 @@ NUMBER = st.floats(allow_nan=False, allow_infinity=False) | st.integers(-3, 3).m
 
 
 @given(st.lists(st.tuples(NUMBER, NUMBER), min_size=3, max_size=3))
-@settings(max_examples=150)
+@settings(max_examples=80)
 def test_every_sign_is_that_of_rational_numbers(points: list[tuple[float, float]]) -> None:
     audit = glid.audit(points, source=UNIT, triangles=TRIANGLE)
     assert audit.verdict == verdict_of(exact(points))
