@@ -101,8 +101,8 @@ def as_float(number: int, exponent: int) -> float:
     try:
         value = math.ldexp(float(number >> spare), exponent + spare)
     except OverflowError:
-        return math.copysign(sys.float_info.max, number)
-    return value or math.copysign(_TINIEST, number)
+        return sys.float_info.max if number > 0 else -sys.float_info.max
+    return value or (_TINIEST if number > 0 else -_TINIEST)
 
 
 def as_floats(array: Array) -> Floats:

@@ -4,7 +4,6 @@ A triangle's determinant is the ratio of the areas of its image and its source. 
 not suffice: the images of the triangles round an interior vertex may wind twice round it.
 """
 
-import math
 from typing import Any
 
 import numpy as np
@@ -134,7 +133,7 @@ def _smallest(
     quotient = (sign * above[least] << spread) // (sign * below[least])
     value = exact.as_float(quotient, high - low - spread)
     if not quotient and above[least]:
-        value = math.copysign(5e-324, above[least] * sign)
+        value = 5e-324 if above[least] * sign > 0 else -5e-324
     return int(few[least]), value
 
 

@@ -175,7 +175,7 @@ def test_nrrd_files(tmp_path: Path) -> None:
     np.testing.assert_array_equal(read_warp(tmp_path / "plain.nrrd").array, values)
     header = {"kinds": ["vector", "domain", "domain", "domain"]}
     header |= {"space": "left-posterior-superior"}
-    header |= {"space directions": [None, [0.5, 0, 0], [0, -2, 0], [0, 0, 1]]}
+    header |= {"space directions": np.array([[np.nan] * 3, [0.5, 0, 0], [0, -2, 0], [0, 0, 1]])}
     nrrd.write(str(tmp_path / "space.nrrd"), data[..., None], header)
     warp = read_warp(tmp_path / "space.nrrd")
     np.testing.assert_array_equal(warp.array, values)

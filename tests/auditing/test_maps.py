@@ -17,7 +17,7 @@ from glid_nb.auditing.splines import thin_plate
 pytestmark = [
     pytest.mark.slow,
     # scikit-image 0.26 calls what SciPy 1.18 deprecates.
-    pytest.mark.filterwarnings("ignore:.*distance_matrix:DeprecationWarning"),
+    pytest.mark.filterwarnings("ignore:.*(distance_matrix|minkowski_distance):DeprecationWarning"),
 ]
 
 Array = NDArray[Any]
