@@ -89,7 +89,8 @@ def audit_field(field: Array, spacing: tuple[float, float] = (1.0, 1.0)) -> Audi
         some = corners[:, (corners < 0).any(axis=0)]
         folded += some.shape[1]
         area += float(_negative_share(some).sum())
-        at_least = min(at_least, float((found.values - found.errors).min()))
+        with np.errstate(over="ignore"):
+            at_least = min(at_least, float((found.values - found.errors).min()))
     value, where = _smallest(field, least, spacing)
     smallest, total = _per_area(value, spacing), h * w
     verdict: Verdict = "folds" if folded else ("collapses" if value == 0 else "proved")
