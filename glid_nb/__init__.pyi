@@ -18,6 +18,8 @@ from .imaging import trace as trace
 from .imaging.render import render as render
 
 # Maps, and the proof that they do not fold
+from .auditing import Audit as Audit
+from .auditing import audit as audit
 from .certificate import Certificate as Certificate
 from .certificate import certify as certify
 from .certificate import certify_step as certify_step

@@ -33,6 +33,7 @@ GIVES = {
     "course": "all chapters of the course",
     "check": "glid-check, an independent program that verifies proofs",
     "video": "MP4 and WebM",
+    "imaging": "displacement fields from NIfTI and NRRD files, for glid-nb audit",
     "compare": "other methods to compare with (SLIM, AQP, bounded distortion)",
     "cuda12": "JAX on an NVIDIA GPU, CUDA 12",
     "cuda13": "JAX on an NVIDIA GPU, CUDA 13",

@@ -8,10 +8,10 @@ from collections.abc import Sequence
 from typing import Any, NoReturn
 
 import glid_nb
-from glid_nb.cli import animate, demo, doctor, lab, render, samples, solve, trace
+from glid_nb.cli import animate, audit, demo, doctor, lab, render, samples, solve, trace
 from glid_nb.cli.output import BAD_INPUT, one_line
 
-COMMANDS = (demo, trace, solve, render, animate, samples, lab, doctor)
+COMMANDS = (demo, trace, solve, render, animate, audit, samples, lab, doctor)
 
 
 class OneLineParser(argparse.ArgumentParser):
@@ -51,7 +51,8 @@ def _escape_what_cannot_be_printed() -> None:
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Run one command. The exit code is 0, 1 for bad input, 2 for wrong usage, 130 after Ctrl-C.
+    """Run one command. The exit code is 0, 1 for bad input, 2 for wrong usage, 3 for an audited
+    warp that is not proved, 130 after Ctrl-C.
 
     ``arguments`` are the words after ``glid-nb``, by default those of the process.
     """
@@ -61,7 +62,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     try:
         with warnings.catch_warnings():
             warnings.showwarning = _tell
-            chosen.run(chosen)
+            code = chosen.run(chosen)
     except KeyboardInterrupt:
         print("glid-nb: interrupted", file=sys.stderr)
         return 130
@@ -70,4 +71,4 @@ def main(arguments: Sequence[str] | None = None) -> int:
             raise
         print(f"glid-nb: error: {one_line(error)}", file=sys.stderr)
         return 1
-    return 0
+    return code or 0

@@ -1,3 +1,4 @@
+from .audits import folds as folds
 from .curves import convergence as convergence
 from .curves import derivative_curve as derivative_curve
 from .curves import energy_levels as energy_levels

@@ -26,6 +26,7 @@ WHOLE_PIXELS = "--size: a side is a whole number of pixels, 1 to 20000, not '10.
         (["render", "a.png", "m.json", "--out", "b.png", "--size", "0", "9"], "--size"),
         (["render", "a.png", "m.json", "--out", "b.png", "--size", "10.5", "20"], WHOLE_PIXELS),
         (["animate", "a.glid", "--out", "b.gif", "--background", "reddish"], "is not a colour"),
+        (["audit", "a.npy", "--spacing", "1", "0"], "a step is a number other than 0, not '0'"),
         (["demo", "--unheard-of"], "unrecognized arguments: --unheard-of"),
     ],
 )
@@ -39,7 +40,9 @@ def test_wrong_usage_is_one_line_and_exit_code_2(run, words: list[str], message:
     assert "--help" in outcome.err
 
 
-@pytest.mark.parametrize("command", ["demo", "trace", "solve", "render", "animate", "samples"])
+@pytest.mark.parametrize(
+    "command", ["demo", "trace", "solve", "render", "animate", "audit", "samples"]
+)
 def test_every_command_explains_itself(run, command: str) -> None:
     outcome = run(command, "--help")
     assert outcome.code == 0

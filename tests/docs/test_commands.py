@@ -69,6 +69,13 @@ def work(tmp_path_factory: pytest.TempPathFactory) -> Path:
     labels = np.where(image[..., 3] > 127, np.where(right, 200, 100), 0)
     Image.fromarray(labels.astype(np.uint8)).save(folder / "labels.png")
     np.save(folder / "values.npy", labels / 7)
+    x = np.mgrid[:20, :30][1]
+    field = np.stack([np.sin(x / 3), 0.1 * x], axis=-1)
+    for name in ("field.npy", "good.npy"):
+        np.save(folder / name, field)
+    mesh = "v 0 0\nv 1 0\nv 0 1\nvt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\n"
+    for name in ("mesh.obj", "image.obj", "rest.obj"):
+        (folder / name).write_text(mesh.replace("v 0 1", "v 0 2") if name == "image.obj" else mesh)
     result.certificate.save(folder / "proof.json")
     glid.Motion([identity, result.map]).save(folder / "motion.json")
     how = glid.energies.SymmetricDirichlet(), glid.Options()
@@ -130,7 +137,7 @@ def runs(command: Command, folder: Path) -> None:
     text, *filters = command.text.split(" | ")
     printed = in_shell(text, folder)
     words = shlex.split(text, comments=True)
-    for flag in ("--out", "--report", "--proof"):
+    for flag in ("--out", "--report", "--proof", "--figure"):
         if flag in words:
             is_written(words[words.index(flag) + 1], printed, folder)
     for one in filters:
@@ -205,8 +212,8 @@ KINDS: dict[str, tuple[Callable[[Command, Path], None], str]] = {
     r"(voila|jupyter lab|jupyter notebook) \S+|glid-nb lab": (is_served, "clone"),
     r"python docs/\S+\.py": (runs, "clone"),
     r"glid-nb (samples|doctor|demo)( .*)?": (runs, "folder"),
-    r"glid-nb (trace|solve|render|animate) .*": (runs, "folder"),
-    r"glid-nb (trace|solve|render|animate)": (names_a_command, "folder"),
+    r"glid-nb (trace|solve|render|animate|audit) .*": (runs, "folder"),
+    r"glid-nb (trace|solve|render|animate|audit)": (names_a_command, "folder"),
     r"(glid-check|python -c).*": (runs, "folder"),
 }
 

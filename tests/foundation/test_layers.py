@@ -17,7 +17,7 @@ LAYERS = (
     ("geometry",),
     ("harmonic",),
     ("pose", "energies"),
-    ("certificate", "imaging"),
+    ("certificate", "imaging", "auditing"),
     ("solvers",),
     ("minima",),
     ("methods", "motion"),

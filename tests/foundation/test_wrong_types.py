@@ -10,6 +10,7 @@ import pytest
 import glid_nb as glid
 
 SQUARE = glid.Cage([[0, 0], [4, 0], [4, 2], [0, 2]])
+SQUARE_BOX = (0, 0, 4, 2)
 
 
 def identity() -> glid.HarmonicMap:
@@ -32,6 +33,13 @@ CALLS: list[tuple[str, Callable[[Any], Any]]] = [
     ("domain must be", lambda value: glid.suggest_pose(value)),
     ("result must be", lambda value: glid.refine(value)),
     ("map must be", lambda value: glid.certify(identity()).belongs_to(value)),
+    (
+        "second_derivative must be",
+        lambda v: glid.audit(abs, bounds=SQUARE_BOX, second_derivative=v),
+    ),
+    ("jacobian must be", lambda value: glid.audit(abs, bounds=SQUARE_BOX, jacobian=value)),
+    ("warp must be", lambda value: glid.audit(value)),
+    ("audit must be", lambda value: glid.figures.folds(value)),
     ("other must be", lambda value: identity().distance(value)),
     ("order must be", lambda value: identity().wirtinger_derivatives([[1, 1]], value)),
 ]
