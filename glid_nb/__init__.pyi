@@ -24,6 +24,7 @@ from .certificate import Certificate as Certificate
 from .certificate import certify as certify
 from .certificate import certify_step as certify_step
 from .certificate import global_injectivity as global_injectivity
+from .certificate import safe_radius as safe_radius
 from .geometry import MeshMap as MeshMap
 from .harmonic import HarmonicMap as HarmonicMap
 from .motion import Motion as Motion
@@ -37,6 +38,7 @@ from .pose import Pose as Pose
 from .solvers import Progress as Progress
 from .solvers import Result as Result
 from .solvers import Status as Status
+from .minima import differentiable as differentiable
 from .minima import refine as refine
 from .minima import solve as solve
 from .minima import solve_batch as solve_batch

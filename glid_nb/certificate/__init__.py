@@ -9,3 +9,4 @@ from glid_nb.certificate.panels import EndValues, PanelBounds, PanelProof
 from glid_nb.certificate.paper import BDHMLipschitz, Lipschitz, fz_vanishes
 from glid_nb.certificate.pieces import PieceCertificate as PieceCertificate
 from glid_nb.certificate.pieces import certify_step as certify_step
+from glid_nb.certificate.radius import safe_radius as safe_radius

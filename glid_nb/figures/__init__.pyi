@@ -10,3 +10,4 @@ from .shapes import boundary as boundary
 from .shapes import distortion as distortion
 from .shapes import panels as panels
 from .shapes import picture as picture
+from .shapes import sensitivity as sensitivity

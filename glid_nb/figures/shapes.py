@@ -25,6 +25,7 @@ from glid_nb.imaging.rasterise import render_mesh
 from glid_nb.imaging.texture import Texture
 from glid_nb.methods.mesh.operators import MeshOperators
 from glid_nb.pose import Pose
+from glid_nb.solvers import Sensitivity
 
 Quantity = Literal["sigma1", "sigma2", "k", "energy", "distortion"]
 AnyMap = HarmonicMap | MeshMap
@@ -43,6 +44,9 @@ _FEW, _SMALL = 5, 0.03
 # Face, edge, edge width and hatch of folds, drawn on each other. Colour-blind people see them too.
 _FOLDED = ("none", "white", 2.8, ""), ("none", INK, 1.5, "")
 _FOLDED += (VERMILION, "face", 0.5, ""), ("none", INK, 0.0, "/////")
+# Roots of the arrows of a field, the longest arrow as a share of the shape, and their look.
+_ARROWS, _ARROW = 60, 0.08
+_QUIVER: dict[str, Any] = {"angles": "xy", "scale_units": "xy", "scale": 1, "width": 0.004}
 _MANY = 400  # with more panels than this, the dots at their ends would hide the colours
 
 
@@ -139,6 +143,39 @@ def draw_distortion(
     label = _LABELS[quantity] if isinstance(quantity, str) else quantity.label
     ticks = drawing.log_ticks(*drawn.get_clim()) if isinstance(norm, LogNorm) else None
     drawing.color_bar(grid, drawn, label, format="{x:g}", extend=ends, ticks=ticks, **bar)
+
+
+def sensitivity(
+    sensitivities: Sensitivity | Sequence[Sensitivity], *, titles: Sequence[str] = ()
+) -> NotebookFigure:
+    """How maps move, side by side: derivatives, as those of :meth:`Result.sensitivity`.
+
+    Colours show :meth:`Sensitivity.speed`, how far a point moves at most for each unit of change.
+    Arrows show the fields, the first one blue, the second one green. ``titles`` has one title for
+    each.
+    """
+    listed = [sensitivities] if isinstance(sensitivities, Sensitivity) else [*sensitivities]
+    for one in listed:
+        if not isinstance(one, Sensitivity):
+            raise TypeError(f"{type(one).__name__} is no sensitivity; see result.sensitivity")
+    maps, sheets = _listed([one.map for one in listed], None)
+    figure, grid = _side_by_side(maps, sheets, None, titles, 0.55)
+    speeds = [one.speed(sheet.mesh.vertices) for one, sheet in zip(listed, sheets, strict=True)]
+    most = max(1e-12, *(float(np.quantile(speed, 0.99)) for speed in speeds))
+    for axes, one, sheet, speed in zip(grid, listed, sheets, speeds, strict=True):
+        shape = Triangles(*sheet.mesh.images.T, triangles=sheet.mesh.triangles)
+        look: Any = {"norm": Normalize(0, most), "cmap": distortion_colors()}
+        drawn = axes.tripcolor(shape, speed, shading="gouraud", rasterized=True, zorder=0, **look)
+        drawing.loops(axes, sheet.outline, color=INK, linewidth=0.4)
+        roots = triangulate(one.map.domain.cage, _ARROWS).vertices
+        longest = np.ptp(sheet.mesh.images, axis=0).max() * _ARROW
+        for field, color in zip(one.fields, (BLUE, GREEN), strict=False):
+            arrows = field(roots) * longest / most
+            axes.quiver(*one.map(roots).T, *arrows.T, color=color, **_QUIVER)
+    label = "world units for each unit of change"
+    drawing.color_bar(grid, drawn, label, format="{x:g}", extend="max", shrink=0.5, aspect=36)
+    figure.draw_without_rendering()  # as above
+    return figure
 
 
 def picture(

@@ -110,11 +110,11 @@ class HarmonicMap(Rebuilt):
 
     def __call__(self, points: Any, *, outside: Outside = "extend") -> Any:
         """(k, 2) images of points, world coordinates; certified where ``domain.cage.contains``."""
-        return self._evaluated(_images, points, outside)
+        return self._evaluated(images, points, outside)
 
     def wirtinger(self, points: Any, *, outside: Outside = "extend") -> tuple[Any, Any]:
         """Wirtinger derivatives ``f_z`` and ``f_zbar``, each (k,) complex ((9), (G.1), (G.3))."""
-        fz, fzb_conj = self._evaluated(_first, points, outside)
+        fz, fzb_conj = self._evaluated(first, points, outside)
         return fz, fzb_conj.conj()
 
     def wirtinger_derivatives(
@@ -150,7 +150,7 @@ class HarmonicMap(Rebuilt):
             raise MapError(f"outside must be 'extend' or 'nan', not {outside!r:.40}")
         of_jax = is_of_jax(points)
         if of_jax:
-            values = _on_jax(self, program, points)
+            values = on_jax(self.domain, rows_of(self), program, points)
         else:
             z = as_complex(points)
             values = run_on(self, program, z)
@@ -230,8 +230,9 @@ def images_under(maps: Sequence[HarmonicMap], points: ArrayLike) -> Array:
     return in_chunks(values, basis.n_columns, [as_complex(points)], columns, basis.singularities)
 
 
-def _on_jax(map: HarmonicMap, program: Callable[..., Any], points: Any) -> Any:
-    """``program`` by JAX, at (..., 2) real or (...) complex points, which may be traced."""
+def on_jax(domain: Domain, rows: Any, program: Callable[..., Any], points: Any) -> Any:
+    """``program`` by JAX for (2, c) rows, at (..., 2) real or (...) complex points. All may be
+    traced."""
     if points.dtype.kind == "c":
         z = points
     elif points.shape[-1:] == (2,) and points.dtype.kind in "fiu":
@@ -239,10 +240,10 @@ def _on_jax(map: HarmonicMap, program: Callable[..., Any], points: Any) -> Any:
     else:
         given = f"{points.dtype.name} of the shape {points.shape}"
         raise MapError(f"points must be (..., 2) coordinates or complex numbers, not {given}")
-    known = basis_of(map.domain).singularities
+    known = basis_of(domain).singularities
     # As arrays of JAX: NumPy's would be compiled in, in the precision of the first call.
     rows, vertices, holes = (
-        jnp.asarray(a.astype(z.dtype)) for a in (rows_of(map), known.vertices, known.hole_points)
+        jnp.asarray(a.astype(z.dtype)) for a in (rows, known.vertices, known.hole_points)
     )
     after, before = (jnp.asarray(a.astype(np.int32)) for a in (known.next, known.previous))
     values = program(z.ravel(), rows, Singularities(vertices, after, before, holes))
@@ -293,8 +294,8 @@ def _values(z: Any, coefficients: Any, singularities: Singularities) -> Any:
     return c @ coefficients[0] + (c @ coefficients[1]).conj()
 
 
-def _images(z: Any, coefficients: Any, singularities: Singularities) -> Any:
-    """(k, 2) real."""
+def images(z: Any, coefficients: Any, singularities: Singularities) -> Any:
+    """(k, 2) images."""
     w = _values(z, coefficients, singularities)
     if isinstance(w, np.ndarray):
         return as_points(w)
@@ -302,7 +303,8 @@ def _images(z: Any, coefficients: Any, singularities: Singularities) -> Any:
     return xp.stack([xp.real(w), xp.imag(w)], axis=-1)
 
 
-def _first(z: Any, coefficients: Any, singularities: Singularities) -> tuple[Any, ...]:
+def first(z: Any, coefficients: Any, singularities: Singularities) -> tuple[Any, ...]:
+    """``f_z`` and ``conj(f_zbar)``, each (k,)."""
     edges = cauchy.edge_coefficients(coefficients, singularities)
     return tuple((cauchy.first_by_edges(z, singularities) @ edges.T).T)
 

@@ -59,10 +59,10 @@ def positional_energy(
     matrix = matrix_at(map.domain, pose.handles.tobytes(), size)
     aims, weights = np.zeros((2, size)), np.zeros((2, size))
     aims[:, images] = pose.targets.T
-    weights[:, images] = _weights(weight, _MOST, pose.weights) / map.domain.cage.unit**2
+    weights[:, images], _ = weights_of_images(map.domain, pose, weight)
     if len(turned):
         rows, aims[0, turns], held = _turns(map, pose, turned, damping)
-        weights[:, turns] = held * _weights(_TURN * weight, _MOST_TURN, pose.weights[turned])
+        weights[:, turns] = held * turn_weights(pose, turned, weight)[0]
         matrix = matrix.copy()
         of_phi = matrix.reshape(2, size, -1)[:, turns, : 2 * rows.shape[1]]
         of_phi[0] = np.hstack([np.real(rows), -np.imag(rows)])
@@ -70,9 +70,24 @@ def positional_energy(
     return Positional(matrix, aims.ravel(), weights.ravel())
 
 
-def _weights(weight: float, most: float, firm: NDArray[Any]) -> NDArray[Any]:
-    """Weights (h,) of handles that are held ``firm``, at most ``most``."""
-    return np.minimum(weight, most / firm) * firm
+def weights_of_images(
+    domain: Domain, pose: Pose, weight: float
+) -> tuple[NDArray[Any], NDArray[Any]]:
+    """Weights (h,) of the handles' images, and whether they grow with the pose's weights."""
+    weights, grow = _weights(weight, _MOST, pose.weights)
+    return weights / domain.cage.unit**2, grow
+
+
+def turn_weights(
+    pose: Pose, turned: NDArray[Any], weight: float
+) -> tuple[NDArray[Any], NDArray[Any]]:
+    """Weights (t,) of ``f_z`` at the turned handles, and whether they grow with the pose's."""
+    return _weights(_TURN * weight, _MOST_TURN, pose.weights[turned])
+
+
+def _weights(weight: float, most: float, firm: NDArray[Any]) -> tuple[NDArray[Any], NDArray[Any]]:
+    """Weights (h,) of handles that are held ``firm``, at most ``most``; whether they are less."""
+    return np.minimum(weight, most / firm) * firm, weight * firm < most
 
 
 def _turns(
@@ -86,7 +101,7 @@ def _turns(
     row across gets the weight of this curvature, enlarged by ``damping``.
     """
     angles, scales = pose.angles[turned], pose.scales[turned]
-    rows = _basis_at(map.domain, pose.handles[turned].tobytes(), cauchy.first_derivatives)
+    rows = basis_at(map.domain, pose.handles[turned].tobytes(), cauchy.first_derivatives)
     fz = rows @ basis_of(map.domain).pad(map.phi)
     left = np.angle(np.exp(1j * np.nan_to_num(angles - np.angle(fz))))
     direction = np.angle(fz) + left.clip(-_FARTHEST_TURN, _FARTHEST_TURN)
@@ -106,11 +121,12 @@ def measured_apart(a: Positional, b: Positional) -> float:
 
 def handle_rows(domain: Domain, handles: bytes) -> NDArray[Any]:
     """The complex rows (h, c) whose products with ``phi`` and ``psi`` give the handles' images."""
-    return _basis_at(domain, handles, cauchy.cauchy_coordinates)
+    return basis_at(domain, handles, cauchy.cauchy_coordinates)
 
 
 @functools.lru_cache(maxsize=32)
-def _basis_at(domain: Domain, points: bytes, kernel: Any) -> NDArray[Any]:
+def basis_at(domain: Domain, points: bytes, kernel: Any) -> NDArray[Any]:
+    """The complex rows (k, c) of a kernel of :mod:`glid_nb.harmonic.cauchy` at points."""
     z = np.frombuffer(points).reshape(-1, 2) @ np.array([1, 1j])
     return complex_basis(kernel, z, basis_of(domain))
 

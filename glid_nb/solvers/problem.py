@@ -173,6 +173,15 @@ def expand(step: Vector, unknowns: Unknowns) -> Vector:
     return step if phi is None else step.at[psi].set(sign * step[phi])
 
 
+def expand_rows(steps: Float[np.ndarray, "k 4u"], unknowns: Unknowns) -> NDArray[Any]:
+    """:func:`expand` for each row, on the host."""
+    phi, psi, sign = _hole_slices(steps.shape[1], unknowns)
+    steps = steps * unknowns.free
+    if phi is not None:
+        steps[:, psi] = sign * steps[:, phi]
+    return steps
+
+
 def _hole_slices(size: int, unknowns: Unknowns) -> tuple:
     """Positions of the holes' ``[Re phi, Im phi]`` and ``[Re psi, Im psi]``, and the signs of the
     conjugation that ties them."""

@@ -18,6 +18,7 @@ from glid_nb.pose import DeformationMap, Pose
 from glid_nb.solvers import misses
 from glid_nb.solvers.discretisation import Discretisation
 from glid_nb.solvers.options import Options
+from glid_nb.solvers.sensitivity import Minimum, Of, Sensitivity, minimum_of, sensitivity
 
 if TYPE_CHECKING:
     from glid_nb.solvers.method import Method
@@ -207,7 +208,8 @@ class Result(Course):
 
     def __getstate__(self) -> dict[str, Any]:
         """Pickle NumPy arrays: outside the package, JAX arrays would load in single precision."""
-        return {**vars(self), "factor": None if self.factor is None else np.asarray(self.factor)}
+        known = {key: value for key, value in vars(self).items() if key != "minimum"}
+        return {**known, "factor": None if self.factor is None else np.asarray(self.factor)}
 
     @property
     def start_energy(self) -> float:
@@ -276,3 +278,23 @@ class Result(Course):
             return known if own else certify(self.map)
         tight = certify(self.map, disc.certificate, disc.panels, split=disc.can_split)
         return certificate_of(self.map) if own and not tight.certified else tight
+
+    @functools.cached_property
+    def minimum(self) -> Minimum:
+        """The factor of the exact Hessian, for derivatives. Raises a SensitivityError if the solve
+        has reached no isolated minimum."""
+        return minimum_of(self)
+
+    def sensitivity(self, handle: int | None = None, of: Of = "targets") -> Sensitivity:
+        """How the map moves with a handle's target, the default, or with another of its numbers.
+
+        ``of`` is "targets", "handles" (the place in the undeformed shape), "weights", "angles",
+        "scales", or "s", the parameter of the energy, which needs no handle. The derivative is
+        that of the implicit function theorem at the minimum, in the solve's unknowns and panels.
+        The first call factors the exact Hessian, the others use that factor.
+
+        Raises a SensitivityError, an InputError, if the solve has not converged or has no basis; if
+        the minimum is not isolated, as with fewer than two handles; if there is no such handle or
+        parameter; for an angle or a scale that is free.
+        """
+        return sensitivity(self.minimum, handle, of)

