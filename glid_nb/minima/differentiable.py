@@ -220,16 +220,15 @@ def differentiable(
     The rule is Optimistix's ``ImplicitAdjoint``. JAX must compute in double precision:
     ``jax.config.update("jax_enable_x64", True)``; the context of that name is not enough. Each
     value is a solve on the host, from ``start``. From a result of the same domain a solve takes few
-    iterations. Within
-    ``jax.jit`` this needs two processors, because the solve runs JAX itself while JAX waits for it;
-    on one an error says so. The value is that of :func:`glid_nb.solve`, so it is
-    certified. Where :func:`glid_nb.solve` jumps from one minimum to another, the derivative is that
-    of the minimum which was reached.
+    iterations. Within ``jax.jit`` this needs two processors, because the solve runs JAX itself
+    while JAX waits for it; on one an error says so. The value is that of :func:`glid_nb.solve`, so
+    it is certified. Where :func:`glid_nb.solve` jumps from one minimum to another, the derivative
+    is that of the minimum which was reached.
 
     With ``throw``, a solve that does not converge or has no isolated minimum raises a
     SensitivityError. It reaches you inside JAX's own JaxRuntimeError, with its words. With
-    ``throw=False`` the value is then the certified map that was reached, and its derivatives are NaN. Fewer than two
-    handles without an angle leave a rotation free, so there is no derivative.
+    ``throw=False`` the value is then the certified map that was reached, and its derivatives are
+    NaN. Fewer than two handles without an angle leave a rotation free, so there is no derivative.
 
     Raises a TypeError that names an argument of the wrong type, an EnergyError for an unknown
     energy, a PoseError when a handle lies outside the domain.
