@@ -47,8 +47,7 @@ class DifferentiableSolve:
         What is None is the pose's or the energy's own. Raises a SensitivityError if JAX computes in
         single precision, if a shape is wrong, or if the energy has no parameter ``s``.
         """
-        # The context jax.enable_x64 is not enough: it does not reach the threads of JAX.
-        if not jax.config.values["jax_enable_x64"] or jnp.zeros((), float).dtype != np.float64:
+        if jnp.zeros((), float).dtype != np.float64:
             remedy = 'call jax.config.update("jax_enable_x64", True) before'
             raise SensitivityError(
                 f"a differentiable solve needs JAX in double precision; {remedy}"
@@ -101,12 +100,13 @@ class DifferentiableSolve:
 
         The product with ``H`` is never asked for, as no second derivative is taken.
         """
-        moved = [
+        moved: list[tuple[Of, Any]] = [
             (name, tangent)
             for name, tangent in zip(_NUMBERS, tangents, strict=True)
             if not isinstance(tangent, jax.custom_derivatives.SymbolicZero)
         ]
-        value, *slopes = self._called(tuple(name for name, _ in moved), *numbers)
+        wanted: tuple[Of, ...] = tuple(name for name, _ in moved)
+        value, *slopes = self._called(wanted, *numbers)
         force = jnp.zeros_like(value)
         for (_, tangent), slope in zip(moved, slopes, strict=True):
             force -= jnp.tensordot(jnp.ravel(tangent), slope, axes=1)
@@ -141,7 +141,7 @@ class DifferentiableSolve:
         for each in zip(*numbers, strict=True):
             map_ = self._known(*each).map
             assert isinstance(map_, HarmonicMap)
-            value = np.stack([map_.phi.real, map_.phi.imag, map_.psi.real, map_.psi.imag])
+            value = np.stack([part(c) for c in (map_.phi, map_.psi) for part in (np.real, np.imag)])
             sizes = [each[_NUMBERS.index(name)].size for name in wanted]
             nothing = [np.full((size, *value.shape), np.nan) for size in sizes]
             minimum = self._minimum(*each) if wanted else None
@@ -218,15 +218,16 @@ def differentiable(
     pose stay as they are.
 
     The rule is Optimistix's ``ImplicitAdjoint``. JAX must compute in double precision:
-    ``jax.config.update("jax_enable_x64", True)``; the context of that name is not enough. Each
-    value is a solve on the host, from ``start``. From a result of the same domain a solve takes few
-    iterations. Within ``jax.jit`` this needs two processors, because the solve runs JAX itself
-    while JAX waits for it; on one an error says so. The value is that of :func:`glid_nb.solve`, so
-    it is certified. Where :func:`glid_nb.solve` jumps from one minimum to another, the derivative
-    is that of the minimum which was reached.
+    ``jax.config.update("jax_enable_x64", True)``. The context ``jax.enable_x64`` is not enough,
+    because it does not reach the threads of JAX. Each value is a solve on the host, from ``start``;
+    with a result of the same domain as the start a solve takes few iterations. Within ``jax.jit``
+    this needs two processors, because the solve runs JAX itself while JAX waits for it; on one an
+    error says so. The value is that of :func:`glid_nb.solve`, so it is certified. Where
+    :func:`glid_nb.solve` jumps from one minimum to another, the derivative is that of the minimum
+    which was reached.
 
     With ``throw``, a solve that does not converge or has no isolated minimum raises a
-    SensitivityError. It reaches you inside JAX's own JaxRuntimeError, with its words. With
+    SensitivityError, which reaches you inside JAX's own JaxRuntimeError, with its words. With
     ``throw=False`` the value is then the certified map that was reached, and its derivatives are
     NaN. Fewer than two handles without an angle leave a rotation free, so there is no derivative.
 
