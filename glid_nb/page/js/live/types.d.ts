@@ -1,0 +1,52 @@
+// What the modules of the live solver share. Other types are JSDoc beside the code.
+//
+// `n` is the number of columns of the basis: the offset cage's vertices, then one for each hole.
+
+import type { Point } from "../types.d.ts";
+
+/** A cage, its offset cage and its hole points, as `Domain.to_dict` of the package writes them. */
+export interface Outline {
+  cage: Point[];
+  holes: Point[][];
+  offset_cage: Point[];
+  offset_holes: Point[][];
+  hole_points: Point[];
+}
+
+/** Complex numbers, or a complex matrix row by row. */
+export interface Complex {
+  re: Float64Array;
+  im: Float64Array;
+}
+
+/** A map: [Re phi, Im phi, Re psi, Im psi], n numbers each. */
+export type Coefficients = Float64Array;
+
+/** f = f_z and g = conj(f_zbar) at s nodes: [Re f, Im f, Re g, Im g], s numbers each. */
+export type Samples = Float64Array;
+
+/** Where pins hold the shape. Lists have one entry for each pin. */
+export interface Pose {
+  handles: Point[];
+  targets: Point[];
+  /** How firmly each is held; 1 without. */
+  weights?: number[] | null;
+  /** Radians by which the shape turns at the pin; null where it may turn freely. */
+  angles?: (number | null)[] | null;
+  /** Factors by which it is scaled there; null where they are free. */
+  scales?: (number | null)[] | null;
+}
+
+/** What is proved of a map, on the whole closed domain if `certified`. */
+export interface Certificate {
+  certified: boolean;
+  sigma2_lower: number;
+  sigma1_upper: number;
+  k_upper: number;
+  /** Turns of f_z along each loop of the cage, the exterior first. */
+  windings: number[];
+  /** The panels that were halved. */
+  halved: number;
+  /** The panel that could not be proved, or -1. */
+  refused: number;
+}
