@@ -88,7 +88,7 @@ export class Prover {
         break;
       }
     }
-    const windings = Array.from(turning, (angle) => Math.round(angle / TAU));
+    const windings = Array.from(turning, (angle) => Math.round(angle / TAU) + 0); // no -0
     const zerosOfFz = windings.reduce((sum, turns) => sum + turns, 0);
     const certified = map.tied && whole.refused < 0 && zerosOfFz === 0;
     return { certified, ...whole, windings };
