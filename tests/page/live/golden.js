@@ -5,8 +5,7 @@ import { rowsAt } from "../../../glid_nb/page/js/live/basis.js";
 import { Domain } from "../../../glid_nb/page/js/live/domain.js";
 import { gradedPanels } from "../../../glid_nb/page/js/live/panels.js";
 
-/** @import { EnergyName } from "../../../glid_nb/page/js/live/energy.js" */
-/** @import { Outline, Pose } from "../../../glid_nb/page/js/live/types.js" */
+/** @import { EnergyName, Outline, Pose } from "../../../glid_nb/page/js/live/types.js" */
 /** @import { Point } from "../../../glid_nb/page/js/types.js" */
 
 export const SAMPLES = ["bar", "teapot", "frog", "gecko"];

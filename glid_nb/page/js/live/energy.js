@@ -1,5 +1,7 @@
 // The isometric energies of Section 6 and Table 1, as functions of x = |f_z|^2 and y = |f_zbar|^2.
 
+/** @import { EnergyName, Samples } from "./types.js" */
+
 /**
  * The five scalars of Table 1 (Equations (E.3) and (E.9)).
  * @typedef {object} Differentials
@@ -120,7 +122,10 @@ const arap = {
   },
 };
 
-/** The makers of energies by the package's names; `s` is the parameter of `exp` and `amips`. */
+/**
+ * The makers of energies by the package's names; `s` is the parameter of `exp` and `amips`.
+ * @type {Record<EnergyName, (s: number) => Energy>}
+ */
 export const ENERGIES = {
   iso: () => symmetricDirichlet,
   exp: exponential,
@@ -128,8 +133,6 @@ export const ENERGIES = {
   mips: () => mips,
   arap: () => arap,
 };
-
-/** @typedef {keyof typeof ENERGIES} EnergyName */
 
 /**
  * @param {EnergyName} name
@@ -143,7 +146,7 @@ export function energyNamed(name, s = 1) {
  * The isometric energy (12) of samples, as the sum (31); infinite if one is inverted.
  * @param {Energy} energy
  * @param {Float64Array} weights
- * @param {import("./types.js").Samples} samples
+ * @param {Samples} samples
  */
 export function isometricEnergy(energy, weights, samples) {
   const count = weights.length;
@@ -167,7 +170,7 @@ export function isometricEnergy(energy, weights, samples) {
  * Derivatives of the isometric energy with respect to the samples.
  * @param {Energy} energy
  * @param {Float64Array} weights
- * @param {import("./types.js").Samples} samples
+ * @param {Samples} samples
  */
 export function energyGradient(energy, weights, samples) {
   const count = weights.length;

@@ -8,10 +8,9 @@ import { Assembler } from "./hessian.js";
 import { largestStep, search } from "./line_search.js";
 import { Pins } from "./pins.js";
 
-/** @import { EnergyName } from "./energy.js" */
 /** @import { Metric } from "./directions.js" */
 /** @import { Shape } from "./shape.js" */
-/** @import { Certificate, Coefficients, Pose, Samples } from "./types.js" */
+/** @import { Certificate, Coefficients, Pose, Samples, SolverOptions } from "./types.js" */
 
 /**
  * What became of a step. "refused": no shorter step could be proved either.
@@ -47,8 +46,7 @@ export class Solver {
 
   /**
    * @param {Shape} shape
-   * @param {{ energy?: EnergyName, s?: number, weight?: number }} [options] `s` is the energy's
-   *   parameter, `weight` is lambda of (20) for lengths in twentieths of the cage's longer side
+   * @param {SolverOptions} [options]
    */
   constructor(shape, { energy = "iso", s = 1, weight = 1e5 } = {}) {
     this.shape = shape;
@@ -62,6 +60,18 @@ export class Solver {
     this.promised = Infinity;
     /** Factors that were made so far. */
     this.factors = 0;
+  }
+
+  /**
+   * A solver with the same pins at the same map.
+   * @param {SolverOptions} options
+   */
+  withOptions(options) {
+    const other = new Solver(this.shape, options);
+    other.#pin(this.pins.pose);
+    other.state = other.#certified(this.state.coefficients);
+    other.#measure();
+    return other;
   }
 
   /** The whole energy (20). */

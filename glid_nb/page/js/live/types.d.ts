@@ -50,3 +50,47 @@ export interface Certificate {
   /** The panel that could not be proved, or -1. */
   refused: number;
 }
+
+/** Names of the energies, as `ENERGIES` of the package has them. */
+export type EnergyName = "iso" | "exp" | "amips" | "mips" | "arap";
+
+/** How to solve. */
+export interface SolverOptions {
+  energy?: EnergyName;
+  /** The parameter of `exp` and `amips`; 1 without. */
+  s?: number;
+  /** lambda of (20), for lengths in twentieths of the cage's longer side; 1e5 without. */
+  weight?: number;
+}
+
+/** What the page asks of the worker. Every request has a number, which its answers repeat. */
+export type LiveRequest =
+  /** Prepares a shape; `points` are where every map is evaluated, such as a mesh's vertices. */
+  | { type: "shape"; id: number; outline: Outline; points?: Point[]; options?: SolverOptions }
+  /** Changes the energy; the map stays. */
+  | { type: "options"; id: number; options: SolverOptions }
+  /** Solves from the identity. */
+  | { type: "solve"; id: number; pose: Pose }
+  /** Follows moved targets from the map that is; a later request replaces one that waits. */
+  | { type: "drag"; id: number; pose: Pose };
+
+/** What the worker answers. */
+export type LiveAnswer =
+  | { type: "ready"; id: number; panels: number; columns: number }
+  | LiveMap
+  | { type: "failed"; id: number; message: string };
+
+/** A certified map. The certificate was computed from these coefficients. */
+export interface LiveMap {
+  type: "map";
+  id: number;
+  /** Whether the worker goes on with this request. */
+  settled: boolean;
+  outcome: string;
+  energy: number;
+  coefficients: Coefficients;
+  certificate: Certificate;
+  /** Of the shape's points, if it has any: x and y in turn, and [Re f_z, Im f_z, Re g, Im g]. */
+  images: Float64Array | null;
+  samples: Samples | null;
+}
