@@ -44,7 +44,9 @@ def vectors(seed: int) -> tuple[Array, Array]:
 
 def roundoffs(found: Array, exact: list[arb]) -> float:
     """The largest relative error, in roundoffs."""
-    errors = [abs(arb(a) - b) / abs(b) for a, b in zip(found.tolist(), exact, strict=True) if b != 0]
+    errors = [
+        abs(arb(a) - b) / abs(b) for a, b in zip(found.tolist(), exact, strict=True) if b != 0
+    ]
     return float(max(map(float, errors))) * 2.0**53
 
 

@@ -206,7 +206,7 @@ export function pulledThroughSlopes(domain, g) {
 }
 
 /**
- * f_z and conj(f_zbar) at the rows' points.
+ * f_z and conj(f_zbar) at the rows' points, two at once.
  * @param {Rows} rows
  * @param {Coefficients} slopes
  * @returns {Samples}
@@ -214,30 +214,35 @@ export function pulledThroughSlopes(domain, g) {
 export function samplesAt({ count, columns, re, im }, slopes) {
   const samples = new Float64Array(4 * count);
   const [pr, pi, qr, qi] = quarters(slopes);
-  for (let i = 0; i < count; i++) {
+  const [fr, fi, gr, gi] = quarters(samples);
+  for (let i = 0; i < count; i += 2) {
+    const next = Math.min(i + 1, count - 1);
     const first = i * columns;
-    let fr = 0;
-    let fi = 0;
-    let gr = 0;
-    let gi = 0;
+    const second = next * columns;
+    let [a, b, c, d] = [0, 0, 0, 0];
+    let [A, B, C, D] = [0, 0, 0, 0];
     for (let e = 0; e < columns; e++) {
       const x = re[first + e];
       const y = im[first + e];
-      fr += x * pr[e] - y * pi[e];
-      fi += x * pi[e] + y * pr[e];
-      gr += x * qr[e] - y * qi[e];
-      gi += x * qi[e] + y * qr[e];
+      const X = re[second + e];
+      const Y = im[second + e];
+      a += x * pr[e] - y * pi[e];
+      b += x * pi[e] + y * pr[e];
+      c += x * qr[e] - y * qi[e];
+      d += x * qi[e] + y * qr[e];
+      A += X * pr[e] - Y * pi[e];
+      B += X * pi[e] + Y * pr[e];
+      C += X * qr[e] - Y * qi[e];
+      D += X * qi[e] + Y * qr[e];
     }
-    samples[i] = fr;
-    samples[count + i] = fi;
-    samples[2 * count + i] = gr;
-    samples[3 * count + i] = gi;
+    [fr[i], fi[i], gr[i], gi[i]] = [a, b, c, d];
+    [fr[next], fi[next], gr[next], gi[next]] = [A, B, C, D];
   }
   return samples;
 }
 
 /**
- * Derivatives with respect to the slopes, from those with respect to the samples.
+ * Derivatives with respect to the slopes, from those with respect to the samples; two points at once.
  * @param {Rows} rows
  * @param {Samples} g
  * @returns {Coefficients}
@@ -246,19 +251,21 @@ export function pulledThroughRows({ count, columns, re, im }, g) {
   const pulled = new Float64Array(4 * columns);
   const [pr, pi, qr, qi] = quarters(pulled);
   const [fr, fi, gr, gi] = quarters(g);
-  for (let i = 0; i < count; i++) {
+  for (let i = 0; i < count; i += 2) {
     const first = i * columns;
-    const a = fr[i];
-    const b = fi[i];
-    const c = gr[i];
-    const d = gi[i];
+    const [a, b, c, d] = [fr[i], fi[i], gr[i], gi[i]];
+    const both = i + 1 < count;
+    const second = both ? first + columns : first;
+    const [A, B, C, D] = both ? [fr[i + 1], fi[i + 1], gr[i + 1], gi[i + 1]] : [0, 0, 0, 0];
     for (let e = 0; e < columns; e++) {
       const x = re[first + e];
       const y = im[first + e];
-      pr[e] += x * a + y * b;
-      pi[e] += x * b - y * a;
-      qr[e] += x * c + y * d;
-      qi[e] += x * d - y * c;
+      const X = re[second + e];
+      const Y = im[second + e];
+      pr[e] += x * a + y * b + (X * A + Y * B);
+      pi[e] += x * b - y * a + (X * B - Y * A);
+      qr[e] += x * c + y * d + (X * C + Y * D);
+      qi[e] += x * d - y * c + (X * D - Y * C);
     }
   }
   return pulled;

@@ -3,7 +3,7 @@
 // At one node it is B^T K B (18). K is written in the frames of f = f_z and g = conj(f_zbar): one entry
 // across each of them, and a symmetric 2 x 2 block along them.
 
-import { samplesAt, slopesOf } from "./basis.js";
+import { quarters, samplesAt, slopesOf } from "./basis.js";
 import { addProduct } from "./dense.js";
 import { noDifferentials } from "./energy.js";
 
@@ -79,10 +79,16 @@ export class Assembler {
     this.re = new Float64Array(whitening.u * this.nodes);
     this.im = new Float64Array(whitening.u * this.nodes);
     const own = { ...rows, ...this.#ownRows(rows) };
-    for (let c = 0; c < whitening.u; c++) {
-      const samples = samplesAt(own, slopesOf(domain, columnOf(shape, c)));
-      this.re.set(samples.subarray(0, this.nodes), c * this.nodes);
-      this.im.set(samples.subarray(this.nodes, 2 * this.nodes), c * this.nodes);
+    // Two columns of T at once, as if they were phi and psi.
+    for (let c = 0; c < whitening.u; c += 2) {
+      const parts = quarters(samplesAt(own, slopesOf(domain, columnsOf(shape, c))));
+      const first = c * this.nodes;
+      this.re.set(parts[0], first);
+      this.im.set(parts[1], first);
+      if (c + 1 < whitening.u) {
+        this.re.set(parts[2], first + this.nodes);
+        this.im.set(parts[3], first + this.nodes);
+      }
     }
   }
 
@@ -232,16 +238,20 @@ export class Assembler {
 }
 
 /**
- * The coefficients of phi that are column c of T.
+ * Columns c and c + 1 of T as coefficients of phi and psi.
  * @param {Shape} shape
  * @param {number} c
  */
-function columnOf({ domain, whitening }, c) {
+function columnsOf({ domain, whitening }, c) {
   const { columns } = domain;
+  const { u, t } = whitening;
   const coefficients = new Float64Array(4 * columns);
+  const following = Math.min(c + 1, u - 1);
   for (let j = 0; j < columns; j++) {
-    coefficients[j] = whitening.t.re[j * whitening.u + c];
-    coefficients[columns + j] = whitening.t.im[j * whitening.u + c];
+    coefficients[j] = t.re[j * u + c];
+    coefficients[columns + j] = t.im[j * u + c];
+    coefficients[2 * columns + j] = t.re[j * u + following];
+    coefficients[3 * columns + j] = t.im[j * u + following];
   }
   return coefficients;
 }

@@ -13,7 +13,7 @@ import { BERNSTEIN, BESIDE, slack, UNIT_ROUNDOFF, UPWARD } from "./rounding.js";
 /** @import { Rows } from "./basis.js" */
 /** @import { Domain } from "./domain.js" */
 /** @import { Panels } from "./panels.js" */
-/** @import { Certificate, Coefficients } from "./types.js" */
+/** @import { Certificate, Coefficients, Samples } from "./types.js" */
 
 const TAU = 2 * Math.PI;
 const QUADRATIC = Math.sqrt(3) / 216; // the largest |t (t - 1/2) (t - 1)| / 3!
@@ -69,12 +69,29 @@ export class Prover {
   /**
    * Proves a map locally injective, or says which panel refuses.
    * @param {Coefficients} coefficients
-   * @returns {Certificate}
    */
   certify(coefficients) {
-    const { domain, panels } = this;
-    const map = new MapData(domain, coefficients);
-    const samples = quarters(samplesAt(this.rows, map.slopes));
+    return this.prove(coefficients).certificate;
+  }
+
+  /**
+   * The certificate of a map, and the samples at the panels' nodes from which it was made.
+   * @param {Coefficients} coefficients
+   * @returns {{ certificate: Certificate, samples: Samples }}
+   */
+  prove(coefficients) {
+    const map = new MapData(this.domain, coefficients);
+    const samples = samplesAt(this.rows, map.slopes);
+    return { certificate: this.#certificate(map, quarters(samples)), samples };
+  }
+
+  /**
+   * @param {MapData} map
+   * @param {Float64Array[]} samples
+   * @returns {Certificate}
+   */
+  #certificate(map, samples) {
+    const { panels } = this;
     const turning = new Float64Array(panels.loops);
     const whole = { sigma2_lower: Infinity, sigma1_upper: 0, k_upper: 0, halved: 0, refused: -1 };
     for (let i = 0; i < panels.count; i++) {

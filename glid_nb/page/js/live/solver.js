@@ -35,6 +35,8 @@ const MOST_TRIES = 12;
 const CONTRACTION = 0.3;
 // A drag makes a new factor where the predicted decrease stays above this share of the energy.
 const BEHIND = 1e-3;
+const MOST_RENEWALS = 3; // of the factor, for one position of the targets
+const ROUNDING = 1e-9; // a promise below this share of the energy may be rounding
 // After this many measurements of angles and scales their directions stay.
 const MOST_MEASUREMENTS = 16;
 
@@ -120,11 +122,20 @@ export class Solver {
         break;
       }
     }
-    if (outcome === "refused" || (outcome === "stepped" && this.promised > BEHIND)) {
+    for (let i = 0; i < MOST_RENEWALS && this.#isBehind(outcome); i++) {
       this.#metric = null;
       outcome = this.step(1e-12);
     }
     return outcome;
+  }
+
+  /**
+   * Whether a drag needs a new factor.
+   * @param {Outcome} outcome of the last step
+   */
+  #isBehind(outcome) {
+    const failed = outcome === "refused" || outcome === "no decrease";
+    return failed ? this.promised > ROUNDING : outcome === "stepped" && this.promised > BEHIND;
   }
 
   /**
@@ -241,9 +252,9 @@ export class Solver {
     for (let i = 0; i < MOST_TRIES; i++) {
       const coefficients = Float64Array.from(this.state.coefficients);
       addScaled(step, change, coefficients);
-      const certificate = this.shape.prover.certify(coefficients);
-      if (certificate.certified) {
-        this.state = this.#stateOf(coefficients, certificate);
+      const proof = this.shape.prover.prove(coefficients);
+      if (proof.certificate.certified) {
+        this.state = this.#stateOf(coefficients, proof);
         return step;
       }
       step *= SHORTER;
@@ -256,21 +267,20 @@ export class Solver {
    * @param {Coefficients} coefficients
    */
   #certified(coefficients) {
-    const certificate = this.shape.prover.certify(coefficients);
-    if (!certificate.certified) {
+    const proof = this.shape.prover.prove(coefficients);
+    if (!proof.certificate.certified) {
       throw new Error("the map to start from cannot be proved locally injective");
     }
-    return this.#stateOf(coefficients, certificate);
+    return this.#stateOf(coefficients, proof);
   }
 
   /**
    * @param {Coefficients} coefficients
-   * @param {Certificate} certificate
+   * @param {{ certificate: Certificate, samples: Samples }} proof of this map
    * @returns {State}
    */
-  #stateOf(coefficients, certificate) {
+  #stateOf(coefficients, { certificate, samples }) {
     const { shape, energyMeasure, pins } = this;
-    const samples = samplesAt(shape.rows, slopesOf(shape.domain, coefficients));
     const isometric = isometricEnergy(energyMeasure, shape.panels.weights, samples);
     const residual = pins.residual(coefficients);
     return { coefficients, certificate, samples, isometric, residual, gradient: null };
