@@ -65,7 +65,7 @@ def test_a_solve_in_the_page_ends_where_the_packages_ends(name: str, more: dict[
     result = glid.solve(d, pose, options=glid.Options(restarts=0))
     request = {"ask": "solve", "outline": d.to_dict(), "pose": pose.to_dict(), "options": {}}
     (answer,) = answers([request])
-    assert answer["energy"] == pytest.approx(result.energy, rel=1e-4)
+    assert answer["energy"] == pytest.approx(result.energy, rel=1e-6)
     parts = np.reshape(answer["coefficients"], (4, -1))
     map = glid.HarmonicMap(d, parts[0] + 1j * parts[1], parts[2] + 1j * parts[3])
     assert glid.certify(map).certified

@@ -24,8 +24,12 @@ export class Metric {
   /** @type {Pair[]} */
   #pairs = [];
 
-  /** @param {Float64Array} factor of Cholesky, for gradients of `size` numbers */
-  constructor(factor) {
+  /**
+   * @param {Float64Array} isometric the lower half of the isometric energy's Hessian
+   * @param {Float64Array} factor of Cholesky, with the pins' Hessian
+   */
+  constructor(isometric, factor) {
+    this.isometric = isometric;
     this.factor = factor;
   }
 
@@ -65,11 +69,6 @@ export class Metric {
       this.#pairs.shift();
     }
   }
-
-  /** Forgets all steps. */
-  forget() {
-    this.#pairs = [];
-  }
 }
 
 /**
@@ -81,16 +80,31 @@ export class Metric {
  * @param {Pins} pins
  */
 export function metricAt(assembler, samples, energy, pins) {
-  const size = assembler.shape.whitening.size;
-  const exact = withPins(assembler.assemble(samples, energy, false), size, pins);
-  if (factorise(exact, size)) {
-    return new Metric(exact);
-  }
-  const projected = withPins(assembler.assemble(samples, energy, true), size, pins);
-  for (const ridge of RIDGES) {
-    const shifted = withRidge(projected, size, ridge);
-    if (factorise(shifted, size)) {
-      return new Metric(shifted);
+  const exact = assembler.assemble(samples, energy, false);
+  const metric = factorised(exact, pins, [0]);
+  return metric ?? factorised(assembler.assemble(samples, energy, true), pins, RIDGES);
+}
+
+/**
+ * The metric with other pins: a new factor of the same isometric Hessian.
+ * @param {Metric} metric
+ * @param {Pins} pins
+ */
+export function repinned(metric, pins) {
+  return factorised(metric.isometric, pins, RIDGES);
+}
+
+/**
+ * @param {Float64Array} isometric
+ * @param {Pins} pins
+ * @param {number[]} ridges to try
+ */
+function factorised(isometric, pins, ridges) {
+  const size = Math.sqrt(isometric.length);
+  for (const ridge of ridges) {
+    const whole = withPins(withRidge(isometric, size, ridge), size, pins);
+    if (factorise(whole, size)) {
+      return new Metric(isometric, whole);
     }
   }
   return null;

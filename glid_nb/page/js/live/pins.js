@@ -16,6 +16,7 @@ const TURN = 10; // weight of f_z at a pin, relative to the weight of the pin's 
 const MOST = 2.5e10;
 const MOST_TURN = 1e13;
 const FARTHEST_TURN = 1; // radians between two measurements
+const SAME_DIRECTION = 1e-4; // radians
 
 /**
  * @typedef {object} Row
@@ -95,6 +96,24 @@ export class Pins {
         this.#row(across, 0, held * (angle === null ? bent : 1)),
       ];
     });
+  }
+
+  /**
+   * How far the measured rows are from others, roughly in radians; 0 if that is little.
+   * @param {Row[]} others
+   */
+  apartFrom(others) {
+    if (others.length !== this.turns.length) {
+      return Infinity;
+    }
+    let apart = 0;
+    let alike = true;
+    for (const [i, { row, weight }] of this.turns.entries()) {
+      const gap = row.map((value, j) => value - others[i].row[j]);
+      apart = Math.max(apart, Math.sqrt(dot(gap, gap) / dot(row, row)));
+      alike = alike && Math.abs(weight - others[i].weight) <= 0.1 * (1 + weight);
+    }
+    return alike && apart <= SAME_DIRECTION ? 0 : Math.max(apart, SAME_DIRECTION);
   }
 
   /**

@@ -203,7 +203,7 @@ export class Prover {
 }
 
 /** What the errors of a map's derivatives depend on. */
-class MapData {
+export class MapData {
   /**
    * @param {Domain} domain
    * @param {Coefficients} coefficients

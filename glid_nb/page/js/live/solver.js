@@ -2,7 +2,7 @@
 
 import { pulledThroughRows, pulledThroughSlopes, samplesAt, slopesOf } from "./basis.js";
 import { addScaled, dot } from "./dense.js";
-import { metricAt } from "./directions.js";
+import { metricAt, repinned } from "./directions.js";
 import { energyGradient, energyNamed, isometricEnergy } from "./energy.js";
 import { Assembler } from "./hessian.js";
 import { largestStep, search } from "./line_search.js";
@@ -37,14 +37,20 @@ const CONTRACTION = 0.3;
 const BEHIND = 1e-3;
 const MOST_RENEWALS = 3; // of the factor, for one position of the targets
 const ROUNDING = 1e-9; // a promise below this share of the energy may be rounding
-// After this many measurements of angles and scales their directions stay.
+// After this many measurements of angles and scales, their directions are fixed by this damping.
 const MOST_MEASUREMENTS = 16;
+const KEPT = 1e9;
+// A measurement has overshot if it differs from the last one by more than this, in radians. Then the
+// damping grows by this factor.
+const FAR = 0.2;
+const DAMPING = 3;
 
 export class Solver {
   #assembler;
   /** @type {Metric | null} */
   #metric = null;
   #measurements = 0;
+  #damping = 1;
 
   /**
    * @param {Shape} shape
@@ -72,7 +78,7 @@ export class Solver {
     const other = new Solver(this.shape, options);
     other.#pin(this.pins.pose);
     other.state = other.#certified(this.state.coefficients);
-    other.#measure();
+    other.#remeasure();
     return other;
   }
 
@@ -101,9 +107,8 @@ export class Solver {
     const [turn, by] = rigidMotion(handles, targets);
     this.#pin(pose);
     this.state = this.#certified(this.shape.moved(this.shape.identity(), turn, by));
-    this.#measurements = 0;
     this.#metric = null;
-    this.#measure();
+    this.#remeasure();
   }
 
   /**
@@ -147,11 +152,9 @@ export class Solver {
       this.pins.aim(pose);
     } else {
       this.#pin(pose);
-      this.#metric = null;
+      this.#metric = this.#metric && repinned(this.#metric, this.pins);
     }
-    this.#measurements = 0;
-    this.#measure();
-    this.state.residual = this.pins.residual(this.state.coefficients);
+    this.#remeasure();
   }
 
   /**
@@ -167,10 +170,12 @@ export class Solver {
       const before = this.energy;
       const outcome = this.step(tolerance);
       if (outcome !== "stepped") {
-        if (fresh || outcome === "minimal") {
+        const ends = fresh || outcome === "minimal";
+        const changed = ends ? this.#measure() : false;
+        if (ends && !changed) {
           return outcome;
         }
-        this.#metric = null;
+        this.#metric = ends ? this.#metric : null;
         gain = Infinity;
         continue;
       }
@@ -319,14 +324,37 @@ export class Solver {
     this.pins = new Pins(this.shape, pose, this.weight);
   }
 
-  /** Measures angles and scales from where the map is. */
-  #measure() {
-    if (this.pins.turned && this.#measurements < MOST_MEASUREMENTS) {
-      this.#measurements++;
-      this.pins.measure(this.state.coefficients, 1);
-      this.#metric?.forget();
-    }
+  /** Measures angles and scales anew, for new pins or targets. */
+  #remeasure() {
+    this.#measurements = 0;
+    this.#damping = 1;
+    this.#measure();
     this.state.residual = this.pins.residual(this.state.coefficients);
+  }
+
+  /** Measures angles and scales from where the map is. Returns whether that changes the energy. */
+  #measure() {
+    const { pins } = this;
+    if (!pins.turned || this.#damping === KEPT) {
+      return false;
+    }
+    if (this.#measurements === MOST_MEASUREMENTS) {
+      this.#damping = KEPT;
+    }
+    const before = pins.turns;
+    pins.measure(this.state.coefficients, this.#damping);
+    const apart = pins.apartFrom(before);
+    if (apart === 0) {
+      pins.turns = before;
+      return false;
+    }
+    if (this.#measurements > 0 && apart > FAR && this.#damping !== KEPT) {
+      this.#damping *= DAMPING;
+    }
+    this.#measurements++;
+    this.#metric = this.#metric && repinned(this.#metric, pins);
+    this.state.residual = pins.residual(this.state.coefficients);
+    return true;
   }
 }
 
