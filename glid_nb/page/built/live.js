@@ -316,14 +316,14 @@ const mean=(k.alongFF+k.alongGG)/2;const half=(k.alongFF-k.alongGG)/2;const radi
 alongFG);const large=Math.max(mean+radius,0);const small=Math.max(mean-radius,0);const centre=(large+
 small)/2;const stretch=radius>0?(large-small)/(2*radius):1;return{acrossF:Math.max(k.acrossF,0),acrossG:Math.
 max(k.acrossG,0),alongFF:centre+stretch*half,alongGG:centre-stretch*half,alongFG:stretch*k.alongFG}}
-var Assembler=class{constructor(shape){const{panels,whitening,rows,domain}=shape;const{count}=panels;
-this.shape=shape;const few=count>=NODES_PER_COORDINATE*whitening.u;this.first=few?count:0;this.nodes=
-few?count:2*count;this.weights=few?panels.lengths:panels.weights;this.re=new Float64Array(whitening.
-u*this.nodes);this.im=new Float64Array(whitening.u*this.nodes);const own={...rows,...this.#ownRows(rows)};
-for(let c=0;c<whitening.u;c+=2){const parts=quarters(samplesAt(own,slopesOf(domain,columnsOf(shape,c))));
-const first=c*this.nodes;this.re.set(parts[0],first);this.im.set(parts[1],first);if(c+1<whitening.u){
-this.re.set(parts[2],first+this.nodes);this.im.set(parts[3],first+this.nodes)}}}#ownRows({columns,re,
-im}){const start=this.first*columns;return{count:this.nodes,re:re.subarray(start),im:im.subarray(start)}}assemble(samples,energy,project){
+var Assembler=class{constructor(shape,{rows,weights,middles}){const{panels,whitening,domain}=shape;this.
+shape=shape;const few=panels.count>=NODES_PER_COORDINATE*whitening.u;this.first=few?panels.count:0;this.
+nodes=rows.count-this.first;this.weights=few?middles:weights;this.re=new Float64Array(whitening.u*this.
+nodes);this.im=new Float64Array(whitening.u*this.nodes);const own={...rows,...this.#ownRows(rows)};for(let c=0;c<
+whitening.u;c+=2){const parts=quarters(samplesAt(own,slopesOf(domain,columnsOf(shape,c))));const first=c*
+this.nodes;this.re.set(parts[0],first);this.im.set(parts[1],first);if(c+1<whitening.u){this.re.set(parts[2],
+first+this.nodes);this.im.set(parts[3],first+this.nodes)}}}#ownRows({columns,re,im}){const start=this.
+first*columns;return{count:this.nodes,re:re.subarray(start),im:im.subarray(start)}}assemble(samples,energy,project){
 const{u,size}=this.shape.whitening;const local=this.#local(samples,energy,project);const f=this.#framed(
 local.f,0);const g=this.#framed(local.g,1);const h=new Float64Array(size*size);const phi=blockOf(f,2*
 this.nodes,2*u,[local.alongFF,local.acrossF]);const psi=blockOf(g,2*this.nodes,2*(u-1),[local.alongGG,
@@ -403,67 +403,78 @@ length;const whole=new Float64Array(parts.length*size);for(const[i,part]of parts
 part,i*size)}return whole}function productOf(d,coefficients){const n=d.re.length;let re=0;let im=0;for(let j=0;j<
 n;j++){re+=d.re[j]*coefficients[j]-d.im[j]*coefficients[n+j];im+=d.re[j]*coefficients[n+j]+d.im[j]*coefficients[j]}
 return[re,im]}function bend(strain,damping){return Math.min(1,Math.max(0,damping*strain,(1-damping)*
-strain))}function wrapped(angle){return Math.atan2(Math.sin(angle),Math.cos(angle))}var LEAST_ENERGY=1e-6;var SHORTER2=.5;var MOST_TRIES=12;var CONTRACTION=.3;var BEHIND=.001;var MOST_RENEWALS=3;
+strain))}function wrapped(angle){return Math.atan2(Math.sin(angle),Math.cos(angle))}function quadratureOf({domain,panels,rows},stiff){const{count,weights,lengths}=panels;if(!stiff){return{
+rows,weights,middles:lengths,added:0}}const{factors,points}=stiff;const inside=Float64Array.from(stiff.
+weights);const onPanels=weights.map((weight,i)=>weight*factors[i]);const onMiddles=lengths.map((length,i)=>length*
+factors[count+i]);const extra=onPanels.reduce((sum,weight,i)=>sum+weight-weights[i],0);return{rows:joinedRows(
+rows,rowsAt(domain,complexOf(points))),weights:joined2(onPanels,inside),middles:joined2(onMiddles,inside),
+added:inside.reduce((sum,weight)=>sum+weight,extra)}}function joinedRows(a,b){return{count:a.count+b.
+count,columns:a.columns,re:joined2(a.re,b.re),im:joined2(a.im,b.im),norms:joined2(a.norms,b.norms)}}
+function joined2(a,b){const both=new Float64Array(a.length+b.length);both.set(a);both.set(b,a.length);
+return both}var LEAST_ENERGY=1e-6;var SHORTER2=.5;var MOST_TRIES=12;var CONTRACTION=.3;var BEHIND=.001;var MOST_RENEWALS=3;
 var ROUNDING=1e-9;var MOST_MEASUREMENTS=16;var KEPT=1e9;var FAR=.2;var DAMPING=3;var Solver=class _Solver{#assembler;#metric=null;#measurements=0;#damping=1;constructor(shape,{
-energy="iso",s=1,weight=1e5}={}){this.shape=shape;this.energyMeasure=energyNamed(energy,s);this.weight=
-weight;this.#assembler=new Assembler(shape);this.pins=new Pins(shape,{handles:[],targets:[]},weight);
-this.state=this.#certified(shape.identity());this.promised=Infinity;this.factors=0}withOptions(options){
-const other=new _Solver(this.shape,options);other.#pin(this.pins.pose);other.state=other.#certified(
-this.state.coefficients);other.#remeasure();return other}get energy(){return this.state.isometric+this.#pinEnergy(
-this.state.residual)}solve(pose,{tolerance=1e-8,iterations=200}={}){this.begin(pose);return this.#descend(
-tolerance,iterations)}begin(pose){const{handles,targets}=pose;const[turn,by]=rigidMotion(handles,targets);
-this.#pin(pose);this.state=this.#certified(this.shape.moved(this.shape.identity(),turn,by));this.#metric=
-null;this.#remeasure()}drag(pose,steps=2){this.aim(pose);let outcome="minimal";for(let i=0;i<steps;i++){
-outcome=this.step(1e-12);if(outcome!=="stepped"){break}}for(let i=0;i<MOST_RENEWALS&&this.#isBehind(
-outcome);i++){this.#metric=null;outcome=this.step(1e-12)}return outcome}#isBehind(outcome){const failed=outcome===
-"refused"||outcome==="no decrease";return failed?this.promised>ROUNDING:outcome==="stepped"&&this.promised>
-BEHIND}aim(pose){if(pinsAlike(this.pins.pose,pose)){this.pins.aim(pose)}else{this.#pin(pose);this.#metric=
-this.#metric&&repinned(this.#metric,this.pins)}this.#remeasure()}#descend(tolerance,iterations){let gain=Infinity;
-for(let i=0;i<iterations;i++){const fresh=this.#metric===null;const before=this.energy;const outcome=this.
-step(tolerance);if(outcome!=="stepped"){const ends=fresh||outcome==="minimal";const changed=ends?this.#measure():
-false;if(ends&&!changed){return outcome}this.#metric=ends?this.#metric:null;gain=Infinity;continue}const now=before-
-this.energy;if(!fresh&&now>CONTRACTION*gain){this.#metric=null}gain=now;this.#measure()}return"stepp\
-ed"}step(tolerance){this.#metric??=this.#newMetric();if(this.#metric===null){return"indefinite"}const gradient=this.#gradient();
+energy="iso",s=1,weight=1e5,stiff=null}={}){const{domain,panels}=shape;this.shape=shape;this.energyMeasure=
+energyNamed(energy,s);this.weight=weight;this.quadrature=quadratureOf(shape,stiff);this.prover=stiff?
+new Prover(domain,panels,this.quadrature.rows):shape.prover;this.#assembler=new Assembler(shape,this.
+quadrature);this.pins=new Pins(shape,{handles:[],targets:[]},weight);this.state=this.#certified(shape.
+identity());this.promised=Infinity;this.factors=0}withOptions(options){const other=new _Solver(this.
+shape,options);other.#pin(this.pins.pose);other.state=other.#certified(this.state.coefficients);other.#remeasure();
+return other}get energy(){return this.state.isometric+this.#pinEnergy(this.state.residual)}solve(pose,{
+tolerance=1e-8,iterations=200}={}){this.begin(pose);return this.#descend(tolerance,iterations)}begin(pose){
+const{handles,targets}=pose;const[turn,by]=rigidMotion(handles,targets);this.#pin(pose);this.state=this.#certified(
+this.shape.moved(this.shape.identity(),turn,by));this.#metric=null;this.#remeasure()}drag(pose,steps=2){
+this.aim(pose);let outcome="minimal";for(let i=0;i<steps;i++){outcome=this.step(1e-12);if(outcome!==
+"stepped"){break}}for(let i=0;i<MOST_RENEWALS&&this.#isBehind(outcome);i++){this.#metric=null;outcome=
+this.step(1e-12)}return outcome}#isBehind(outcome){const failed=outcome==="refused"||outcome==="no d\
+ecrease";return failed?this.promised>ROUNDING:outcome==="stepped"&&this.promised>BEHIND}aim(pose){if(pinsAlike(
+this.pins.pose,pose)){this.pins.aim(pose)}else{this.#pin(pose);this.#metric=this.#metric&&repinned(this.#metric,
+this.pins)}this.#remeasure()}#descend(tolerance,iterations){let gain=Infinity;for(let i=0;i<iterations;i++){
+const fresh=this.#metric===null;const before=this.energy;const outcome=this.step(tolerance);if(outcome!==
+"stepped"){const ends=fresh||outcome==="minimal";const changed=ends?this.#measure():false;if(ends&&!changed){
+return outcome}this.#metric=ends?this.#metric:null;gain=Infinity;continue}const now=before-this.energy;
+if(!fresh&&now>CONTRACTION*gain){this.#metric=null}gain=now;this.#measure()}return"stepped"}step(tolerance){
+this.#metric??=this.#newMetric();if(this.#metric===null){return"indefinite"}const gradient=this.#gradient();
 const direction=this.#metric.direction(gradient);const slope=dot(gradient,direction);this.promised=-slope/
 2/Math.max(this.energy,LEAST_ENERGY);if(!(this.promised>tolerance)){return this.promised>=0?"minimal":
 "no decrease"}const change=this.shape.whitening.toCoefficients(direction);const longest=this.#searched(
 change,slope);if(longest===0){return"no decrease"}const step=this.#proved(change,longest);if(step===
 0){return"refused"}const after=this.#gradient();const moved=direction.map(value=>step*value);const turned=after.
 map((value,i)=>value-gradient[i]);this.#metric.learn(moved,turned);return"stepped"}#searched(change,slope){
-const{shape,state,pins,energyMeasure}=this;const{weights}=shape.panels;const rise=samplesAt(shape.rows,
-slopesOf(shape.domain,change));const moved=pins.change(change);const constant=pins.product(state.residual,
-state.residual)/2;const linear=pins.product(state.residual,moved);const quadratic=pins.product(moved,
-moved)/2;const there=new Float64Array(rise.length);const energyAt=t=>{for(let i=0;i<there.length;i++){
-there[i]=state.samples[i]+t*rise[i]}const pinned=constant+t*linear+t*t*quadratic;return isometricEnergy(
-energyMeasure,weights,there)+pinned};return search(energyAt,slope,largestStep(state.samples,rise))}#proved(change,longest){
-let step=longest;for(let i=0;i<MOST_TRIES;i++){const coefficients=Float64Array.from(this.state.coefficients);
-addScaled(step,change,coefficients);const proof=this.shape.prover.prove(coefficients);if(proof.certificate.
-certified){this.state=this.#stateOf(coefficients,proof);return step}step*=SHORTER2}return 0}#certified(coefficients){
-const proof=this.shape.prover.prove(coefficients);if(!proof.certificate.certified){throw new Error("\
-the map to start from cannot be proved locally injective")}return this.#stateOf(coefficients,proof)}#stateOf(coefficients,{
-certificate,samples}){const{shape,energyMeasure,pins}=this;const isometric=isometricEnergy(energyMeasure,
-shape.panels.weights,samples);const residual=pins.residual(coefficients);return{coefficients,certificate,
-samples,isometric,residual,gradient:null}}#gradient(){const{state,pins}=this;state.gradient??=this.#isometricGradient();
+const{shape,state,pins}=this;const rise=samplesAt(this.quadrature.rows,slopesOf(shape.domain,change));
+const moved=pins.change(change);const constant=pins.product(state.residual,state.residual)/2;const linear=pins.
+product(state.residual,moved);const quadratic=pins.product(moved,moved)/2;const there=new Float64Array(
+rise.length);const energyAt=t=>{for(let i=0;i<there.length;i++){there[i]=state.samples[i]+t*rise[i]}
+const pinned=constant+t*linear+t*t*quadratic;return this.#isometric(there)+pinned};return search(energyAt,
+slope,largestStep(state.samples,rise))}#proved(change,longest){let step=longest;for(let i=0;i<MOST_TRIES;i++){
+const coefficients=Float64Array.from(this.state.coefficients);addScaled(step,change,coefficients);const proof=this.
+prover.prove(coefficients);if(proof.certificate.certified){this.state=this.#stateOf(coefficients,proof);
+return step}step*=SHORTER2}return 0}#certified(coefficients){const proof=this.prover.prove(coefficients);
+if(!proof.certificate.certified){throw new Error("the map to start from cannot be proved locally inj\
+ective")}return this.#stateOf(coefficients,proof)}#stateOf(coefficients,{certificate,samples}){const isometric=this.#isometric(
+samples);const residual=this.pins.residual(coefficients);return{coefficients,certificate,samples,isometric,
+residual,gradient:null}}#gradient(){const{state,pins}=this;state.gradient??=this.#isometricGradient();
 const gradient=Float64Array.from(state.gradient);for(const[i,{reduced,weight}]of pins.rows.entries()){
-addScaled(weight*state.residual[i],reduced,gradient)}return gradient}#isometricGradient(){const{shape,
-state,energyMeasure}=this;const bySamples=energyGradient(energyMeasure,shape.panels.weights,state.samples);
-const bySlopes=pulledThroughRows(shape.rows,bySamples);return shape.whitening.pulledBack(pulledThroughSlopes(
-shape.domain,bySlopes))}#pinEnergy(residual){return this.pins.product(residual,residual)/2}#newMetric(){
-this.factors++;return metricAt(this.#assembler,this.state.samples,this.energyMeasure,this.pins)}#pin(pose){
-this.pins=new Pins(this.shape,pose,this.weight)}#remeasure(){this.#measurements=0;this.#damping=1;this.#measure();
-this.state.residual=this.pins.residual(this.state.coefficients)}#measure(){const{pins}=this;if(!pins.
-turned||this.#damping===KEPT){return false}if(this.#measurements===MOST_MEASUREMENTS){this.#damping=
-KEPT}const before=pins.turns;pins.measure(this.state.coefficients,this.#damping);const apart=pins.apartFrom(
-before);if(apart===0){pins.turns=before;return false}if(this.#measurements>0&&apart>FAR&&this.#damping!==
-KEPT){this.#damping*=DAMPING}this.#measurements++;this.#metric=this.#metric&&repinned(this.#metric,pins);
-this.state.residual=pins.residual(this.state.coefficients);return true}};function pinsAlike(a,b){const kept=({
-handles,weights,angles,scales})=>JSON.stringify([handles,weights??null,angles??null,scales??null]);return kept(
-a)===kept(b)}function rigidMotion(points,targets){const middle=meanOf(points);const aim=meanOf(targets);
-let re=0;let im=0;for(const[i,point]of points.entries()){const[x,y]=[point[0]-middle[0],point[1]-middle[1]];
-const[u,v]=[targets[i][0]-aim[0],targets[i][1]-aim[1]];re+=x*u+y*v;im+=x*v-y*u}const size=Math.hypot(
-re,im);const[cos,sin]=size>0?[re/size,im/size]:[1,0];const by=[aim[0]-cos*middle[0]+sin*middle[1],aim[1]-
-cos*middle[1]-sin*middle[0]];return[[cos,sin],[by[0],by[1]]]}function meanOf(points){const count=Math.
-max(points.length,1);const x=points.reduce((sum,point)=>sum+point[0],0);const y=points.reduce((sum,point)=>sum+
+addScaled(weight*state.residual[i],reduced,gradient)}return gradient}#isometric(samples){const{energyMeasure,
+quadrature}=this;const whole=isometricEnergy(energyMeasure,quadrature.weights,samples);return whole-
+quadrature.added*energyMeasure.density(1,0)}#isometricGradient(){const{shape,state,energyMeasure,quadrature}=this;
+const bySamples=energyGradient(energyMeasure,quadrature.weights,state.samples);const bySlopes=pulledThroughRows(
+quadrature.rows,bySamples);return shape.whitening.pulledBack(pulledThroughSlopes(shape.domain,bySlopes))}#pinEnergy(residual){
+return this.pins.product(residual,residual)/2}#newMetric(){this.factors++;return metricAt(this.#assembler,
+this.state.samples,this.energyMeasure,this.pins)}#pin(pose){this.pins=new Pins(this.shape,pose,this.
+weight)}#remeasure(){this.#measurements=0;this.#damping=1;this.#measure();this.state.residual=this.pins.
+residual(this.state.coefficients)}#measure(){const{pins}=this;if(!pins.turned||this.#damping===KEPT){
+return false}if(this.#measurements===MOST_MEASUREMENTS){this.#damping=KEPT}const before=pins.turns;pins.
+measure(this.state.coefficients,this.#damping);const apart=pins.apartFrom(before);if(apart===0){pins.
+turns=before;return false}if(this.#measurements>0&&apart>FAR&&this.#damping!==KEPT){this.#damping*=DAMPING}
+this.#measurements++;this.#metric=this.#metric&&repinned(this.#metric,pins);this.state.residual=pins.
+residual(this.state.coefficients);return true}};function pinsAlike(a,b){const kept=({handles,weights,
+angles,scales})=>JSON.stringify([handles,weights??null,angles??null,scales??null]);return kept(a)===
+kept(b)}function rigidMotion(points,targets){const middle=meanOf(points);const aim=meanOf(targets);let re=0;
+let im=0;for(const[i,point]of points.entries()){const[x,y]=[point[0]-middle[0],point[1]-middle[1]];const[
+u,v]=[targets[i][0]-aim[0],targets[i][1]-aim[1]];re+=x*u+y*v;im+=x*v-y*u}const size=Math.hypot(re,im);
+const[cos,sin]=size>0?[re/size,im/size]:[1,0];const by=[aim[0]-cos*middle[0]+sin*middle[1],aim[1]-cos*
+middle[1]-sin*middle[0]];return[[cos,sin],[by[0],by[1]]]}function meanOf(points){const count=Math.max(
+points.length,1);const x=points.reduce((sum,point)=>sum+point[0],0);const y=points.reduce((sum,point)=>sum+
 point[1],0);return[x/count,y/count]}var SETTLED=1e-7;var LiveWorker=class{#post;#later;#waiting=[];#scheduled=false;#solver=null;#points=null;#drag=null;constructor(post,later){
 this.#post=post;this.#later=later}receive(request){const last=this.#waiting.at(-1);if(request.type===
 "drag"&&last?.type==="drag"){this.#waiting.pop()}this.#waiting.push(request);this.#schedule()}#schedule(){

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import glid_nb as glid
+from glid_nb.solvers.stiffness import stiff_nodes
 
 from ...domains import domain
 from .golden import FOLDER, MINIMA, SAMPLES, energy_of_minimum, map_of, minimum, numbers_of, shape
@@ -70,3 +71,20 @@ def test_a_solve_in_the_page_ends_where_the_packages_ends(name: str, more: dict[
     map = glid.HarmonicMap(d, parts[0] + 1j * parts[1], parts[2] + 1j * parts[3])
     assert glid.certify(map).certified
     assert map.distance(result.map) < 0.02
+
+
+@pytest.mark.parametrize("name", ["ell", "ring"])
+def test_a_solve_in_the_page_keeps_stiff_areas_as_the_package_does(name: str) -> None:
+    d = domain(name)
+    handles = [[-2.4, -2.4], [2.4, -1.5]] if name == "ell" else [[-2.0, 0.1], [2.0, 0.2]]
+    targets = [[-2.0, -2.6], [2.9, 0.4]] if name == "ell" else [[-2.2, 0.5], [2.6, -0.9]]
+    strokes = [{"points": [[1.5, -2.0], [2.2, -1.0]], "radius": 0.8, "strength": 0.9}]
+    pose = glid.Pose(handles, targets, stiffness=strokes)
+    result = glid.solve(d, pose, options=glid.Options(restarts=0))
+    options = {"stiff": stiff_nodes(d, pose.stiffness)}
+    plain = {"handles": handles, "targets": targets}
+    asked = {"ask": "solve", "outline": d.to_dict(), "pose": plain, "options": options}
+    without = {**asked, "options": {}}
+    stiff, soft = answers([asked, without])
+    assert stiff["energy"] == pytest.approx(result.energy, rel=1e-6)
+    assert soft["energy"] < result.energy

@@ -8,6 +8,7 @@ import { addProduct } from "./dense.js";
 import { noDifferentials } from "./energy.js";
 
 /** @import { Energy } from "./energy.js" */
+/** @import { Quadrature } from "./quadrature.js" */
 /** @import { Shape } from "./shape.js" */
 /** @import { Samples } from "./types.js" */
 
@@ -65,16 +66,18 @@ export function positivePart(k) {
 }
 
 export class Assembler {
-  /** @param {Shape} shape */
-  constructor(shape) {
-    const { panels, whitening, rows, domain } = shape;
-    const { count } = panels;
+  /**
+   * @param {Shape} shape
+   * @param {Quadrature} quadrature of the energy
+   */
+  constructor(shape, { rows, weights, middles }) {
+    const { panels, whitening, domain } = shape;
     this.shape = shape;
-    const few = count >= NODES_PER_COORDINATE * whitening.u;
-    /** The first node of the quadrature: the middles of the panels, or all nodes. */
-    this.first = few ? count : 0;
-    this.nodes = few ? count : 2 * count;
-    this.weights = few ? panels.lengths : panels.weights;
+    const few = panels.count >= NODES_PER_COORDINATE * whitening.u;
+    /** The Hessian's nodes: from this one of the energy's on. The starts are left out if possible. */
+    this.first = few ? panels.count : 0;
+    this.nodes = rows.count - this.first;
+    this.weights = few ? middles : weights;
     /** D T at the nodes: one row of `nodes` numbers for each column of T. */
     this.re = new Float64Array(whitening.u * this.nodes);
     this.im = new Float64Array(whitening.u * this.nodes);

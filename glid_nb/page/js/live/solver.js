@@ -7,6 +7,8 @@ import { energyGradient, energyNamed, isometricEnergy } from "./energy.js";
 import { Assembler } from "./hessian.js";
 import { largestStep, search } from "./line_search.js";
 import { Pins } from "./pins.js";
+import { Prover } from "./proof.js";
+import { quadratureOf } from "./quadrature.js";
 
 /** @import { Metric } from "./directions.js" */
 /** @import { Shape } from "./shape.js" */
@@ -56,11 +58,14 @@ export class Solver {
    * @param {Shape} shape
    * @param {SolverOptions} [options]
    */
-  constructor(shape, { energy = "iso", s = 1, weight = 1e5 } = {}) {
+  constructor(shape, { energy = "iso", s = 1, weight = 1e5, stiff = null } = {}) {
+    const { domain, panels } = shape;
     this.shape = shape;
     this.energyMeasure = energyNamed(energy, s);
     this.weight = weight;
-    this.#assembler = new Assembler(shape);
+    this.quadrature = quadratureOf(shape, stiff);
+    this.prover = stiff ? new Prover(domain, panels, this.quadrature.rows) : shape.prover;
+    this.#assembler = new Assembler(shape, this.quadrature);
     this.pins = new Pins(shape, { handles: [], targets: [] }, weight);
     /** @type {State} */
     this.state = this.#certified(shape.identity());
@@ -228,9 +233,8 @@ export class Solver {
    * @param {number} slope
    */
   #searched(change, slope) {
-    const { shape, state, pins, energyMeasure } = this;
-    const { weights } = shape.panels;
-    const rise = samplesAt(shape.rows, slopesOf(shape.domain, change));
+    const { shape, state, pins } = this;
+    const rise = samplesAt(this.quadrature.rows, slopesOf(shape.domain, change));
     const moved = pins.change(change);
     const constant = pins.product(state.residual, state.residual) / 2;
     const linear = pins.product(state.residual, moved);
@@ -242,7 +246,7 @@ export class Solver {
         there[i] = state.samples[i] + t * rise[i];
       }
       const pinned = constant + t * linear + t * t * quadratic;
-      return isometricEnergy(energyMeasure, weights, there) + pinned;
+      return this.#isometric(there) + pinned;
     };
     return search(energyAt, slope, largestStep(state.samples, rise));
   }
@@ -257,7 +261,7 @@ export class Solver {
     for (let i = 0; i < MOST_TRIES; i++) {
       const coefficients = Float64Array.from(this.state.coefficients);
       addScaled(step, change, coefficients);
-      const proof = this.shape.prover.prove(coefficients);
+      const proof = this.prover.prove(coefficients);
       if (proof.certificate.certified) {
         this.state = this.#stateOf(coefficients, proof);
         return step;
@@ -272,7 +276,7 @@ export class Solver {
    * @param {Coefficients} coefficients
    */
   #certified(coefficients) {
-    const proof = this.shape.prover.prove(coefficients);
+    const proof = this.prover.prove(coefficients);
     if (!proof.certificate.certified) {
       throw new Error("the map to start from cannot be proved locally injective");
     }
@@ -285,9 +289,8 @@ export class Solver {
    * @returns {State}
    */
   #stateOf(coefficients, { certificate, samples }) {
-    const { shape, energyMeasure, pins } = this;
-    const isometric = isometricEnergy(energyMeasure, shape.panels.weights, samples);
-    const residual = pins.residual(coefficients);
+    const isometric = this.#isometric(samples);
+    const residual = this.pins.residual(coefficients);
     return { coefficients, certificate, samples, isometric, residual, gradient: null };
   }
 
@@ -302,10 +305,20 @@ export class Solver {
     return gradient;
   }
 
+  /**
+   * The isometric energy, without what stiff areas add to an isometry.
+   * @param {Samples} samples
+   */
+  #isometric(samples) {
+    const { energyMeasure, quadrature } = this;
+    const whole = isometricEnergy(energyMeasure, quadrature.weights, samples);
+    return whole - quadrature.added * energyMeasure.density(1, 0);
+  }
+
   #isometricGradient() {
-    const { shape, state, energyMeasure } = this;
-    const bySamples = energyGradient(energyMeasure, shape.panels.weights, state.samples);
-    const bySlopes = pulledThroughRows(shape.rows, bySamples);
+    const { shape, state, energyMeasure, quadrature } = this;
+    const bySamples = energyGradient(energyMeasure, quadrature.weights, state.samples);
+    const bySlopes = pulledThroughRows(quadrature.rows, bySamples);
     return shape.whitening.pulledBack(pulledThroughSlopes(shape.domain, bySlopes));
   }
 

@@ -54,6 +54,15 @@ export interface Certificate {
 /** Names of the energies, as `ENERGIES` of the package has them. */
 export type EnergyName = "iso" | "exp" | "amips" | "mips" | "arap";
 
+/** Stiff areas, as `glid_nb.solvers.stiffness.stiff_nodes` gives them for an outline. */
+export interface Stiff {
+  /** Factors of the weights at the panels' starts, then at their middles. */
+  factors: number[];
+  /** Nodes inside the areas, and their weights. */
+  points: Point[];
+  weights: number[];
+}
+
 /** How to solve. */
 export interface SolverOptions {
   energy?: EnergyName;
@@ -61,6 +70,7 @@ export interface SolverOptions {
   s?: number;
   /** lambda of (20), for lengths in twentieths of the cage's longer side; 1e5 without. */
   weight?: number;
+  stiff?: Stiff | null;
 }
 
 /** What the page asks of the worker. Every request has a number, which its answers repeat. */
