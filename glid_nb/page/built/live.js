@@ -135,12 +135,12 @@ whole.sigma2_lower=Math.min(whole.sigma2_lower,bounds.sigma2);whole.sigma1_upper
 bounds.sigma1);whole.k_upper=Math.max(whole.k_upper,bounds.k);turning[panels.loop[i]]+=bounds.turning;
 if(!(bounds.sigma2>0)){whole.refused=i;break}}const windings=Array.from(turning,angle=>Math.round(angle/
 TAU2)+0);const zerosOfFz=windings.reduce((sum,turns)=>sum+turns,0);const certified=map.tied&&whole.refused<
-0&&zerosOfFz===0;return{certified,...whole,windings}}#onPanel(map,samples,i,whole){const{panels}=this;
-const start=this.#node(samples,i);const middle=this.#node(samples,panels.count+i);const end=this.#node(
-samples,panels.next[i]);return this.#between(map,start,middle,end,this.#weights,i*map.columns,0,whole)}#node([
-fr,fi,gr,gi],i){const{re,im}=this.panels.nodes;const norm=this.rows.norms[i];return{x:re[i],y:im[i],
-norm,fr:fr[i],fi:fi[i],gr:gr[i],gi:gi[i]}}#between(map,start,middle,end,weights,first,depth,whole){const norm=Math.
-max(start.norm,middle.norm,end.norm);const[ef,eg]=map.errors(weights,first,norm);const bounds=boundsOf(
+0&&zerosOfFz===0;const k=certified?Math.min(whole.k_upper,1):whole.k_upper;return{certified,...whole,
+k_upper:k,windings}}#onPanel(map,samples,i,whole){const{panels}=this;const start=this.#node(samples,
+i);const middle=this.#node(samples,panels.count+i);const end=this.#node(samples,panels.next[i]);return this.#between(
+map,start,middle,end,this.#weights,i*map.columns,0,whole)}#node([fr,fi,gr,gi],i){const{re,im}=this.panels.
+nodes;const norm=this.rows.norms[i];return{x:re[i],y:im[i],norm,fr:fr[i],fi:fi[i],gr:gr[i],gi:gi[i]}}#between(map,start,middle,end,weights,first,depth,whole){
+const norm=Math.max(start.norm,middle.norm,end.norm);const[ef,eg]=map.errors(weights,first,norm);const bounds=boundsOf(
 start,middle,end,ef,eg);if(bounds.sigma2>0){return bounds}const folded=!(modulus(start.fr,start.fi)>
 modulus(start.gr,start.gi));if(depth===MOST_HALVINGS||folded){return bounds}whole.halved++;const left=this.#half(
 map,start,middle,depth,whole);if(!(left.sigma2>0)){return left}const right=this.#half(map,middle,end,

@@ -108,7 +108,8 @@ export class Prover {
     const windings = Array.from(turning, (angle) => Math.round(angle / TAU) + 0); // no -0
     const zerosOfFz = windings.reduce((sum, turns) => sum + turns, 0);
     const certified = map.tied && whole.refused < 0 && zerosOfFz === 0;
-    return { certified, ...whole, windings };
+    const k = certified ? Math.min(whole.k_upper, 1) : whole.k_upper;
+    return { certified, ...whole, k_upper: k, windings };
   }
 
   /**
