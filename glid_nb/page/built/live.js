@@ -76,21 +76,22 @@ h]=im[h]}}return slopes}function pulledThroughSlopes(domain,g){const{vertices,co
 const pulled=new Float64Array(4*columns);for(const re of[0,2*columns]){const im=re+columns;for(let e=0;e<
 vertices;e++){const x=g[re+e]*inverseEdge.re[e]+g[im+e]*inverseEdge.im[e];const y=g[im+e]*inverseEdge.
 re[e]-g[re+e]*inverseEdge.im[e];pulled[re+next[e]]+=x;pulled[im+next[e]]+=y;pulled[re+e]-=x;pulled[im+
-e]-=y}for(let h=vertices;h<columns;h++){pulled[re+h]=g[re+h];pulled[im+h]=g[im+h]}}return pulled}function samplesAt({
-count,columns,re,im},slopes){const samples=new Float64Array(4*count);const[pr,pi,qr,qi]=quarters(slopes);
-const[fr,fi,gr,gi]=quarters(samples);for(let i=0;i<count;i+=2){const next=Math.min(i+1,count-1);const first=i*
-columns;const second=next*columns;let[a,b,c,d]=[0,0,0,0];let[A,B,C,D]=[0,0,0,0];for(let e=0;e<columns;e++){
-const x=re[first+e];const y=im[first+e];const X=re[second+e];const Y=im[second+e];a+=x*pr[e]-y*pi[e];
-b+=x*pi[e]+y*pr[e];c+=x*qr[e]-y*qi[e];d+=x*qi[e]+y*qr[e];A+=X*pr[e]-Y*pi[e];B+=X*pi[e]+Y*pr[e];C+=X*
-qr[e]-Y*qi[e];D+=X*qi[e]+Y*qr[e]}[fr[i],fi[i],gr[i],gi[i]]=[a,b,c,d];[fr[next],fi[next],gr[next],gi[next]]=
-[A,B,C,D]}return samples}function pulledThroughRows({count,columns,re,im},g){const pulled=new Float64Array(
-4*columns);const[pr,pi,qr,qi]=quarters(pulled);const[fr,fi,gr,gi]=quarters(g);for(let i=0;i<count;i+=
-2){const first=i*columns;const[a,b,c,d]=[fr[i],fi[i],gr[i],gi[i]];const both=i+1<count;const second=both?
-first+columns:first;const[A,B,C,D]=both?[fr[i+1],fi[i+1],gr[i+1],gi[i+1]]:[0,0,0,0];for(let e=0;e<columns;e++){
-const x=re[first+e];const y=im[first+e];const X=re[second+e];const Y=im[second+e];pr[e]+=x*a+y*b+(X*
-A+Y*B);pi[e]+=x*b-y*a+(X*B-Y*A);qr[e]+=x*c+y*d+(X*C+Y*D);qi[e]+=x*d-y*c+(X*D-Y*C)}}return pulled}function quarters(values){
-const n=values.length/4;return[values.subarray(0,n),values.subarray(n,2*n),values.subarray(2*n,3*n),
-values.subarray(3*n)]}var FieldPoints=class{#domain;#coordinates;#rows;constructor(domain,points){const{columns}=domain;this.#domain=
+e]-=y}for(let h=vertices;h<columns;h++){pulled[re+h]=g[re+h];pulled[im+h]=g[im+h]}}return pulled}function samplesAt(rows,slopes){
+const samples=new Float64Array(4*rows.count);const[pr,pi,qr,qi]=quarters(slopes);const[fr,fi,gr,gi]=quarters(
+samples);fillProduct(rows,pr,pi,fr,fi);fillProduct(rows,qr,qi,gr,gi);return samples}function fillProduct(rows,re,im,intoRe,intoIm){
+const{count,columns}=rows;const rowRe=rows.re;const rowIm=rows.im;for(let i=0;i<count;i+=2){const next=Math.
+min(i+1,count-1);const first=i*columns;const second=next*columns;let x1=0;let y1=0;let x2=0;let y2=0;
+for(let e=0;e<columns;e++){const a1=rowRe[first+e];const b1=rowIm[first+e];const a2=rowRe[second+e];
+const b2=rowIm[second+e];const c=re[e];const d=im[e];x1+=a1*c-b1*d;y1+=a1*d+b1*c;x2+=a2*c-b2*d;y2+=a2*
+d+b2*c}intoRe[i]=x1;intoIm[i]=y1;intoRe[next]=x2;intoIm[next]=y2}}function pulledThroughRows(rows,g){
+const pulled=new Float64Array(4*rows.columns);const[pr,pi,qr,qi]=quarters(pulled);const[fr,fi,gr,gi]=quarters(
+g);addAdjointProduct(rows,fr,fi,pr,pi);addAdjointProduct(rows,gr,gi,qr,qi);return pulled}function addAdjointProduct(rows,re,im,intoRe,intoIm){
+const{count,columns}=rows;const rowRe=rows.re;const rowIm=rows.im;for(let i=0;i<count;i+=2){const both=i+
+1<count;const first=i*columns;const second=both?first+columns:first;const c1=re[i];const d1=im[i];const c2=both?
+re[i+1]:0;const d2=both?im[i+1]:0;for(let e=0;e<columns;e++){const a1=rowRe[first+e];const b1=rowIm[first+
+e];const a2=rowRe[second+e];const b2=rowIm[second+e];intoRe[e]+=a1*c1+b1*d1+(a2*c2+b2*d2);intoIm[e]+=
+a1*d1-b1*c1+(a2*d2-b2*c2)}}}function quarters(values){const n=values.length/4;return[values.subarray(
+0,n),values.subarray(n,2*n),values.subarray(2*n,3*n),values.subarray(3*n)]}var FieldPoints=class{#domain;#coordinates;#rows;constructor(domain,points){const{columns}=domain;this.#domain=
 domain;this.count=points.length;this.#coordinates=zeros(points.length*columns);for(const[i,point]of points.
 entries()){const c=coordinatesAt(domain,point);this.#coordinates.re.set(c.re,i*columns);this.#coordinates.
 im.set(c.im,i*columns)}this.#rows=rowsAt(domain,complexOf(points))}evaluate(coefficients){const slopes=slopesOf(
