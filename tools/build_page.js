@@ -10,7 +10,7 @@ import { build } from "esbuild";
 const ROOT = path.dirname(path.dirname(fileURLToPath(import.meta.url)));
 export const BUILT = path.join(ROOT, "glid_nb", "page", "built");
 
-// The widgets are modules, imported by anywidget. The exported page contains a plain script.
+// The widgets are modules, imported by anywidget. The exported page and a worker contain plain scripts.
 const WIDGETS = {
   canvas: "canvas/main.js",
   clipboard: "clipboard/main.js",
@@ -18,7 +18,7 @@ const WIDGETS = {
   timeline: "timeline/main.js",
   tracer: "tracer/main.js",
 };
-const SCRIPTS = { exported: "exported/main.js" };
+const SCRIPTS = { exported: "exported/main.js", live: "live/main.js" };
 const STYLES = {
   canvas: "canvas/canvas.css",
   exported: "exported/exported.css",

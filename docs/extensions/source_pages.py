@@ -1,7 +1,8 @@
 """Links from pages to the repository's files, each to a page of this site.
 
-- A link to a Python file, or its path in code type (`glid_nb/certificate/paper.py`), opens a
-  page with that source, at the first name in the link's text that the file defines.
+- A link to a Python or JavaScript file, or a Python file's path in code type
+  (`glid_nb/certificate/paper.py`), opens a page with that source, at the first name in the link's
+  text that the file defines.
 - A link to a folder opens a list of its files, for download.
 - A name of a module below the package's parts (`glid_nb.certificate.paper.turning`) opens its
   source in the same way.
@@ -32,6 +33,7 @@ import glid_nb
 logger = logging.getLogger(__name__)
 
 FOLDER = "files"
+_LANGUAGES = {".py": "python", ".js": "javascript"}
 _PATH = re.compile(r"((?:glid_nb|checker|studies|tests|tools)/[\w/.]+\.py)(?:::(\w+).*)?")
 _CLASSES = "|".join(name for name in dir(glid_nb) if name[0].isupper())
 _NAME = re.compile(
@@ -61,7 +63,8 @@ def _breakable(dotted: str) -> nodes.raw:
 def definition(source: str, name: str) -> int | None:
     """The line, from 1, on which a name is defined."""
     last = re.escape(name.split("(", maxsplit=1)[0].rsplit(".", maxsplit=1)[-1])
-    pattern = rf"^\s*(?:(?:async )?def|class) {last}\b|^{last}\s*[:=]"
+    words = r"(?:export )?(?:(?:async )?def|class|function|const)"
+    pattern = rf"^\s*{words} {last}\b|^{last}\s*[:=]"
     found = re.search(pattern, source, re.MULTILINE) if last else None
     return source.count("\n", 0, found.end()) + 1 if found else None
 
@@ -93,7 +96,7 @@ class RepositoryLinks(SphinxTransform):
 
     def _link(self, node: nodes.Element, path: str) -> None:
         file = self.root / path
-        if not (path and (file.suffix == ".py" or file.is_dir())):
+        if not (path and (file.suffix in _LANGUAGES or file.is_dir())):
             return
         names = [literal.astext() for literal in node.findall(nodes.literal)]
         node.replace_self(self._reference(path, names, list(node.children)))
@@ -101,7 +104,7 @@ class RepositoryLinks(SphinxTransform):
     def _reference(self, path: str, names: list[str], children: list[Any]) -> nodes.reference:
         self.seen.add(path)
         uri = self.app.builder.get_relative_uri(self.env.docname, f"{FOLDER}/{path}")
-        if names and path.endswith(".py"):
+        if names and Path(path).suffix in _LANGUAGES:
             source = (self.root / path).read_text(encoding="utf-8")
             lines = [line for name in names if (line := definition(source, name))]
             uri += f"#L-{lines[0]}" if lines else ""
@@ -157,7 +160,8 @@ def pages(app: Sphinx) -> Iterator[tuple[str, dict[str, Any], str]]:
             body = "\n".join(_listed(app, file, path))
         else:
             source = file.read_text(encoding="utf-8")
-            body = app.builder.highlighter.highlight_block(source, "python", lineanchors="L")
+            language = _LANGUAGES[file.suffix]
+            body = app.builder.highlighter.highlight_block(source, language, lineanchors="L")
         title = f"<h1><code>{escape(path)}</code></h1>"
         yield f"{FOLDER}/{path}", {"title": path, "body": title + body, "parents": []}, "page.html"
 

@@ -1,6 +1,7 @@
 """How stiff areas change the matrices of a solve."""
 
 import functools
+from typing import Any
 
 import numpy as np
 import shapely
@@ -8,7 +9,7 @@ import shapely
 from glid_nb._arrays import Array
 from glid_nb._jax import jax
 from glid_nb._runtime import double_precision
-from glid_nb.geometry import Domain, as_points
+from glid_nb.geometry import Domain, as_points, graded_panels
 from glid_nb.harmonic import as_complex, basis_of, cauchy
 from glid_nb.pose import FULL_WEIGHT, Stiffness
 from glid_nb.solvers import discretisation
@@ -56,9 +57,29 @@ def _added(stiffness: Stiffness, z: Array) -> Array:
     return FULL_WEIGHT ** stiffness(as_points(z)) - 1
 
 
+def stiff_nodes(domain: Domain, stiffness: Stiffness) -> dict[str, Any]:
+    """How a stiffness changes the energy, as plain values for the solver in a page.
+
+    ``factors`` of the weights at the starts, then at the middles, of the graded panels; ``points``
+    inside the areas and their ``weights``.
+    """
+    panels = graded_panels(domain)
+    factors = 1 + _added(stiffness, np.concatenate([panels.start, panels.middle]))
+    z, weights = _nodes_inside(domain, stiffness)
+    points = as_points(z).tolist()
+    return {"factors": factors.tolist(), "points": points, "weights": weights.tolist()}
+
+
 @functools.lru_cache(maxsize=4)
 def _inside(domain: Domain, stiffness: Stiffness) -> tuple[Array, Array]:
-    """Weights and ``D`` at nodes on a square grid inside the areas."""
+    """Weights and ``D`` at nodes inside the areas, padded to `NODES`."""
+    z, weights = _nodes_inside(domain, stiffness)
+    d = discretisation.complex_basis(cauchy.first_derivatives, z, basis_of(domain))
+    return padded(weights, NODES, 0.0), discretisation.real_columns(padded(d, NODES))
+
+
+def _nodes_inside(domain: Domain, stiffness: Stiffness) -> tuple[Array, Array]:
+    """Complex nodes on a square grid inside the areas, at most `NODES`, and their weights."""
     whole = shapely.union_all(list(stiffness.within(domain.cage).values()))
     shapely.prepare(whole)
     left, bottom, right, top = whole.bounds
@@ -73,6 +94,4 @@ def _inside(domain: Domain, stiffness: Stiffness) -> tuple[Array, Array]:
     z = (x + 1j * y)[inside]
     if not len(z):
         z = as_complex(shapely.get_coordinates(whole.representative_point()))
-    weights = _added(stiffness, z) * whole.area / len(z) / domain.cage.area
-    d = discretisation.complex_basis(cauchy.first_derivatives, z, basis_of(domain))
-    return padded(weights, NODES, 0.0), discretisation.real_columns(padded(d, NODES))
+    return z, _added(stiffness, z) * whole.area / len(z) / domain.cage.area
