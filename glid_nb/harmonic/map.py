@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from glid_nb._arguments import check_count, check_type, unmet
-from glid_nb._arrays import Array, Rebuilt, frozen, number_pairs, real_array
-from glid_nb._errors import InputError, about
+from glid_nb._arrays import Array, Rebuilt, frozen, real_array
+from glid_nb._errors import about
 from glid_nb._features import is_traced
 from glid_nb._jax import jax, jnp
 from glid_nb._json import checked_version, read_json, write_json
@@ -20,6 +20,7 @@ from glid_nb.geometry import Domain, as_points, loop_name, uniform_panels
 from glid_nb.harmonic import cauchy
 from glid_nb.harmonic.basis import basis_of
 from glid_nb.harmonic.cauchy import Singularities
+from glid_nb.harmonic.points import MapError, as_complex, complex_from_pairs
 
 R = TypeVar("R")
 
@@ -31,10 +32,6 @@ FORMAT_VERSION = 1
 DOMAIN_KEYS = ("cage", "holes", "offset_cage", "offset_holes", "hole_points")
 
 _LARGEST = 1e120  # squares of larger coefficients, times those of the basis, overflow
-
-
-class MapError(InputError):
-    """A harmonic map's coefficients, its file, or points to evaluate it at are not valid."""
 
 
 @dataclass(frozen=True, eq=False, init=False)
@@ -272,22 +269,6 @@ def _only(values: Any, inside: Array) -> Any:
     return values.__array_namespace__().where(mask, values, nothing)
 
 
-def as_complex(points: Any) -> Array:
-    """(k, 2) real points, or complex ones of any shape, as a (k,) complex array."""
-    listed = [points] if isinstance(points, complex) else points
-    if isinstance(listed, list | tuple) and any(isinstance(one, complex) for one in listed):
-        points = np.asarray(listed)
-    if hasattr(points, "dtype") and np.iscomplexobj(points):
-        z = np.asarray(np.ma.filled(points, np.nan), dtype=complex).ravel()
-    else:
-        array = number_pairs(points, "points must be (k, 2) coordinates", MapError)
-        z = array[:, 0] + 1j * array[:, 1]
-    bad = np.flatnonzero(~np.isfinite(z))
-    if bad.size:
-        raise MapError(f"point {bad[0]} is {z[bad[0]]}; coordinates must be finite")
-    return z
-
-
 def _values(z: Any, coefficients: Any, singularities: Singularities) -> Any:
     c = cauchy.cauchy_coordinates(z, singularities)
     return c @ coefficients[0] + (c @ coefficients[1]).conj()
@@ -309,9 +290,3 @@ def _first(z: Any, coefficients: Any, singularities: Singularities) -> tuple[Any
 
 def _higher(z: Any, coefficients: Any, singularities: Singularities, order: int) -> Any:
     return tuple(cauchy.higher_derivative(z, c, singularities, order) for c in coefficients)
-
-
-def complex_from_pairs(value: Any, name: str) -> Array:
-    """[re, im] pairs as coefficients, bit for bit; the message of the MapError has the ``name``."""
-    pairs = number_pairs(value, f"{name} must be a list of [re, im] pairs of numbers", MapError)
-    return pairs.view(complex)[:, 0]  # keeps signed zeros and infinities
