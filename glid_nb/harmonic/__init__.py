@@ -3,4 +3,5 @@
 from glid_nb.harmonic.basis import Basis, basis_of
 from glid_nb.harmonic.cauchy import Singularities
 from glid_nb.harmonic.fixed_points import FixedPoints
+from glid_nb.harmonic.inverse import Inverse, Preimages
 from glid_nb.harmonic.map import HarmonicMap, MapError, as_complex, images_under, rows_of, run_on

@@ -20,6 +20,7 @@ from glid_nb.geometry import Domain, as_points, loop_name, uniform_panels
 from glid_nb.harmonic import cauchy
 from glid_nb.harmonic.basis import basis_of
 from glid_nb.harmonic.cauchy import Singularities
+from glid_nb.harmonic.inverse import Inverse, residuals
 from glid_nb.harmonic.points import MapError, as_complex, complex_from_pairs
 
 R = TypeVar("R")
@@ -157,6 +158,20 @@ class HarmonicMap(Rebuilt):
         parts = values if isinstance(values, tuple) else (values,)
         left = tuple(_only(part, inside) for part in parts)
         return left if isinstance(values, tuple) else left[0]
+
+    @property
+    def inverse(self) -> Inverse:
+        """The inverse as a function: ``map.inverse(points)`` are the preimages of points.
+
+        Newton's method finds them; :meth:`Inverse.locate` returns them with a proved radius. The
+        map needs no certificate.
+        """
+        return self.kept.setdefault("inverse", Inverse(self))
+
+    def residuals(self, src: Any, dst: Any) -> Array:
+        """(k,) distances of the images of ``src`` from ``dst``, both (k, 2), as scikit-image's
+        transforms have them."""
+        return residuals(self, src, dst)
 
     def distance(self, other: Self, n_points: int = 2000) -> float:
         """Largest distance between the images under two maps, at ``n_points`` boundary points.
