@@ -49,6 +49,12 @@ class Jets(NamedTuple):
     radius: Array
     """0 where nothing is proved."""
 
+    @property
+    def sigma2_lower(self) -> Array:
+        """A lower bound on the smaller singular value at the points, rounding included."""
+        f, g = np.abs(self.fz), np.abs(self.fzb_conj)
+        return f - g - self.first_error * UPWARD - 8 * UNIT_ROUNDOFF * (f + g)
+
     def at(self, index: Any) -> Self:
         return self._make(values[index] for values in self)
 

@@ -16,6 +16,7 @@ import shapely
 from glid_nb._arguments import unmet
 from glid_nb._arrays import Array, read_only
 from glid_nb.geometry import Domain, Overlay, Triangulation, as_points, triangulate
+from glid_nb.harmonic import transport
 from glid_nb.harmonic.expansions import Jets, cover_of, jets_at
 from glid_nb.harmonic.fixed_points import FixedPoints
 from glid_nb.harmonic.points import MapError, as_complex
@@ -158,6 +159,33 @@ class Inverse:
         values = (as_points(z), index, radius, alone)
         return Preimages(*(read_only(np.array(value)) for value in values), len(w))
 
+    def transport(self, geometry: Any, *, tolerance: float | None = None, frame: Any = None) -> Any:
+        """Geometries or labels of the image, back in the domain: `Transported`, as
+        :meth:`HarmonicMap.transport` returns it."""
+        return transport.transport(self.map, geometry, tolerance=tolerance, frame=frame, back=True)
+
+    def displacement_field(self, frame: Any, shape: Any = None) -> Any:
+        """The displacements of the inverse, as :meth:`HarmonicMap.displacement_field`."""
+        return self.map.displacement_field(frame, shape, inverse=True)
+
+    def nearby(self, w: Array) -> tuple[Array, Array, Jets, Array]:
+        """Indices of (k,) complex points, their preimages in the domain or just beside it, the jets
+        there, and the proved radii."""
+        index, z, jets = self._searched(w, False)
+        lost = np.setdiff1d(np.arange(len(w)), index)
+        if lost.size:
+            images, vertices, reach = self._vertices
+            distance, nearest = images.query(as_points(w[lost]))
+            near = distance <= reach
+            lost = lost[near]
+            more, own, found = _newton(self.map, w[lost], vertices[nearest[near]])
+            index, z = np.concatenate([index, lost[found]]), np.concatenate([z, more[found]])
+            pairs = zip(jets, own.at(found), strict=True)
+            jets = Jets(*(np.concatenate(pair) for pair in pairs))
+            order = np.argsort(index)
+            index, z, jets = index[order], z[order], jets.at(order)
+        return index, z, jets, _proved(w[index], jets)[0]
+
     def refined(self, points: Any, guesses: Any) -> tuple[Array, Array]:
         """(k,) complex preimages of (k,) complex points, by Newton's method from guesses, and
         (k,) bool: whether it found one in the domain."""
@@ -299,9 +327,8 @@ def _gap(w: Array, jets: Jets) -> Array:
 
 def _proved(w: Array, jets: Jets) -> tuple[Array, Array]:
     """Lemma 23: radii within which there is a preimage, and within which there is only one."""
-    f, g = np.abs(jets.fz), np.abs(jets.fzb_conj)
+    s = jets.sigma2_lower
     with np.errstate(all="ignore"):
-        s = f - g - jets.first_error * UPWARD - 8 * UNIT_ROUNDOFF * (f + g)
         gap = _gap(w, jets)
         reach = 2 * UPWARD * gap / s
         radius = UPWARD**2 * gap / (s - reach * jets.second)

@@ -17,11 +17,12 @@ from glid_nb._jax import jax, jnp
 from glid_nb._json import checked_version, read_json, write_json
 from glid_nb._runtime import in_chunks
 from glid_nb.geometry import Domain, as_points, loop_name, uniform_panels
-from glid_nb.harmonic import cauchy
+from glid_nb.harmonic import cauchy, transport
 from glid_nb.harmonic.basis import basis_of
 from glid_nb.harmonic.cauchy import Singularities
 from glid_nb.harmonic.inverse import Inverse, residuals
 from glid_nb.harmonic.points import MapError, as_complex, complex_from_pairs
+from glid_nb.harmonic.transport import DisplacementField, Transported
 
 R = TypeVar("R")
 
@@ -172,6 +173,34 @@ class HarmonicMap(Rebuilt):
         """(k,) distances of the images of ``src`` from ``dst``, both (k, 2), as scikit-image's
         transforms have them."""
         return residuals(self, src, dst)
+
+    def transport(
+        self, geometry: Any, *, tolerance: float | None = None, frame: Any = None
+    ) -> Transported:
+        """Carry geometries of the domain through the map; ``map.inverse.transport`` carries back.
+
+        ``geometry`` is one of shapely or an array of them, GeoJSON, a list of polygons as (k, 2)
+        arrays, all in the map's coordinates, or a label image: (h, w) whole numbers, with the
+        ``frame`` of its pixels, such as a `PixelFrame`. Each pixel takes the label that its centre
+        comes from, 0 from outside.
+
+        Edges are divided until every chord is within the tolerance of the true curve, by default a
+        thousandth of the cage's unit; rounding included. Parts outside the domain are cut off and
+        counted. What is simple stays simple where the map is injective; `Transported` names the
+        geometries that are not. Raises a TransportError, which names the geometry.
+        """
+        return transport.transport(self, geometry, tolerance=tolerance, frame=frame)
+
+    def displacement_field(
+        self, frame: Any, shape: Any = None, *, inverse: bool = False
+    ) -> DisplacementField:
+        """Sample the map as displacements, in pixels of a frame (a `PixelFrame`).
+
+        ``shape`` is the grid's (rows, columns), by default one sample for each pixel. Programs that
+        resample pictures, such as ITK, ask for the inverse. The field states the largest error of
+        interpolation.
+        """
+        return transport.displacement_field(self, frame, shape, inverse=inverse)
 
     def distance(self, other: Self, n_points: int = 2000) -> float:
         """Largest distance between the images under two maps, at ``n_points`` boundary points.
