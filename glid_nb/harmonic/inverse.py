@@ -262,7 +262,7 @@ class Inverse:
         mesh = mesh_of(self.map.domain)[0]
         ends = self._images[mesh.triangles]
         longest = np.linalg.norm(ends - np.roll(ends, 1, axis=1), axis=-1).max()
-        return scipy.spatial.KDTree(self._images), mesh.vertices @ np.array([1, 1j]), 2 * longest
+        return scipy.spatial.KDTree(self._images), mesh.vertices @ np.array([1, 1j]), longest
 
 
 @functools.lru_cache(maxsize=4)
@@ -309,7 +309,7 @@ def _newton(map: Any, w: Array, start: Array) -> tuple[Array, Jets, Array]:
             values[moved] = improved[better]
         share[active] = np.where(better, np.minimum(1, 2 * share[active]), share[active] / 2)
         found[active[last]] = True
-        active = active[~last & (share[active] > 1e-3)]
+        active = active[~last & (share[active] > 0.03)]
     return z, best, found
 
 
