@@ -27,6 +27,11 @@ from .certificate import global_injectivity as global_injectivity
 from .certificate import safe_radius as safe_radius
 from .geometry import MeshMap as MeshMap
 from .harmonic import HarmonicMap as HarmonicMap
+from .harmonic import DisplacementField as DisplacementField
+from .harmonic import Inverse as Inverse
+from .harmonic import Preimages as Preimages
+from .harmonic import Transported as Transported
+from .landmarks import HarmonicTransform as HarmonicTransform
 from .motion import Motion as Motion
 
 # Solving

@@ -4,6 +4,7 @@ import itertools
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
+from numbers import Integral, Real
 from typing import Any, Self
 
 import numpy as np
@@ -74,6 +75,31 @@ class Domain(Rebuilt):
         check_type("cage", cage, Cage, "make one with Cage(points)")
         outer, notes = _chosen_offset(cage, offset)
         return cls(cage, outer, notes=notes)
+
+    @classmethod
+    def rectangle(cls, image: Any, *, margin: float = 0.0) -> Self:
+        """A whole picture as a domain, in pixel coordinates as scikit-image has them.
+
+        They are (x, y) = (column, row): x right, y down, whole numbers at the centres of pixels. So
+        the picture covers -0.5 to width - 0.5, and ``skimage.transform.warp(image, map.inverse)``
+        needs no conversion. ``image`` is an array (h, w) or (h, w, c), or the size (width, height).
+        ``margin`` adds room on each side, in pixels. Raises a GeometryError otherwise.
+        """
+        shape = getattr(image, "shape", None)
+        if shape is not None and len(shape) in (2, 3):
+            height, width = shape[:2]
+        elif isinstance(image, tuple | list) and len(image) == 2:
+            width, height = image
+        else:
+            what = "a picture is an array (h, w) or (h, w, c), or its size (width, height)"
+            raise GeometryError(f"{what}, not {type(image).__name__}")
+        for name, value in (("width", width), ("height", height)):
+            if not (isinstance(value, Integral) and value >= 1):
+                raise GeometryError(f"the picture's {name} must be a whole number, not {value!r}")
+        if not (isinstance(margin, Real) and 0 <= margin < 1e100):
+            raise GeometryError(f"margin must be a number of pixels, at least 0, not {margin!r}")
+        low, right, top = -0.5 - margin, width - 0.5 + margin, height - 0.5 + margin
+        return cls.from_cage(Cage([[low, low], [right, low], [right, top], [low, top]]))
 
     @classmethod
     def from_dict(cls, data: Mapping[str, Any]) -> Self:

@@ -21,6 +21,8 @@ from glid_nb.geometry.cage import Cage
 _MARGIN, _CLEARANCE = 0.55, 0.6
 _SAME = 1e-9  # points closer than this share of the cage's size count as one
 _ROUNDING = 1e-12  # points off the mesh by this share of its coordinates count as on it
+_BESIDE = 1e-7  # places beside an image triangle by this share of its size count as on it
+_FEW = 16  # places for which no tree of the triangles is made
 _ROW = np.sqrt(3.0) / 2.0  # height of a lattice row, in spacings
 
 
@@ -128,6 +130,42 @@ class MeshMap(Rebuilt):
     def flipped(self) -> Array:
         """(t,) bool: image triangles that are turned over or flat."""
         return ~(self.areas > 0)
+
+
+class Overlay:
+    """The images of a mesh's triangles, and which of them lie over a place."""
+
+    def __init__(self, mesh: Triangulation, images: Array) -> None:
+        self._mesh, self._corners = mesh, np.asarray(images, dtype=float)[mesh.triangles]
+
+    def sources(self, places: Array, overhang: Any = 0.0) -> tuple[Array, Array, Array]:
+        """(m,) indices of (k, 2) places, (m, 2) their sources, and (m,) the least barycentric
+        coordinate, one for each triangle over a place.
+
+        Triangles that miss a place by less than ``overhang``, a share of their size, count too. It
+        may be an array with one share for each triangle.
+        """
+        share = np.broadcast_to(overhang, len(self._corners))
+        which, triangle = self._near(places, share)
+        weights = barycentric(self._corners[triangle], places[which])
+        least = weights.min(axis=1)
+        kept = least >= -np.maximum(share[triangle], _BESIDE)
+        corners = self._mesh.vertices[self._mesh.triangles[triangle[kept]]]
+        return which[kept], np.einsum("mi,mid->md", weights[kept], corners), least[kept]
+
+    def _near(self, places: Array, share: Array) -> tuple[Array, Array]:
+        """Places, and triangles whose enlarged bounding boxes contain them."""
+        low, high = self._corners.min(axis=1), self._corners.max(axis=1)
+        margin = share[:, None] * (high - low)
+        low, high = low - margin, high + margin
+        if len(places) > _FEW:
+            points: Any = shapely.points(places)
+            which, triangle = shapely.STRtree(shapely.box(*low.T, *high.T)).query(points)
+            return which, triangle
+        x, y = places[:, :1], places[:, 1:]
+        near = (low[:, 0] <= x) & (x <= high[:, 0]) & (low[:, 1] <= y) & (y <= high[:, 1])
+        which, triangle = np.nonzero(near)
+        return which, triangle
 
 
 def barycentric(corners: Array, points: Array) -> Array:

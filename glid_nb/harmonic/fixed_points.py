@@ -1,11 +1,17 @@
 """A domain's maps at fixed points, in single precision, for drawing."""
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 from numpy.typing import ArrayLike
 
 from glid_nb._arrays import Array
 from glid_nb.geometry import Domain
-from glid_nb.harmonic.map import HarmonicMap, as_complex, basis_of
+from glid_nb.harmonic.basis import basis_of
+from glid_nb.harmonic.points import as_complex
+
+if TYPE_CHECKING:
+    from glid_nb.harmonic.map import HarmonicMap
 
 CHUNK = 1 << 21  # numbers at a time
 MOST_KEPT = 1 << 26  # numbers, of 8 bytes each
@@ -26,7 +32,7 @@ class FixedPoints:
         self._vertices, self._next = np.asarray(vertices)[own], np.asarray(following)[own]
         self._kept: dict[int, Array] = {}
 
-    def __call__(self, map: HarmonicMap) -> tuple[Array, Array]:
+    def __call__(self, map: "HarmonicMap") -> tuple[Array, Array]:
         """(k, 2) images, and (k, 4) real and imaginary parts of f_z and conj(f_zbar); float32."""
         columns = np.stack([map.phi, map.psi], axis=1)
         m = len(self._vertices)

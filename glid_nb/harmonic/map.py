@@ -10,16 +10,19 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from glid_nb._arguments import check_count, check_type, unmet
-from glid_nb._arrays import Array, Rebuilt, frozen, number_pairs, real_array
-from glid_nb._errors import InputError, about
+from glid_nb._arrays import Array, Rebuilt, frozen, real_array
+from glid_nb._errors import about
 from glid_nb._features import is_traced
 from glid_nb._jax import jax, jnp
 from glid_nb._json import checked_version, read_json, write_json
 from glid_nb._runtime import in_chunks
 from glid_nb.geometry import Domain, as_points, loop_name, uniform_panels
-from glid_nb.harmonic import cauchy
+from glid_nb.harmonic import cauchy, transport
 from glid_nb.harmonic.basis import basis_of
 from glid_nb.harmonic.cauchy import Singularities
+from glid_nb.harmonic.inverse import Inverse, residuals
+from glid_nb.harmonic.points import MapError, as_complex, complex_from_pairs
+from glid_nb.harmonic.transport import DisplacementField, Transported
 
 R = TypeVar("R")
 
@@ -31,10 +34,6 @@ FORMAT_VERSION = 1
 DOMAIN_KEYS = ("cage", "holes", "offset_cage", "offset_holes", "hole_points")
 
 _LARGEST = 1e120  # squares of larger coefficients, times those of the basis, overflow
-
-
-class MapError(InputError):
-    """A harmonic map's coefficients, its file, or points to evaluate it at are not valid."""
 
 
 @dataclass(frozen=True, eq=False, init=False)
@@ -161,6 +160,48 @@ class HarmonicMap(Rebuilt):
         left = tuple(_only(part, inside) for part in parts)
         return left if isinstance(values, tuple) else left[0]
 
+    @property
+    def inverse(self) -> Inverse:
+        """The inverse as a function: ``map.inverse(points)`` are the preimages of points.
+
+        Newton's method finds them; :meth:`Inverse.locate` returns them with a proved radius. The
+        map needs no certificate.
+        """
+        return self.kept.setdefault("inverse", Inverse(self))
+
+    def residuals(self, src: Any, dst: Any) -> Array:
+        """(k,) distances of the images of ``src`` from ``dst``, both (k, 2), as scikit-image's
+        transforms have them."""
+        return residuals(self, src, dst)
+
+    def transport(
+        self, geometry: Any, *, tolerance: float | None = None, frame: Any = None
+    ) -> Transported:
+        """Carry geometries of the domain through the map; ``map.inverse.transport`` carries back.
+
+        ``geometry`` is one of shapely or an array of them, GeoJSON, a list of polygons as (k, 2)
+        arrays, all in the map's coordinates, or a label image: (h, w) whole numbers, with the
+        ``frame`` of its pixels, such as a `PixelFrame`. Each pixel takes the label that its centre
+        comes from, 0 from outside.
+
+        Edges are divided until every chord is within the tolerance of the true curve, by default a
+        thousandth of the cage's unit; rounding included. Parts outside the domain are cut off and
+        counted. What is simple stays simple where the map is injective; `Transported` names the
+        geometries that are not. Raises a TransportError, which names the geometry.
+        """
+        return transport.transport(self, geometry, tolerance=tolerance, frame=frame)
+
+    def displacement_field(
+        self, frame: Any, shape: Any = None, *, inverse: bool = False
+    ) -> DisplacementField:
+        """Sample the map as displacements, in pixels of a frame (a `PixelFrame`).
+
+        ``shape`` is the grid's (rows, columns), by default one sample for each pixel. Programs that
+        resample pictures, such as ITK, ask for the inverse. The field states the largest error of
+        interpolation.
+        """
+        return transport.displacement_field(self, frame, shape, inverse=inverse)
+
     def distance(self, other: Self, n_points: int = 2000) -> float:
         """Largest distance between the images under two maps, at ``n_points`` boundary points.
 
@@ -273,22 +314,6 @@ def _only(values: Any, inside: Array) -> Any:
     return values.__array_namespace__().where(mask, values, nothing)
 
 
-def as_complex(points: Any) -> Array:
-    """(k, 2) real points, or complex ones of any shape, as a (k,) complex array."""
-    listed = [points] if isinstance(points, complex) else points
-    if isinstance(listed, list | tuple) and any(isinstance(one, complex) for one in listed):
-        points = np.asarray(listed)
-    if hasattr(points, "dtype") and np.iscomplexobj(points):
-        z = np.asarray(np.ma.filled(points, np.nan), dtype=complex).ravel()
-    else:
-        array = number_pairs(points, "points must be (k, 2) coordinates", MapError)
-        z = array[:, 0] + 1j * array[:, 1]
-    bad = np.flatnonzero(~np.isfinite(z))
-    if bad.size:
-        raise MapError(f"point {bad[0]} is {z[bad[0]]}; coordinates must be finite")
-    return z
-
-
 def _values(z: Any, coefficients: Any, singularities: Singularities) -> Any:
     c = cauchy.cauchy_coordinates(z, singularities)
     return c @ coefficients[0] + (c @ coefficients[1]).conj()
@@ -311,9 +336,3 @@ def first(z: Any, coefficients: Any, singularities: Singularities) -> tuple[Any,
 
 def _higher(z: Any, coefficients: Any, singularities: Singularities, order: int) -> Any:
     return tuple(cauchy.higher_derivative(z, c, singularities, order) for c in coefficients)
-
-
-def complex_from_pairs(value: Any, name: str) -> Array:
-    """[re, im] pairs as coefficients, bit for bit; the message of the MapError has the ``name``."""
-    pairs = number_pairs(value, f"{name} must be a list of [re, im] pairs of numbers", MapError)
-    return pairs.view(complex)[:, 0]  # keeps signed zeros and infinities

@@ -1,7 +1,7 @@
 """The order in which parts of a shape cover each other, for canvas, picking, pictures and exports.
 
-`Sheets` inverts a map in this order: it finds the source of what is drawn at a place, and the
-points that are hidden below others.
+`Sheets` inverts a map in this order, by `HarmonicMap.inverse`: it finds the source of what is drawn
+at a place, and the points that are hidden below others.
 """
 
 import functools
@@ -14,8 +14,15 @@ import shapely
 from numpy.typing import NDArray
 
 from glid_nb._arrays import Array
-from glid_nb.geometry import Cage, Domain, MeshMap, Triangulation, as_points, triangulate
-from glid_nb.geometry.meshes import barycentric
+from glid_nb.geometry import (
+    Cage,
+    Domain,
+    MeshMap,
+    Overlay,
+    Triangulation,
+    as_points,
+    triangulate,
+)
 from glid_nb.harmonic import FixedPoints, HarmonicMap
 from glid_nb.imaging.frame import PixelFrame
 from glid_nb.pose import DeformationMap, Pose
@@ -27,8 +34,6 @@ _TIE = 0.02  # range of the limbs' heights, which decide where depths are equal,
 _STIFFNESS = 1e6  # of a pin, relative to the mesh
 
 _SHEET_VERTICES = 2000
-_NEWTON_STEPS = 8
-_ROUNDING = 1e-7
 _OVERHANG = 0.5  # straight triangles miss the map's image by less than this share of their size
 _NEAR = 0.02  # of the shape's size: sources closer than this are on the same sheet
 _OPAQUE = 128  # of 255
@@ -120,7 +125,7 @@ class Sheets:
         else:
             self._mesh, images_of = _sheet_mesh(map.domain)
             images = images_of(map)[0].astype(float)
-        self._corners = images[self._mesh.triangles]
+        self._overlay = Overlay(self._mesh, images)
         self._near = _NEAR * float(np.ptp(self._mesh.vertices, axis=0).max())
 
     def source(self, point: Any) -> Array | None:
@@ -128,7 +133,7 @@ class Sheets:
         the point are transparent, the source of the highest."""
         curved = isinstance(self._map, HarmonicMap)
         place = np.reshape(np.asarray(point, dtype=float), (1, 2))
-        _, found = self._drawn_at(place, _OVERHANG if curved else 0.0)
+        _, found, _ = self._overlay.sources(place, _OVERHANG if curved else 0.0)
         if curved and len(found):
             found = self._refined(complex(*point), found)
         if not len(found):
@@ -137,7 +142,7 @@ class Sheets:
 
     def sources(self, places: Array) -> Array:
         """Like `source` for many places (k, 2), with a mesh's accuracy; NaN outside the shape."""
-        which, found = self._drawn_at(places, 0.0)
+        which, found, _ = self._overlay.sources(places)
         order = np.lexsort((self._order(found), self._opaque(found)))
         seen = np.full(places.shape, np.nan)
         seen[which[order]] = found[order]  # the last of several assignments stays
@@ -149,7 +154,7 @@ class Sheets:
         result = np.zeros(len(points), dtype=bool)
         if not len(points):
             return result
-        which, found = self._drawn_at(self._map(points), 0.0)
+        which, found, _ = self._overlay.sources(self._map(points))
         # Most of the found sources are on the point's own sheet.
         other = np.linalg.norm(found - points[which], axis=1) > self._near
         which, found = which[other], found[other]
@@ -157,36 +162,12 @@ class Sheets:
         result[which[above & self._opaque(found)]] = True
         return result
 
-    def _drawn_at(self, places: Array, overhang: float) -> tuple[Array, Array]:
-        """(m,) indices of (k, 2) places, and (m, 2) their sources, one for each triangle over a
-        place. Triangles that miss a place by less than ``overhang``, a share of their size, count
-        too."""
-        low, high = self._corners.min(axis=1), self._corners.max(axis=1)
-        low, high = low - overhang * (high - low), high + overhang * (high - low)
-        x, y = places[:, :1], places[:, 1:]
-        near = (low[:, 0] <= x) & (x <= high[:, 0]) & (low[:, 1] <= y) & (y <= high[:, 1])
-        which, triangle = np.nonzero(near)
-        weights = barycentric(self._corners[triangle], places[which])
-        kept = (weights >= -max(overhang, _ROUNDING)).all(axis=1)
-        corners = self._mesh.vertices[self._mesh.triangles[triangle[kept]]]
-        return which[kept], np.einsum("mi,mid->md", weights[kept], corners)
-
     def _refined(self, place: complex, guess: Array) -> Array:
         """The sources of a place in the domain, by Newton's method from (m, 2) guesses."""
         assert isinstance(self._map, HarmonicMap)
-        z = guess @ np.array([1, 1j])
-        for _ in range(_NEWTON_STEPS):
-            w = self._map(as_points(z)) @ np.array([1, 1j]) - place
-            fz, fzb = self._map.wirtinger(as_points(z))
-            with np.errstate(divide="ignore", invalid="ignore"):
-                dz = (fzb * w.conj() - fz.conj() * w) / (np.abs(fz) ** 2 - np.abs(fzb) ** 2)
-            known = np.isfinite(dz) & (np.abs(dz) < self._near)  # otherwise Newton diverges
-            z = np.where(known, z + dz, z)
-            found = known & (np.abs(dz) < _ROUNDING * self._near)
-            if (found | ~known).all():
-                break
-        sources = as_points(z)[found] if found.any() else guess
-        return sources[self._map.domain.cage.contains(sources)]
+        starts = guess @ np.array([1, 1j])
+        z, found = self._map.inverse.refined(np.full(len(starts), place), starts)
+        return as_points(z[found])
 
     def _opaque(self, points: Array) -> NDArray[np.bool_]:
         if self._image is None:

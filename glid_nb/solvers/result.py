@@ -14,6 +14,7 @@ from glid_nb._arrays import Array
 from glid_nb.certificate import Certificate, certificate_of, certify
 from glid_nb.energies import Energy
 from glid_nb.geometry import MeshMap
+from glid_nb.harmonic import HarmonicMap, Inverse, MapError
 from glid_nb.pose import DeformationMap, Pose
 from glid_nb.solvers import misses
 from glid_nb.solvers.discretisation import Discretisation
@@ -220,6 +221,13 @@ class Result(Course):
     def misses(self) -> Array:
         """(h,) distances of the handles' images from their targets, world units."""
         return misses.misses_of(self.map, self.pose)
+
+    @property
+    def inverse(self) -> Inverse:
+        """The inverse of :attr:`map`; a MapError for a map of a mesh, which has none."""
+        if not isinstance(self.map, HarmonicMap):
+            raise MapError("a map of a mesh has no inverse; solve by a method of the harmonic maps")
+        return self.map.inverse
 
     @property
     def message(self) -> str:

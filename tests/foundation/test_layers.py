@@ -20,7 +20,7 @@ LAYERS = (
     ("certificate", "imaging", "auditing"),
     ("solvers",),
     ("minima",),
-    ("methods", "motion"),
+    ("methods", "motion", "landmarks"),
     ("figures", "page"),
     ("samples", "export"),
     ("session",),
