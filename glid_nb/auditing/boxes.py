@@ -77,7 +77,9 @@ def audit_boxes(enclose: Enclosure, bounds: Bounds, budget: int) -> Audit:
             values = np.repeat(at_centre[open_ones], 2)
             done.append((boxes, np.zeros(len(boxes), np.int8), values, values))
             break
-    found, sign, values = (np.concatenate([one[k] for one in done]) for k in range(3))
+    found = np.concatenate([one[0] for one in done])
+    sign = np.concatenate([one[1] for one in done])
+    values = np.concatenate([one[2] for one in done])
     return _result(found, sign, values, fold, least, lower, spent)
 
 

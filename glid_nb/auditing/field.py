@@ -38,7 +38,7 @@ def checked_field(value: Any, order: str = "xy") -> Array:
     if 1 in field.shape[:2]:
         rows = f"the field has {field.shape[0]} x {field.shape[1]} pixels (rows x columns)"
         raise AuditError(f"{rows}; a cell needs at least 2 x 2")
-    bad = np.argwhere(~np.isfinite(field)) if field.dtype.kind == "f" else ()
+    bad = np.argwhere(~np.isfinite(field))
     if len(bad):
         i, j, k = bad[0]
         name = "dx" if k == (order == "yx") else "dy"
@@ -164,7 +164,8 @@ def _negative_share(corners: Floats) -> Floats:
     along = np.abs((d10 - d00 + d11 - d01) / 2)
     up = np.abs((d01 - d00 + d11 - d10) / 2)
     p, q = np.minimum(along, up), np.maximum(along, up)
-    t = -np.min([d00, d10, d01, d11], axis=0)
+    least: Floats = np.min(np.stack([d00, d10, d01, d11]), axis=0)
+    t = -least
     with np.errstate(divide="ignore", invalid="ignore"):
         first = t / p * (t / q) / 2
         middle = (t - p / 2) / q

@@ -18,6 +18,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from glid_nb._arrays import Floats
 from glid_nb.auditing.boxes import Enclosure, Jacobians
@@ -105,7 +106,7 @@ class ThinPlate:
         inner: Floats,
         least: Floats,
         most: Floats,
-        far: Floats,
+        far: NDArray[np.bool_],
     ) -> tuple[Floats, Floats]:
         """(b, 2, 2, 2) second derivatives of the far centres' part, about, and (b, 2, 2) bounds on
         what the Jacobian differs from its linear part with them."""

@@ -4,7 +4,7 @@ import itertools
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from numbers import Integral, Real
+from numbers import Real
 from typing import Any, Self
 
 import numpy as np
@@ -94,7 +94,7 @@ class Domain(Rebuilt):
             what = "a picture is an array (h, w) or (h, w, c), or its size (width, height)"
             raise GeometryError(f"{what}, not {type(image).__name__}")
         for name, value in (("width", width), ("height", height)):
-            if not (isinstance(value, Integral) and value >= 1):
+            if not (isinstance(value, int | np.integer) and value >= 1):
                 raise GeometryError(f"the picture's {name} must be a whole number, not {value!r}")
         if not (isinstance(margin, Real) and 0 <= margin < 1e100):
             raise GeometryError(f"margin must be a number of pixels, at least 0, not {margin!r}")

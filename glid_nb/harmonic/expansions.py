@@ -214,11 +214,11 @@ def _evaluated(discs: Discs, square: Array, z: Array) -> Jets:
         value += np.take(discs.series[k], square, axis=-1)
     slope /= radius
     f = value[0] + np.conj(value[1])
-    known = (discs.f_error, discs.first_error, discs.second)
-    errors = [values[square] for values in known]
+    f_error, first_error = discs.f_error[square], discs.first_error[square]
     back = np.empty_like(place)
     back[place] = np.arange(len(place))
-    return Jets(f, slope[0], slope[1], *errors, radius).at(back)
+    jets = Jets(f, slope[0], slope[1], f_error, first_error, discs.second[square], radius)
+    return jets.at(back)
 
 
 def jets_at(map: Any, z: Array) -> Jets:
@@ -237,8 +237,11 @@ def direct_jets(map: Any, z: Array) -> Jets:
     discs = discs_at(map, z, np.where(known, radius, map.domain.cage.unit), order=1)
     (f, _), (g, h) = discs.series
     of = np.where(known, discs.radius, 1)
-    errors = (np.where(known, e, np.inf) for e in (discs.f_error, discs.first_error, discs.second))
-    return Jets(f, g / discs.radius, h / discs.radius, *errors, np.where(known, of, 0))
+    f_error, first_error, second = (
+        np.where(known, e, np.inf) for e in (discs.f_error, discs.first_error, discs.second)
+    )
+    fz, fzb_conj = g / discs.radius, h / discs.radius
+    return Jets(f, fz, fzb_conj, f_error, first_error, second, np.where(known, of, 0))
 
 
 def _clear(domain: Domain, z: Array) -> Array:

@@ -156,8 +156,10 @@ class Inverse:
         if certificate is not None and len(z):
             gap = _gap(w[index], jets)
             radius, alone = _certified(self.map.domain, z, gap, radius, alone, certificate)
-        values = (as_points(z), index, radius, alone)
-        return Preimages(*(read_only(np.array(value)) for value in values), len(w))
+        places, index, radius, alone = (
+            read_only(np.array(value)) for value in (as_points(z), index, radius, alone)
+        )
+        return Preimages(places, index, radius, alone, len(w))
 
     def transport(self, geometry: Any, *, tolerance: float | None = None, frame: Any = None) -> Any:
         """Geometries or labels of the image, back in the domain: `Transported`, as
@@ -218,7 +220,7 @@ class Inverse:
             return np.zeros(0, dtype=int), nothing, jets_at(self.map, nothing)
         index, z = (np.concatenate([part[i] for part in kept]) for i in (0, 1))
         jets = Jets(*map(np.concatenate, zip(*(part[2] for part in kept), strict=True)))
-        order = np.lexsort((z.imag, z.real, index))
+        order = np.lexsort((np.imag(z), np.real(z), index))
         order = order[self._distinct(index[order], z[order])]
         return index[order], z[order], jets.at(order)
 

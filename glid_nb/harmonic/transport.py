@@ -8,7 +8,6 @@ most ``|f''| / sigma_2^3`` (`docs/proof.md`, Lemma 30).
 import functools
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from numbers import Real
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -101,17 +100,19 @@ def transport(
         made[invalid] = _carried(inside[invalid], side, finer)
         invalid = invalid[~shapely.is_valid(made[invalid])]
     overlapping = np.union1d(invalid, _several(inside, side))
-    parts = (read_only(np.asarray(part, dtype=int)) for part in (outside, cut, overlapping))
-    return Transported(rebuilt(made), *parts, tolerance)
+    outside, cut, overlapping = (
+        read_only(np.asarray(part, dtype=int)) for part in (outside, cut, overlapping)
+    )
+    return Transported(rebuilt(made), outside, cut, overlapping, tolerance)
 
 
 def _checked_tolerance(map: "HarmonicMap", tolerance: Any) -> float:
     if tolerance is None:
         return _TOLERANCE * map.domain.cage.unit
-    known = isinstance(tolerance, Real) and not isinstance(tolerance, bool)
-    if not (known and is_finite(tolerance) and tolerance > 0):
+    known = isinstance(tolerance, int | float | np.number) and not isinstance(tolerance, bool)
+    if not (known and is_finite(tolerance) and float(tolerance) > 0):
         raise TransportError(f"tolerance must be a positive number, not {tolerance!r:.40}")
-    return float(tolerance)  # type: ignore[arg-type]
+    return float(tolerance)
 
 
 def _forward(map: "HarmonicMap") -> _Side:
@@ -132,7 +133,7 @@ def _backward(map: "HarmonicMap", tolerance: float) -> _Side:
         index, z, jets, radius = inverse.nearby(w)
         if len(index) < len(w):
             missing = np.setdiff1d(np.arange(len(w)), index)[0]
-            where = f"({w[missing].real:.6g}, {w[missing].imag:.6g})"
+            where = f"({np.real(w[missing]):.6g}, {np.imag(w[missing]):.6g})"
             raise TransportError(f"no preimage was found for {where}; take a smaller tolerance")
         s = jets.sigma2_lower
         with np.errstate(all="ignore"):

@@ -54,6 +54,7 @@ def check(field: Array, spacing: tuple[float, float] = (1, 1)) -> glid.Audit:
         assert audit.smallest == pytest.approx(float(least), rel=1e-12)
     assert (audit.determinant is not None) == (audit.point is not None) == (least < 0)
     if wanted == "proved":
+        assert audit.lower_bound is not None
         assert 0 <= Fraction(audit.lower_bound) <= least
     return audit
 
@@ -69,7 +70,7 @@ def fields(draw: st.DrawFn) -> Array:
     one = draw(st.sampled_from([FINITE, NEAR, SMALL]))
     numbers = draw(st.lists(one, min_size=2 * h * w, max_size=2 * h * w))
     field = np.array(numbers).reshape(h, w, 2)
-    kind = draw(st.sampled_from([np.float64, np.float32, np.float16, np.int32]))
+    kind: Any = draw(st.sampled_from([np.float64, np.float32, np.float16, np.int32]))
     with np.errstate(all="ignore"):
         limit = 1e9 if kind is np.int32 else np.finfo(kind).max
         return np.clip(field, -limit, limit).astype(kind)
@@ -127,7 +128,8 @@ def test_central_differences_miss_a_fold() -> None:
     assert inner == 1.0
     checkerboard = np.zeros((8, 8, 2))
     checkerboard[..., 0] = 0.75 * (-1) ** np.arange(8)
-    inside = np.gradient(checkerboard[..., 0], axis=1)[1:-1, 1:-1]
+    along: Any = np.gradient(checkerboard[..., 0], axis=1)
+    inside = along[1:-1, 1:-1]
     assert not inside.any()  # central differences take it for the identity
     audit = check(checkerboard)
     assert audit.verdict == "folds"

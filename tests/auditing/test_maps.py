@@ -103,6 +103,7 @@ def test_a_spline_is_decided_as_samples_are(kind: str, size: float) -> None:
         assert audit.folded_area - 1 <= share <= audit.folded_area + audit.undecided_area + 1
     elif sampled.min() > 0.05:
         assert audit.verdict == "proved"
+        assert audit.lower_bound is not None
         assert 0 < audit.lower_bound <= sampled.min() + 1e-4
         assert (audit.signs == 1).all()
     assert audit.outlines is not None
@@ -126,9 +127,12 @@ def wave(size: float) -> Any:
 def test_a_bound_on_second_derivatives_decides() -> None:
     audit = glid.audit(wave(0.3), bounds=BOX, second_derivative=1.2)
     assert audit.proved
+    assert audit.lower_bound is not None
     assert 0 < audit.lower_bound <= 0.64
     audit = glid.audit(wave(0.6), bounds=BOX, second_derivative=2.4)
     assert audit.verdict == "folds"
+    assert audit.point is not None
+    assert audit.determinant is not None
     x, y = audit.point
     assert 1 - 1.44 * np.cos(2 * x) * np.cos(2 * y) <= audit.determinant < 0
 

@@ -15,7 +15,7 @@ from glid_nb.harmonic import HarmonicMap, cauchy, rows_of
 from glid_nb.harmonic.basis import basis_of
 
 from ...certificate.test_extremes import derivatives, exact
-from ...domains import NAMES, random_map
+from ...support.domains import NAMES, random_map
 from .golden import coefficients_of
 from .in_node import answers
 

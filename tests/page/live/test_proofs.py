@@ -18,7 +18,7 @@ from glid_nb.geometry import Cage, Domain, GeometryError
 from glid_nb.harmonic import HarmonicMap
 
 from ...certificate.test_extremes import derivatives, exact
-from ...domains import NAMES, circle, domain
+from ...support.domains import NAMES, circle, domain
 from .in_node import points_along, proved
 
 pytestmark = pytest.mark.slow

@@ -11,7 +11,7 @@ import pytest
 import glid_nb as glid
 from glid_nb.solvers.stiffness import stiff_nodes
 
-from ...domains import domain
+from ...support.domains import domain
 from .golden import FOLDER, MINIMA, SAMPLES, energy_of_minimum, map_of, minimum, numbers_of, shape
 from .in_node import answers
 
