@@ -121,8 +121,8 @@ def test_central_differences_miss_a_fold() -> None:
     """They skip the pixel in the middle, which may be anywhere."""
     field = np.zeros((7, 7, 2))
     field[3, 3] = (2.5, 0.0)  # beyond the next pixel
-    dx_y, dx_x = np.stack(np.gradient(field[..., 0]))
-    dy_y, dy_x = np.stack(np.gradient(field[..., 1]))
+    gradients: Any = [np.gradient(field[..., k]) for k in range(2)]
+    (dx_y, dx_x), (dy_y, dy_x) = gradients
     central = (1 + dx_x) * (1 + dy_y) - dx_y * dy_x
     assert central[3, 3] == 1.0
     checkerboard = np.zeros((8, 8, 2))
