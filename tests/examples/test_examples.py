@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import functools
 import runpy
+from collections.abc import Iterator
 from pathlib import Path
 
+import jax
 import pytest
 
 pytestmark = pytest.mark.slow
@@ -29,6 +31,15 @@ def test_every_script_is_tried_and_short() -> None:
     assert max(scripts.values()) <= MOST_LINES
 
 
+@pytest.fixture
+def _precision_as_it_was() -> Iterator[None]:
+    """A script may set JAX to double precision for its process, which is ours here."""
+    before = jax.config.values["jax_enable_x64"]
+    yield
+    jax.config.update("jax_enable_x64", before)
+
+
+@pytest.mark.usefixtures("_precision_as_it_was")
 @pytest.mark.parametrize("name", WRITTEN)
 def test_a_script_runs(
     name: str,

@@ -23,12 +23,13 @@ from glid_nb import HarmonicMap, Options, Pose, methods, solve
 from glid_nb._jax import CompiledOnUse
 from glid_nb._programs import Program, can_keep_for
 from glid_nb._runtime import double_precision
-from glid_nb.energies import ENERGIES, CustomEnergy, as_energy
+from glid_nb.energies import AMIPS, ENERGIES, CustomEnergy, as_energy
 from glid_nb.methods.subspace import descent
 from glid_nb.minima import batch
-from glid_nb.solvers import cholesky, newton, step, subspace
+from glid_nb.solvers import Result, cholesky, newton, step, subspace
 from glid_nb.solvers.method import Inputs
 from glid_nb.solvers.newton import Newton, NewtonDescent
+from glid_nb.solvers.sensitivity import minimum_of
 
 from ..support.domains import domain
 
@@ -162,6 +163,14 @@ def use_every_program() -> None:
     inputs = Inputs(domain=ell, pose=pose, energy=as_energy(None), options=QUICK)
     batch.in_lockstep([inputs, inputs])
     evaluate_a_start(inputs)
+    differentiate(solve(ell, pose, AMIPS(s=0.8), Options(restarts=0)))
+
+
+def differentiate(result: Result) -> None:
+    """By one number, by many, and with a factor of its own."""
+    result.sensitivity(of="s")
+    result.sensitivity(0)
+    assert minimum_of(result).factor is not None
 
 
 @double_precision

@@ -182,9 +182,8 @@ def test_work_survives_a_restart_of_the_kernel(open_notebook: OpenNotebook) -> N
     page.locator(".glid-pad").wait_for()
     book.value("None", setup="model.paused = True")
     page.locator(".glid-pad").click(position={"x": 280, "y": 200})
-    book.wait_for(
-        "len(editor.pose) == 1 and editor.model._autosave and editor.model._autosave.path.exists()"
-    )
+    kept = "editor.model.saving and editor.model.saving.path.exists()"
+    book.wait_for(f"len(editor.pose) == 1 and {kept}")
     page.evaluate(RESTART)
     page.locator(".glid-editor.jupyter-widgets-disconnected").wait_for()
     said = "element => getComputedStyle(element, '::after').content"
