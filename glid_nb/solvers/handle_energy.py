@@ -15,7 +15,13 @@ from glid_nb._arrays import Array
 from glid_nb.harmonic import HarmonicMap, cauchy
 from glid_nb.harmonic.basis import basis_of
 from glid_nb.pose import Pose
-from glid_nb.solvers.positional import basis_at, handle_rows, turn_weights, weights_of_images
+from glid_nb.solvers.positional import (
+    basis_at,
+    handle_rows,
+    real_rows,
+    turn_weights,
+    weights_of_images,
+)
 from glid_nb.solvers.problem import real_coefficients
 
 
@@ -30,6 +36,7 @@ class HandleEnergy(NamedTuple):
     pose: Pose
     own: Array
     """(m,) the handle that each row belongs to."""
+    wanted: Array  # (t,) the wanted directions of f_z, of modulus 1
     complex_rows: Array  # (m, c)
     rows: Array  # (2, m, 4c)
     weights: Array
@@ -65,8 +72,7 @@ class HandleEnergy(NamedTuple):
         turned = self.own[h:]
         first = basis_at(domain, self.pose.handles.tobytes(), cauchy.first_derivatives)
         second = basis_at(domain, self.pose.handles[turned].tobytes(), cauchy.second_derivatives)
-        turn = np.exp(1j * self._directions())
-        moved = np.concatenate([first, second / turn[:, None]])
+        moved = np.concatenate([first, second / self.wanted[:, None]])
         both = [self._summed(self._by_rows(step * moved)) for step in (1, 1j)]
         return np.stack(both, axis=1).reshape(2 * h, -1)
 
@@ -87,19 +93,9 @@ class HandleEnergy(NamedTuple):
         made[np.isnan(self.pose.scales)] = np.nan
         return made
 
-    def _directions(self) -> Array:
-        h = len(self.pose)
-        plain = basis_at(
-            self.map.domain,
-            self.pose.handles[self.own[h:]].tobytes(),
-            cauchy.first_derivatives,
-        )
-        phi = basis_of(self.map.domain).pad(self.map.phi)
-        return np.angle(plain @ phi) - np.angle(self.complex_rows[h:] @ phi)
-
     def _by_rows(self, changes: Array) -> Array:
         """(m, 4c) derivatives of the gradient if each complex row changes by these."""
-        rows = _real_rows(changes, len(self.pose))
+        rows = real_rows(changes, len(self.pose))
         values = rows @ real_coefficients(self.map)
         return np.einsum("km,kmc->mc", self.pull, rows) + np.einsum(
             "km,kmc->mc", self.weights * values, self.rows
@@ -118,10 +114,10 @@ def handle_energy(map: HarmonicMap, pose: Pose, weight: float) -> HandleEnergy:
     angles, scales = pose.angles[turned], pose.scales[turned]
     plain = basis_at(map.domain, pose.handles[turned].tobytes(), cauchy.first_derivatives)
     fz = plain @ basis_of(map.domain).pad(map.phi)
-    directions = np.where(np.isnan(angles), np.angle(fz), angles)
-    turns = plain * np.exp(-1j * directions)[:, None]
+    wanted = np.exp(1j * np.where(np.isnan(angles), np.angle(fz), angles))
+    turns = plain * np.conj(wanted)[:, None]
     complex_rows = np.concatenate([handle_rows(map.domain, pose.handles.tobytes()), turns])
-    rows = _real_rows(complex_rows, h)
+    rows = real_rows(complex_rows, h)
     aims = np.concatenate([pose.targets.T, np.stack([np.nan_to_num(scales), 0 * scales])], axis=1)
     aims = np.nan_to_num(aims)
     images, images_grow = weights_of_images(map.domain, pose, weight)
@@ -132,13 +128,14 @@ def handle_energy(map: HarmonicMap, pose: Pose, weight: float) -> HandleEnergy:
     residual = rows @ real_coefficients(map) - aims
     own = np.concatenate([np.arange(h), turned])
     grow = np.concatenate([images_grow, turns_grow]) / pose.weights[own]
-    return HandleEnergy(map, pose, own, complex_rows, rows, weights, weights * residual, grow)
-
-
-def _real_rows(complex_rows: Array, n_images: int) -> Array:
-    """(2, m, 4c): the rows (F.5) of ``Re u`` and of ``Im u``."""
-    re, im = np.real(complex_rows), np.imag(complex_rows)
-    seen = (np.arange(len(re)) < n_images)[:, None].astype(float)  # rows for f_z do not see psi
-    return np.stack(
-        [np.hstack([re, -im, seen * re, -seen * im]), np.hstack([im, re, -seen * im, -seen * re])]
+    return HandleEnergy(
+        map=map,
+        pose=pose,
+        own=own,
+        wanted=wanted,
+        complex_rows=complex_rows,
+        rows=rows,
+        weights=weights,
+        pull=weights * residual,
+        per_weight=grow,
     )

@@ -64,9 +64,7 @@ def positional_energy(
         rows, aims[0, turns], held = _turns(map, pose, turned, damping)
         weights[:, turns] = held * turn_weights(pose, turned, weight)[0]
         matrix = matrix.copy()
-        of_phi = matrix.reshape(2, size, -1)[:, turns, : 2 * rows.shape[1]]
-        of_phi[0] = np.hstack([np.real(rows), -np.imag(rows)])
-        of_phi[1] = np.hstack([np.imag(rows), np.real(rows)])
+        matrix.reshape(2, size, -1)[:, turns] = real_rows(rows, 0)
     return Positional(matrix, aims.ravel(), weights.ravel())
 
 
@@ -137,5 +135,17 @@ def matrix_at(domain: Domain, handles: bytes, size: int) -> NDArray[Any]:
     own = handle_rows(domain, handles)
     rows = np.zeros((size, own.shape[1]), dtype=complex)
     rows[: len(own)] = own
-    re, minus_im = np.real(rows), -np.imag(rows)
-    return np.block([[re, minus_im, re, minus_im], [-minus_im, re, minus_im, -re]])
+    return real_rows(rows, size).reshape(2 * size, -1)
+
+
+def real_rows(rows: NDArray[Any], n_images: int) -> NDArray[Any]:
+    """(2, m, 4c): the rows of (F.5) for the real and the imaginary parts, from complex ones (m, c).
+
+    The first ``n_images`` rows give images of points. The others give ``f_z``, which psi does not
+    change.
+    """
+    re, im = np.real(rows), np.imag(rows)
+    seen = (np.arange(len(re)) < n_images)[:, None].astype(float)
+    return np.stack(
+        [np.hstack([re, -im, seen * re, -seen * im]), np.hstack([im, re, -seen * im, -seen * re])]
+    )
