@@ -18,13 +18,7 @@ _CLOSEST = 1000  # triangles whose determinants are compared as fractions
 
 def checked_points(name: str, value: Any) -> Array:
     """(n, 2) finite points of their own type."""
-    try:
-        points = np.asarray(value)
-    except ValueError as error:
-        raise AuditError(f"{name} must be (n, 2) coordinates: {error}") from None
-    if points.dtype.kind not in "iuf" or points.ndim != 2 or points.shape[1] != 2:
-        kind = f"{points.dtype.name} values of shape {points.shape}"
-        raise AuditError(f"{name} must be (n, 2) coordinates, not {kind}")
+    points = _rows_of(value, f"{name} must be (n, 2) coordinates", "iuf", 2)
     if points.dtype.kind == "f" and points.dtype.itemsize > 8:
         raise AuditError(f"{name} holds {points.dtype.name} numbers; convert it to float64")
     bad = np.argwhere(~np.isfinite(points))
@@ -36,13 +30,7 @@ def checked_points(name: str, value: Any) -> Array:
 
 def checked_triangles(value: Any, count: int) -> NDArray[np.int64]:
     """(t, 3) indices below ``count``."""
-    try:
-        triangles = np.asarray(value)
-    except ValueError as error:
-        raise AuditError(f"triangles must be (t, 3) whole numbers: {error}") from None
-    if triangles.dtype.kind not in "iu" or triangles.ndim != 2 or triangles.shape[1] != 3:
-        kind = f"{triangles.dtype.name} values of shape {triangles.shape}"
-        raise AuditError(f"triangles must be (t, 3) whole numbers, not {kind}")
+    triangles = _rows_of(value, "triangles must be (t, 3) whole numbers", "iu", 3)
     if not len(triangles):
         raise AuditError("the mesh has no triangles")
     bad = np.argwhere((triangles < 0) | (triangles >= count))
@@ -51,6 +39,17 @@ def checked_triangles(value: Any, count: int) -> NDArray[np.int64]:
         there = f"the mesh has the vertices 0 to {count - 1}"
         raise AuditError(f"triangles[{t}, {k}] is {triangles[t, k]}; {there}")
     return triangles.astype(np.int64)
+
+
+def _rows_of(value: Any, wanted: str, kinds: str, columns: int) -> NDArray[Any]:
+    """An array (n, columns) of one of NumPy's ``kinds`` of numbers; the error begins ``wanted``."""
+    try:
+        rows = np.asarray(value)
+    except ValueError as error:
+        raise AuditError(f"{wanted}: {error}") from None
+    if rows.dtype.kind not in kinds or rows.ndim != 2 or rows.shape[1] != columns:
+        raise AuditError(f"{wanted}, not {rows.dtype.name} values of shape {rows.shape}")
+    return rows
 
 
 def audit_mesh(source: Array, triangles: NDArray[np.int64], images: Array) -> Audit:

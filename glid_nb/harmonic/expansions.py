@@ -108,15 +108,53 @@ def _series(
     vertices, _, preceding, rho = singularities
     m, n = len(vertices), rows.shape[1]
     factor, u = rounding.slack_factor(n), UNIT_ROUNDOFF
-    edges = cauchy.edge_coefficients(rows, singularities)
     first = cauchy.first_by_edges(middle, singularities)
-    logarithms, size = np.abs(first[:, :m]), np.abs(edges).sum(axis=0)
+    edges = cauchy.edge_coefficients(rows, singularities)
+    size = np.abs(edges).sum(axis=0)
     g, h = edges @ first.T
+    value, value_off = _values(middle, first, edges, rows, singularities)
     of_logarithms = rounding.LOGARITHM * u * size[:m].sum() / np.pi
     first_off = factor * (np.abs(first) @ size) + of_logarithms
 
-    # By edges, g = sum_e (phi_e + (z - z_e) s_e) Log(B_(e+1) / B_e) / (2 pi i), without the
-    # exterior's first coefficient, so that a translation costs no accuracy.
+    to_vertex = -radius[:, None] / (middle[:, None] - vertices)
+    to_hole = radius[:, None] / (middle[:, None] - rho)
+    jumps = np.ascontiguousarray(cauchy.slope_jumps(rows, singularities)[:, :m].T)
+    series = np.zeros((order + 1, 2, len(middle)), dtype=complex)
+    series[0, 0], series[1, 0], series[1, 1] = value, radius * g, radius * h
+    _add_powers(series, radius, to_vertex, to_hole, jumps, rows[:, m:].T)
+
+    # |G_k| + |H_k| <= near q^(k-2) / (k (k-1)) + far q^(k-1) / k with the largest ratio q.
+    share, hole_share = np.abs(to_vertex), np.abs(to_hole)
+    jump_sizes = np.abs(jumps).sum(axis=1)
+    near = radius * (share @ jump_sizes) / (2 * np.pi)
+    rough = radius * (share @ (size[:m] + size[:m][preceding])) / (2 * np.pi)
+    f_error, first_error = _power_errors(near, rough, hole_share @ size[m:], order, factor)
+    steep = radius * (np.abs(g) + np.abs(h))
+    f_error += value_off + radius * first_off + 64 * u * (np.abs(value) + steep)
+    first_error = first_off + (first_error + 64 * u * steep) / radius
+    # Within twice the radius, the distance to a singularity is at least d - 2 radius.
+    second = (share / (1 - 2 * share)) @ jump_sizes / (2 * np.pi) / radius
+    second += (hole_share / (1 - 2 * hole_share)) ** 2 @ size[m:] / radius**2
+    second += 256 * u * rough / radius**2
+    # Near the cut a computed logarithm may be the wrong one.
+    cut = (np.abs(first[:, :m].real) > 0.5 - rounding.CUT).any(axis=1)
+    errors = (UPWARD**2 * values + rounding.UNDERFLOW for values in (f_error, first_error, second))
+    known = (np.where(np.isfinite(values) & ~cut, values, np.inf) for values in errors)
+    return Discs(middle, radius, series, *known)
+
+
+def _values(
+    middle: Array, first: Array, edges: Array, rows: Array, singularities: Singularities
+) -> tuple[Array, Array]:
+    """(k,) images of the middles, and bounds on their errors.
+
+    By edges, ``g = sum_e (phi_e + (z - z_e) s_e) Log(B_(e+1) / B_e) / (2 pi i)``, without the
+    exterior's first coefficient, so that a translation costs no accuracy.
+    """
+    vertices, _, preceding, rho = singularities
+    m, n = len(vertices), rows.shape[1]
+    factor, u = rounding.slack_factor(n), UNIT_ROUNDOFF
+    logarithms, size = np.abs(first[:, :m]), np.abs(edges).sum(axis=0)
     exterior = np.arange(n) <= preceding[0]
     local = rows - np.where(exterior, rows[:, :1], 0)
     away = middle[:, None] - vertices
@@ -131,28 +169,28 @@ def _series(
     off = (factor + rounding.LOGARITHM * u) * logarithms + rounding.LOGARITHM * u / (2 * np.pi)
     value_off = (terms * off).sum(axis=1) + factor * ((np.abs(ln) + 1) @ size[m:])
     value_off += 8 * u * (np.abs(value) + np.abs(rows[:, 0]).sum())
+    return value, value_off
 
-    to_vertex = -radius[:, None] / away
-    to_hole = radius[:, None] / (middle[:, None] - rho)
-    jumps, holes = cauchy.slope_jumps(rows, singularities)[:, :m].T, rows[:, m:].T
-    jumps = np.ascontiguousarray(jumps)
-    series = np.zeros((order + 1, 2, len(middle)), dtype=complex)
-    series[0, 0], series[1, 0], series[1, 1] = value, radius * g, radius * h
+
+def _add_powers(
+    series: Array, radius: Array, to_vertex: Array, to_hole: Array, jumps: Array, holes: Array
+) -> None:
+    """Fill in the coefficients ``G_k`` and ``H_k`` of the series from the second power on."""
     power, hole_power = to_vertex.copy(), to_hole.copy()
-    for k in range(2, order + 1):
+    for k in range(2, len(series)):
         hole_power *= to_hole
         series[k] = (power @ jumps).T * (1j * radius / (2 * np.pi * k * (k - 1)))
         series[k] += (hole_power @ holes).T * ((-1) ** (k - 1) / k)
         power *= to_vertex
 
-    # |G_k| + |H_k| <= near q^(k-2) / (k (k-1)) + far q^(k-1) / k with the largest ratio q.
-    share, hole_share = np.abs(to_vertex), np.abs(to_hole)
-    jump_sizes = np.abs(jumps).sum(axis=1)
-    near = radius * (share @ jump_sizes) / (2 * np.pi)
-    rough = radius * (share @ (size[:m] + size[:m][preceding])) / (2 * np.pi)
-    far = hole_share @ size[m:]
+
+def _power_errors(
+    near: Array, rough: Array, far: Array, order: int, factor: float
+) -> tuple[Array, Array]:
+    """Bounds on the errors of the powers from the second on, for values and for slopes: rounding
+    (Lemma 28), and what is left out behind the last power."""
     k, q, p = np.arange(2, order + 1), _RATIO_BOUND, order
-    per_term = factor + (32 * k + 16) * u
+    per_term = factor + (32 * k + 16) * UNIT_ROUNDOFF
     f_error = rough * (per_term * q ** (k - 2) / (k * (k - 1))).sum()
     f_error += far * (per_term * q ** (k - 1) / k).sum()
     first_error = rough * (per_term * q ** (k - 2) / (k - 1)).sum()
@@ -160,18 +198,7 @@ def _series(
     if order > 1:  # the tails
         f_error += near * q ** (p - 1) / (p * (p + 1) * (1 - q)) + far * q**p / ((p + 1) * (1 - q))
         first_error += near * q ** (p - 1) / (p * (1 - q)) + far * q**p / (1 - q)
-    steep = radius * (np.abs(g) + np.abs(h))
-    f_error += value_off + radius * first_off + 64 * u * (np.abs(value) + steep)
-    first_error = first_off + (first_error + 64 * u * steep) / radius
-    # Within twice the radius, the distance to a singularity is at least d - 2 radius.
-    second = (share / (1 - 2 * share)) @ jump_sizes / (2 * np.pi) / radius
-    second += (hole_share / (1 - 2 * hole_share)) ** 2 @ size[m:] / radius**2
-    second += 256 * u * rough / radius**2
-    # Near the cut a computed logarithm may be the wrong one.
-    cut = (np.abs(first[:, :m].real) > 0.5 - rounding.CUT).any(axis=1)
-    errors = (UPWARD**2 * values + rounding.UNDERFLOW for values in (f_error, first_error, second))
-    known = (np.where(np.isfinite(values) & ~cut, values, np.inf) for values in errors)
-    return Discs(middle, radius, series, *known)
+    return f_error, first_error
 
 
 class Expansions:
