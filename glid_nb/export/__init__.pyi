@@ -4,6 +4,7 @@ from .formats import MOTION_FORMATS as MOTION_FORMATS
 from .formats import ExportError as ExportError
 from .formats import file_names as file_names
 from .formats import suffix_of as suffix_of
+from .live_page import live_page_html as live_page_html
 from .mesh import mesh_glb as mesh_glb
 from .mesh import mesh_obj as mesh_obj
 from .mesh import motion_glb as motion_glb

@@ -31,7 +31,7 @@ from glid_nb.pose import Pose
 
 _VERTICES = 4000
 _TOLERANCE = 0.004  # world units; the picture is 20 long
-_GRID_LINES = 20  # along the longer side
+GRID_LINES = 20  # along the longer side
 # Vertices and images are rounded to this share of the shape's size: 1/20 pixel of 2000 pixels.
 _STEP = 2.5e-5
 _HEIGHT = 2.0**-16  # rounding of heights
@@ -80,7 +80,7 @@ def page_html(
         **_shaders(mesh, map, step),
         "frame": [*PixelFrame(*texture.shape[1::-1]).bounds],
         "margin": MARGIN,
-        "grid": map.domain.cage.longer_side / _GRID_LINES,
+        "grid": map.domain.cage.longer_side / GRID_LINES,
         "colors": rgb(COLORS).ravel().round(4).tolist(),
         "ranges": _ranges(proof),
         "loop": loop,
@@ -106,10 +106,10 @@ def _shape(mesh: MovingMesh, step: float) -> dict[str, Any]:
     corners = corners[np.lexsort(corners.T[::-1])]  # sorted triangles compress well
     heights = mesh.heights - mesh.heights.mean()
     return {
-        "source": _packed(mesh.vertices, step),
-        "heights": _factored(heights / (2 * np.abs(heights).max() or 1.0), _HEIGHT, 1),
+        "source": packed(mesh.vertices, step),
+        "heights": factored(heights / (2 * np.abs(heights).max() or 1.0), _HEIGHT, 1),
         "height_times": list(mesh.height_times) if len(heights) > 1 else [],
-        "triangles": _packed(corners - corners[:, :1] * [0, 1, 1], 1),
+        "triangles": packed(corners - corners[:, :1] * [0, 1, 1], 1),
         "bounds": _bounds(mesh.images.reshape(-1, 2)),
         "source_bounds": _bounds(mesh.vertices),
     }
@@ -138,7 +138,7 @@ def _shaders(mesh: MovingMesh, shown: HarmonicMap | Motion, step: float) -> dict
         "vertex": vertex,
         "fragment": fragment,
         "motion": motion,
-        "coefficients": _factored(rows, step, 6 if in_kernel else 4),
+        "coefficients": factored(rows, step, 6 if in_kernel else 4),
         "width": rows.shape[1],
         "cage": "" if in_kernel else _base64(shader.cage.astype("<f4")),
     }
@@ -207,7 +207,7 @@ def _bounds(points: Array) -> list[float]:
     return [*points.min(axis=0).tolist(), *points.max(axis=0).tolist()]
 
 
-def _factored(values: Array, step: float, width: int) -> dict[str, Any]:
+def factored(values: Array, step: float, width: int) -> dict[str, Any]:
     """(n, m) values for `restored` in the page, as sums of few rows, with errors of about a step.
 
     The maps of a motion lie near a space of few dimensions, even if the shape turns. A row consists
@@ -221,12 +221,12 @@ def _factored(values: Array, step: float, width: int) -> dict[str, Any]:
     rows = (rows * sizes[:, None]).reshape(-1, width)
     return {
         "sizes": sizes.tolist(),
-        "rows": {**_packed(rows, step / 4), "width": width},
-        "shares": _packed(shares, step / 2),
+        "rows": {**packed(rows, step / 4), "width": width},
+        "shares": packed(shares, step / 2),
     }
 
 
-def _packed(values: Array, step: float) -> dict[str, Any]:
+def packed(values: Array, step: float) -> dict[str, Any]:
     """(n, m) values for `unpacked` in the page.
 
     The values are rounded to whole steps. Second differences down the columns are taken and written

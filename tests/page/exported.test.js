@@ -10,7 +10,7 @@ import { cornersOf, restored, unpacked } from "../../glid_nb/page/js/exported/un
 import { Motion } from "../../glid_nb/page/js/motion/motion.js";
 
 /**
- * As `_packed` in glid_nb/export/page.py.
+ * As `packed` in glid_nb/export/page.py.
  *
  * @param {number[][]} rows whole numbers
  * @param {number} step

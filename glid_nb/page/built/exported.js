@@ -1,5 +1,5 @@
 "use strict";(()=>{var Motion=class{constructor({times,repeat},floats){this.times=times;this.repeat=repeat;this.floats=
-floats;this.mixed=new Float32Array(floats.length/times.length);this.start=times[0];this.last=times[times.
+floats;this.mixed=floats.slice(0,floats.length/times.length);this.start=times[0];this.last=times[times.
 length-1];this.end=repeat==="ping-pong"?2*this.last-this.start:this.last}within(time){const{start,end}=this;
 if(this.repeat==="once")return Math.min(Math.max(time,start),end);const span=end-start;return start+
 ((time-start)%span+span)%span}place(time){const{times,last}=this;const within=this.within(time);const there=within>

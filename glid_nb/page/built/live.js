@@ -1,501 +1,335 @@
-"use strict";(()=>{var LN2_HIGH=.6931471803691238;var LN2_LOW=19082149292705877e-26;var TWO_TO_54=0x40000000000000;var L1=.6666666666666735;
-var L2=.3999999999940942;var L3=.2857142874366239;var L4=.22222198432149784;var L5=.1818357216161805;
-var L6=.15313837699209373;var L7=.14798198605116586;var A0=.3333333333333293;var A1=-.19999999999876483;
-var A2=.14285714272503466;var A3=-.11111110405462356;var A4=.09090887133436507;var A5=-.0769187620504483;
-var A6=.06661073137387531;var A7=-.058335701337905735;var A8=.049768779946159324;var A9=-.036531572744216916;
-var A10=.016285820115365782;var ATAN_HIGH=[.4636476090008061,.7853981633974483,.982793723247329,1.5707963267948966];
-var ATAN_LOW=[22698777452961687e-33,3061616997868383e-32,13903311031230998e-33,6123233995736766e-32];
-var TINY=1862645149230957e-24;var HUGE=7378697629483821e4;var PI_LOW=12246467991473532e-32;var number=new Float64Array(
-1);var words=new Int32Array(number.buffer);number[0]=1;var HIGH=words[1]===0?0:1;function modulus(x,y){
-return Math.sqrt(x*x+y*y)}function log(x){if(!(x>0)||x===Infinity){return logOfSpecial(x)}const subnormal=x<
-22250738585072014e-324;number[0]=subnormal?x*TWO_TO_54:x;const exponent=(words[HIGH]>>20)-1023-(subnormal?
-54:0);const fraction=words[HIGH]&1048575;const carry=fraction+614244&1048576;words[HIGH]=fraction|carry^
-1072693248;return logOfParts(exponent+(carry>>20),number[0]-1,fraction)}function logOfSpecial(x){if(x===
-0){return-Infinity}return x===Infinity?Infinity:NaN}function logOfParts(k,f,fraction){if((1048575&2+
-fraction)<3){const r2=f*f*(.5-.3333333333333333*f);return k*LN2_HIGH-(r2-k*LN2_LOW-f)}const s=f/(2+f);
-const z=s*s;const w=z*z;const even=w*(L2+w*(L4+w*L6));const odd=z*(L1+w*(L3+w*(L5+w*L7)));const r=odd+
-even;if((fraction-398458|440401-fraction)>0){const half=.5*f*f;return k*LN2_HIGH-(half-(s*(half+r)+k*
-LN2_LOW)-f)}return k*LN2_HIGH-(s*(f-r)-k*LN2_LOW-f)}function atan2(y,x){if(!Number.isFinite(x)||!Number.
-isFinite(y)){return NaN}const angle=y===0?0:atan(Math.abs(y/x));if(x>=0){return y<0?-angle:angle}return y<
-0?angle-PI_LOW-Math.PI:Math.PI-(angle-PI_LOW)}function atan(x){if(x<.4375){return x<TINY?x:x-x*atanSeries(
-x)}if(x>=HUGE){return ATAN_HIGH[3]+ATAN_LOW[3]}if(x<.6875){return atanFrom(0,(2*x-1)/(2+x))}if(x<1.1875){
-return atanFrom(1,(x-1)/(x+1))}return x<2.4375?atanFrom(2,(x-1.5)/(1+1.5*x)):atanFrom(3,-1/x)}function atanFrom(entry,t){
-return ATAN_HIGH[entry]-(t*atanSeries(t)-ATAN_LOW[entry]-t)}function atanSeries(t){const z=t*t;const w=z*
-z;const odd=z*(A0+w*(A2+w*(A4+w*(A6+w*(A8+w*A10)))));const even=w*(A1+w*(A3+w*(A5+w*(A7+w*A9))));return odd+
-even}var Domain=class{constructor(outline){const loops=[outline.offset_cage,...outline.offset_holes];this.
-cage=[outline.cage,...outline.holes];this.singular=complexOf([...loops.flat(),...outline.hole_points]);
-this.exterior=outline.offset_cage.length;this.holes=outline.hole_points.length;this.vertices=loops.flat().
-length;this.columns=this.vertices+this.holes;const{next,previous}=neighbours(loops.map(loop=>loop.length));
-this.next=next;this.previous=previous;const{edge,inverse}=edgesOf(this.singular,next);this.edge=edge;
-this.inverseEdge=inverse;this.largest=largestModulus(this.singular,this.exterior);this.unit=longerSide(
-outline.cage)/20;this.free=freeColumns(loops.map(loop=>loop.length))}};function complexOf(points){return{
-re:Float64Array.from(points,point=>point[0]),im:Float64Array.from(points,point=>point[1])}}function zeros(size){
-return{re:new Float64Array(size),im:new Float64Array(size)}}function neighbours(sizes){const total=sizes.
-reduce((sum,size)=>sum+size,0);const next=new Int32Array(total);const previous=new Int32Array(total);
-let first=0;for(const size of sizes){for(let i=0;i<size;i++){const after=first+(i+1)%size;next[first+
-i]=after;previous[after]=first+i}first+=size}return{next,previous}}function freeColumns(sizes){const free=[];
-let first=0;for(const[loop,size]of sizes.entries()){for(let i=loop===0?1:2;i<size;i++){free.push(first+
-i)}first+=size}return Int32Array.from(free)}function edgesOf(singular,next){const edge=zeros(next.length);
-const inverse=zeros(next.length);for(let e=0;e<next.length;e++){const re=singular.re[next[e]]-singular.
-re[e];const im=singular.im[next[e]]-singular.im[e];const square=re*re+im*im;edge.re[e]=re;edge.im[e]=
-im;inverse.re[e]=re/square;inverse.im[e]=-im/square}return{edge,inverse}}function largestModulus(points,count){
-let largest=0;for(let j=0;j<count;j++){largest=Math.max(largest,modulus(points.re[j],points.im[j]))}
-return largest}function longerSide(loop){const sides=[0,1].map(axis=>{const values=loop.map(point=>point[axis]);
-return Math.max(...values)-Math.min(...values)});return Math.max(...sides)}var UNIT_ROUNDOFF=11102230246251565e-32;var UPWARD=1+9313225746154785e-25;var CUT=64*UNIT_ROUNDOFF;var BESIDE=64*
-UNIT_ROUNDOFF;var LOGARITHM=16*UNIT_ROUNDOFF;var BERNSTEIN=16*UNIT_ROUNDOFF;var LEBESGUE=1.25;var UNDERFLOW=1e-140;
-function slack(columns,rowNorm,slopeNorm,slopeSum){const sums=(3*columns+128)*UNIT_ROUNDOFF*rowNorm*
-slopeNorm;const logarithms=LOGARITHM/Math.PI*slopeSum;return LEBESGUE*UPWARD*(sums+logarithms)+UNDERFLOW}var TAU=2*Math.PI;var LARGEST_NORM=1e20;function rowsAt(domain,points){const count=points.re.length;
-const{columns}=domain;const rows={count,columns,...zeros(count*columns),norms:new Float64Array(count)};
-for(let i=0;i<count;i++){rows.norms[i]=fillRow(domain,points.re[i],points.im[i],rows,i*columns)}return rows}
-function fillRow(domain,x,y,row,first){const{vertices,columns,next,singular}=domain;let safe=true;for(let e=0;e<
-vertices;e++){const after=next[e];const bx=singular.re[e]-x;const by=singular.im[e]-y;const cx=singular.
-re[after]-x;const cy=singular.im[after]-y;const angle=atan2(bx*cy-by*cx,bx*cx+by*cy)/TAU;row.re[first+
-e]=angle;row.im[first+e]=-log((cx*cx+cy*cy)/(bx*bx+by*by))/(2*TAU);safe=safe&&Math.abs(angle)<.5-CUT}
-for(let h=vertices;h<columns;h++){const bx=x-singular.re[h];const by=y-singular.im[h];const square=bx*
-bx+by*by;row.re[first+h]=bx/square;row.im[first+h]=-by/square}const norm=UPWARD*Math.sqrt(squares(row,
-first,columns));return safe&&norm<LARGEST_NORM?norm:Infinity}function squares(row,first,count){let sum=0;
-for(let j=first;j<first+count;j++){sum+=row.re[j]*row.re[j]+row.im[j]*row.im[j]}return sum}function coordinatesAt(domain,[
-x,y]){const{vertices,columns,next,previous,singular}=domain;const logarithms=zeros(columns);fillRow(
-domain,x,y,logarithms,0);const over=timesInverseEdge(domain,logarithms);const c=zeros(columns);for(let j=0;j<
-vertices;j++){const p=previous[j];const cx=singular.re[next[j]]-x;const cy=singular.im[next[j]]-y;const bx=singular.
-re[p]-x;const by=singular.im[p]-y;c.re[j]=cx*over.re[j]-cy*over.im[j]-(bx*over.re[p]-by*over.im[p]);
-c.im[j]=cx*over.im[j]+cy*over.re[j]-(bx*over.im[p]+by*over.re[p])}for(let h=vertices;h<columns;h++){
-c.re[h]=log(modulus(x-singular.re[h],y-singular.im[h]))}return c}function derivativesOf(domain,row,first){
-const{vertices,columns,previous}=domain;const end=first+columns;const own={re:row.re.subarray(first,
-end),im:row.im.subarray(first,end)};const over=timesInverseEdge(domain,own);const d={re:Float64Array.
-from(own.re),im:Float64Array.from(own.im)};for(let j=0;j<vertices;j++){d.re[j]=over.re[previous[j]]-
-over.re[j];d.im[j]=over.im[previous[j]]-over.im[j]}return d}function timesInverseEdge({vertices,inverseEdge},row){
-const over=zeros(vertices);for(let e=0;e<vertices;e++){over.re[e]=row.re[e]*inverseEdge.re[e]-row.im[e]*
-inverseEdge.im[e];over.im[e]=row.re[e]*inverseEdge.im[e]+row.im[e]*inverseEdge.re[e]}return over}function slopesOf(domain,coefficients){
-const{vertices,columns,next,edge}=domain;const slopes=new Float64Array(4*columns);for(const part of[
-0,2*columns]){const re=coefficients.subarray(part,part+columns);const im=coefficients.subarray(part+
-columns,part+2*columns);for(let e=0;e<vertices;e++){const x=re[next[e]]-re[e];const y=im[next[e]]-im[e];
-const a=edge.re[e];const b=edge.im[e];const square=a*a+b*b;slopes[part+e]=(x*a+y*b)/square;slopes[part+
-columns+e]=(y*a-x*b)/square}for(let h=vertices;h<columns;h++){slopes[part+h]=re[h];slopes[part+columns+
-h]=im[h]}}return slopes}function pulledThroughSlopes(domain,g){const{vertices,columns,next,inverseEdge}=domain;
-const pulled=new Float64Array(4*columns);for(const re of[0,2*columns]){const im=re+columns;for(let e=0;e<
-vertices;e++){const x=g[re+e]*inverseEdge.re[e]+g[im+e]*inverseEdge.im[e];const y=g[im+e]*inverseEdge.
-re[e]-g[re+e]*inverseEdge.im[e];pulled[re+next[e]]+=x;pulled[im+next[e]]+=y;pulled[re+e]-=x;pulled[im+
-e]-=y}for(let h=vertices;h<columns;h++){pulled[re+h]=g[re+h];pulled[im+h]=g[im+h]}}return pulled}function samplesAt(rows,slopes){
-const samples=new Float64Array(4*rows.count);const[pr,pi,qr,qi]=quarters(slopes);const[fr,fi,gr,gi]=quarters(
-samples);fillProduct(rows,pr,pi,fr,fi);fillProduct(rows,qr,qi,gr,gi);return samples}function fillProduct(rows,re,im,intoRe,intoIm){
-const{count,columns}=rows;const rowRe=rows.re;const rowIm=rows.im;for(let i=0;i<count;i+=2){const next=Math.
-min(i+1,count-1);const first=i*columns;const second=next*columns;let x1=0;let y1=0;let x2=0;let y2=0;
-for(let e=0;e<columns;e++){const a1=rowRe[first+e];const b1=rowIm[first+e];const a2=rowRe[second+e];
-const b2=rowIm[second+e];const c=re[e];const d=im[e];x1+=a1*c-b1*d;y1+=a1*d+b1*c;x2+=a2*c-b2*d;y2+=a2*
-d+b2*c}intoRe[i]=x1;intoIm[i]=y1;intoRe[next]=x2;intoIm[next]=y2}}function pulledThroughRows(rows,g){
-const pulled=new Float64Array(4*rows.columns);const[pr,pi,qr,qi]=quarters(pulled);const[fr,fi,gr,gi]=quarters(
-g);addAdjointProduct(rows,fr,fi,pr,pi);addAdjointProduct(rows,gr,gi,qr,qi);return pulled}function addAdjointProduct(rows,re,im,intoRe,intoIm){
-const{count,columns}=rows;const rowRe=rows.re;const rowIm=rows.im;for(let i=0;i<count;i+=2){const both=i+
-1<count;const first=i*columns;const second=both?first+columns:first;const c1=re[i];const d1=im[i];const c2=both?
-re[i+1]:0;const d2=both?im[i+1]:0;for(let e=0;e<columns;e++){const a1=rowRe[first+e];const b1=rowIm[first+
-e];const a2=rowRe[second+e];const b2=rowIm[second+e];intoRe[e]+=a1*c1+b1*d1+(a2*c2+b2*d2);intoIm[e]+=
-a1*d1-b1*c1+(a2*d2-b2*c2)}}}function quarters(values){const n=values.length/4;return[values.subarray(
-0,n),values.subarray(n,2*n),values.subarray(2*n,3*n),values.subarray(3*n)]}var FieldPoints=class{#domain;#coordinates;#rows;constructor(domain,points){const{columns}=domain;this.#domain=
-domain;this.count=points.length;this.#coordinates=zeros(points.length*columns);for(const[i,point]of points.
-entries()){const c=coordinatesAt(domain,point);this.#coordinates.re.set(c.re,i*columns);this.#coordinates.
-im.set(c.im,i*columns)}this.#rows=rowsAt(domain,complexOf(points))}evaluate(coefficients){const slopes=slopesOf(
-this.#domain,coefficients);return{images:imagesAt(this.#coordinates,this.count,coefficients),samples:samplesAt(
-this.#rows,slopes)}}};function imagesAt({re,im},count,coefficients){const images=new Float64Array(2*
-count);const n=coefficients.length/4;const[pr,pi,qr,qi]=quarters(coefficients);const sum={re:pr.map(
-(value,j)=>value+qr[j]),im:pi.map((value,j)=>value+qi[j])};const less={re:pr.map((value,j)=>value-qr[j]),
-im:pi.map((value,j)=>value-qi[j])};for(let i=0;i<count;i++){const first=i*n;let x=0;let y=0;for(let j=0;j<
-n;j++){x+=re[first+j]*sum.re[j]-im[first+j]*sum.im[j];y+=re[first+j]*less.im[j]+im[first+j]*less.re[j]}
-images[2*i]=x;images[2*i+1]=y}return images}var MOST_BISECTIONS=48;function gradedPanels(domain){const starts=[];const loop=[];for(const[number2,
-vertices]of domain.cage.entries()){for(const[i,vertex]of vertices.entries()){appendPieces(domain,vertex,
-vertices[(i+1)%vertices.length],0,starts)}while(loop.length<starts.length){loop.push(number2)}}const count=starts.
-length;const next=nextOnLoop(loop);const nodes=nodesOf(starts,next);const lengths=relativeLengths(starts,
-next);const loops=domain.cage.length;const weights=simpson(lengths,next);return{count,loops,next,loop:Int32Array.
-from(loop),nodes,lengths,weights}}function appendPieces(domain,start,end,depth,starts){const length=modulus(
-end[0]-start[0],end[1]-start[1]);if(depth===MOST_BISECTIONS||length<=clearance(domain,start,end)){starts.
-push(start);return}const middle=middleOf(start,end);appendPieces(domain,start,middle,depth+1,starts);
-appendPieces(domain,middle,end,depth+1,starts)}function middleOf(a,b){return[(a[0]+b[0])/2,(a[1]+b[1])/
-2]}function clearance(domain,start,end){let least=Infinity;for(let j=0;j<domain.columns;j++){least=Math.
-min(least,distance(domain.singular,j,start[0],start[1],end[0],end[1]))}return least}function distance(points,j,ax,ay,bx,by){
-const alongX=bx-ax;const alongY=by-ay;const x=points.re[j]-ax;const y=points.im[j]-ay;const square=alongX*
-alongX+alongY*alongY;const position=(x*alongX+y*alongY)/(square>0?square:1);const t=Math.min(1,Math.
-max(0,position));return modulus(x-t*alongX,y-t*alongY)}function nextOnLoop(loop){const next=new Int32Array(
-loop.length);let first=0;for(let i=0;i<loop.length;i++){if(loop[i]!==loop[first]){first=i}next[i]=loop[i+
-1]===loop[i]?i+1:first}return next}function nodesOf(starts,next){const count=starts.length;const nodes=zeros(
-2*count);for(const[i,start]of starts.entries()){const middle=middleOf(start,starts[next[i]]);nodes.re[i]=
-start[0];nodes.im[i]=start[1];nodes.re[count+i]=middle[0];nodes.im[count+i]=middle[1]}return nodes}function relativeLengths(starts,next){
-const lengths=Float64Array.from(starts,(start,i)=>{const end=starts[next[i]];return modulus(end[0]-start[0],
-end[1]-start[1])});const perimeter=lengths.reduce((sum,length)=>sum+length,0);return lengths.map(length=>length/
-perimeter)}function simpson(lengths,next){const count=lengths.length;const weights=new Float64Array(
-2*count);for(let i=0;i<count;i++){weights[i]+=lengths[i]/6;weights[next[i]]+=lengths[i]/6;weights[count+
-i]=4*lengths[i]/6}return weights}var TAU2=2*Math.PI;var QUADRATIC=Math.sqrt(3)/216;var MOST_HALVINGS=4;var Prover=class{#weights;#spare;#row;constructor(domain,panels,rows){
-this.domain=domain;this.panels=panels;this.rows=rows;const{columns}=domain;this.#weights=new Float64Array(
-panels.count*columns);this.#spare=new Float64Array(columns);this.#row=zeros(columns);const{re,im}=panels.
-nodes;for(let i=0;i<panels.count;i++){const end=panels.next[i];fillRemainderWeights(domain,re[i],im[i],
-re[end],im[end],this.#weights,i*columns)}}certify(coefficients){return this.prove(coefficients).certificate}prove(coefficients){
-const map=new MapData(this.domain,coefficients);const samples=samplesAt(this.rows,map.slopes);return{
-certificate:this.#certificate(map,quarters(samples)),samples}}#certificate(map,samples){const{panels}=this;
-const turning=new Float64Array(panels.loops);const whole={sigma2_lower:Infinity,sigma1_upper:0,k_upper:0,
-halved:0,refused:-1};for(let i=0;i<panels.count;i++){const bounds=this.#onPanel(map,samples,i,whole);
-whole.sigma2_lower=Math.min(whole.sigma2_lower,bounds.sigma2);whole.sigma1_upper=Math.max(whole.sigma1_upper,
-bounds.sigma1);whole.k_upper=Math.max(whole.k_upper,bounds.k);turning[panels.loop[i]]+=bounds.turning;
-if(!(bounds.sigma2>0)){whole.refused=i;break}}const windings=Array.from(turning,angle=>Math.round(angle/
-TAU2)+0);const zerosOfFz=windings.reduce((sum,turns)=>sum+turns,0);const certified=map.tied&&whole.refused<
-0&&zerosOfFz===0;const k=certified?Math.min(whole.k_upper,1):whole.k_upper;return{certified,...whole,
-k_upper:k,windings}}#onPanel(map,samples,i,whole){const{panels}=this;const start=this.#node(samples,
-i);const middle=this.#node(samples,panels.count+i);const end=this.#node(samples,panels.next[i]);return this.#between(
-map,start,middle,end,this.#weights,i*map.columns,0,whole)}#node([fr,fi,gr,gi],i){const{re,im}=this.panels.
-nodes;const norm=this.rows.norms[i];return{x:re[i],y:im[i],norm,fr:fr[i],fi:fi[i],gr:gr[i],gi:gi[i]}}#between(map,start,middle,end,weights,first,depth,whole){
-const norm=Math.max(start.norm,middle.norm,end.norm);const[ef,eg]=map.errors(weights,first,norm);const bounds=boundsOf(
-start,middle,end,ef,eg);if(bounds.sigma2>0){return bounds}const folded=!(modulus(start.fr,start.fi)>
-modulus(start.gr,start.gi));if(depth===MOST_HALVINGS||folded){return bounds}whole.halved++;const left=this.#half(
-map,start,middle,depth,whole);if(!(left.sigma2>0)){return left}const right=this.#half(map,middle,end,
-depth,whole);return{sigma2:Math.min(left.sigma2,right.sigma2),sigma1:Math.max(left.sigma1,right.sigma1),
-k:Math.max(left.k,right.k),turning:left.turning+right.turning}}#half(map,start,end,depth,whole){const weights=this.#spare;
-const middle=this.#fresh(map,(start.x+end.x)/2,(start.y+end.y)/2);fillRemainderWeights(this.domain,start.
-x,start.y,end.x,end.y,weights,0);return this.#between(map,start,middle,end,weights,0,depth+1,whole)}#fresh(map,x,y){
-const norm=fillRow(this.domain,x,y,this.#row,0);const norms=Float64Array.of(norm);const row={count:1,
-columns:map.columns,...this.#row,norms};const[fr,fi,gr,gi]=samplesAt(row,map.slopes);return{x,y,norm,
-fr,fi,gr,gi}}};var MapData=class{constructor(domain,coefficients){const{vertices,columns}=domain;this.
-columns=columns;this.tied=areTied(coefficients,vertices,columns);this.slopes=slopesOf(domain,coefficients);
-const[pr,pi,qr,qi]=quarters(this.slopes);this.f=sizesOf(domain,pr,pi);this.g=sizesOf(domain,qr,qi)}errors(weights,first,rowNorm){
-let ef=0;let eg=0;for(let j=0;j<this.columns;j++){ef+=weights[first+j]*this.f.jumps[j];eg+=weights[first+
-j]*this.g.jumps[j]}const{f,g,columns}=this;return[UPWARD*(ef+slack(columns,rowNorm,f.norm,f.sum)),UPWARD*
-(eg+slack(columns,rowNorm,g.norm,g.sum))]}};function areTied(coefficients,vertices,columns){const[pr,
-pi,qr,qi]=quarters(coefficients);let tied=true;for(let h=vertices;h<columns;h++){tied=tied&&pr[h]===
-qr[h]&&pi[h]===-qi[h]}return tied}function sizesOf({vertices,columns,previous},re,im){const jumps=new Float64Array(
-columns);let squares2=0;let sum=0;for(let j=0;j<columns;j++){const size=modulus(re[j],im[j]);squares2+=
-size*size;if(j<vertices){const p=previous[j];const rounding=32*UNIT_ROUNDOFF*(size+modulus(re[p],im[p]));
-jumps[j]=modulus(re[p]-re[j],im[p]-im[j])+rounding;sum+=size}else{jumps[j]=size}}return{jumps,norm:UPWARD*
-Math.sqrt(squares2),sum}}function fillRemainderWeights(domain,ax,ay,bx,by,weights,first){const off=BESIDE*
-domain.largest;const length=modulus(bx-ax,by-ay);for(let j=0;j<domain.columns;j++){const computed=distance(
-domain.singular,j,ax,ay,bx,by);const least=computed*(1-32*UNIT_ROUNDOFF)-32*UNIT_ROUNDOFF*length-off;
-const d=Math.max(least,0);const ratio=(length+2*off)/d;const cube=UPWARD*QUADRATIC*ratio*ratio*ratio;
-const beside=UPWARD*2*off/d;weights[first+j]=j<domain.vertices?(2*cube+beside)/TAU2:(6*cube+beside)/
-d}}function boundsOf(start,middle,end,ef,eg){const control={fr:2*middle.fr-(start.fr+end.fr)/2,fi:2*
-middle.fi-(start.fi+end.fi)/2,gr:2*middle.gr-(start.gr+end.gr)/2,gi:2*middle.gi-(start.gi+end.gi)/2};
-const left=pieceBounds(start,between(start,control),middle,ef,eg);const right=pieceBounds(middle,between(
-control,end),end,ef,eg);const known=inHalfPlane(start,control,end,ef);const crossed=end.fi*start.fr-
-end.fr*start.fi;return{sigma2:known?Math.min(left.sigma2,right.sigma2):-Infinity,sigma1:Math.max(left.
-sigma1,right.sigma1),k:Math.max(left.k,right.k),turning:atan2(crossed,end.fr*start.fr+end.fi*start.fi)}}
-function between(a,b){return{fr:(a.fr+b.fr)/2,fi:(a.fi+b.fi)/2,gr:(a.gr+b.gr)/2,gi:(a.gi+b.gi)/2}}function inHalfPlane(start,control,end,ef){
-const a=modulus(start.fr,start.fi);const b=modulus(end.fr,end.fi);const x=start.fr/a+end.fr/b;const y=start.
-fi/a+end.fi/b;const size=modulus(x,y);let least=Infinity;for(const{fr,fi}of[start,control,end]){least=
-Math.min(least,(x*fr+y*fi)/size)}return least>ef}function pieceBounds(a,b,c,ef,eg){const p=squaredModulus(
-a.fr,a.fi,b.fr,b.fi,c.fr,c.fi);const q=squaredModulus(a.gr,a.gi,b.gr,b.gi,c.gr,c.gi);const pMost=UPWARD*
-Math.sqrt(p.most);const qMost=UPWARD*Math.sqrt(q.most);let least=Infinity;let leastP=Infinity;let kappa=0;
-for(let i=0;i<5;i++){const low=p.coefficients[i]-BERNSTEIN*p.most;const high=q.coefficients[i]+BERNSTEIN*
-q.most;least=Math.min(least,low-high);leastP=Math.min(leastP,low);kappa=Math.max(kappa,high/low)}const sigma1=UPWARD*
-(pMost+qMost+ef+eg);const finite=sigma1*sigma1<Infinity;if(!(finite&&least>0)){return{sigma2:-Infinity,
-sigma1,k:Infinity}}const sigma2=least/((pMost+qMost)*UPWARD)-ef-eg;const pLeast=Math.sqrt(leastP);const direct=(Math.
-sqrt(kappa)*pLeast+eg)/(pLeast-ef);const fromSigma=(sigma1-sigma2)/(sigma1+sigma2);const k=UPWARD*(pLeast>
-ef?Math.min(direct,fromSigma):fromSigma);return{sigma2,sigma1,k}}function squaredModulus(ar,ai,br,bi,cr,ci){
-const a=ar*ar+ai*ai;const b=br*br+bi*bi;const c=cr*cr+ci*ci;const middle=(ar*cr+ai*ci+2*b)/3;const coefficients=[
-a,ar*br+ai*bi,middle,br*cr+bi*ci,c];return{coefficients,most:Math.max(a,b,c)}}var RIDGE=1e-13;var Whitening=class{constructor(domain,panels,rows){this.domain=domain;this.k=domain.
-free.length;this.u=1+this.k+domain.holes;this.size=2*this.u+2*this.k;this.t=zeros(domain.columns*this.
-u);const samples=scaledDerivatives(domain,panels,rows);const inverse=inverseFactor(gramMatrix(samples,
-domain.free),this.k);this.#setTranslation();this.#setSingleValued(inverse);for(let h=0;h<domain.holes;h++){
-this.#setLogarithm(h,inverse,samples)}this.#vanishAt(panels.nodes.re[0],panels.nodes.im[0])}#setTranslation(){
-for(let j=0;j<this.domain.exterior;j++){this.t.re[j*this.u]=1}}#setSingleValued(inverse){const{k,u,t}=this;
-for(let c=0;c<k;c++){for(let j=0;j<=c;j++){const place=this.domain.free[j]*u+1+c;t.re[place]=inverse.
-re[c*k+j];t.im[place]=-inverse.im[c*k+j]}}}#setLogarithm(h,inverse,samples){const{domain,k,u,t}=this;
-const column=domain.vertices+h;const projections=projectionsOn(samples,domain.free,column);const along=timesAdjoint(
-inverse,timesLower(inverse,projections,k),k);const rest=normOfRest(samples,domain.free,along,column);
-const place=1+k+h;for(let j=0;j<k;j++){t.re[domain.free[j]*u+place]=-along.re[j]/rest;t.im[domain.free[j]*
-u+place]=-along.im[j]/rest}t.re[column*u+place]=1/rest}#vanishAt(x,y){const{domain,u,t}=this;const c=coordinatesAt(
-domain,[x,y]);for(let column=1;column<u;column++){let re=0;let im=0;for(let j=0;j<domain.columns;j++){
-const a=t.re[j*u+column];const b=t.im[j*u+column];re+=c.re[j]*a-c.im[j]*b;im+=c.re[j]*b+c.im[j]*a}for(let j=0;j<
-domain.exterior;j++){t.re[j*u+column]-=re;t.im[j*u+column]-=im}}}toCoefficients(x){const{u,t}=this;const{
-columns,vertices}=this.domain;const coefficients=new Float64Array(4*columns);const[pr,pi,qr,qi]=quarters(
-this.#expanded(x));for(let j=0;j<columns;j++){let phiRe=0;let phiIm=0;let psiRe=0;let psiIm=0;for(let c=0;c<
-u;c++){const a=t.re[j*u+c];const b=t.im[j*u+c];phiRe+=a*pr[c]-b*pi[c];phiIm+=a*pi[c]+b*pr[c];psiRe+=
-a*qr[c]-b*qi[c];psiIm+=a*qi[c]+b*qr[c]}coefficients[j]=phiRe;coefficients[columns+j]=phiIm;coefficients[2*
-columns+j]=psiRe;coefficients[3*columns+j]=psiIm}tieHoles(coefficients,vertices,columns);return coefficients}pulledBack(g){
-const{u,t}=this;const{columns}=this.domain;const pulled=new Float64Array(4*u);const[pr,pi,qr,qi]=quarters(
-pulled);for(let j=0;j<columns;j++){const phiRe=g[j];const phiIm=g[columns+j];const psiRe=g[2*columns+
-j];const psiIm=g[3*columns+j];for(let c=0;c<u;c++){const a=t.re[j*u+c];const b=t.im[j*u+c];pr[c]+=a*
-phiRe+b*phiIm;pi[c]+=a*phiIm-b*phiRe;qr[c]+=a*psiRe+b*psiIm;qi[c]+=a*psiIm-b*psiRe}}return this.#folded(
-pulled)}#expanded(x){const{k,u}=this;const all=new Float64Array(4*u);all.set(x.subarray(0,2*u));all.
-set(x.subarray(2*u,2*u+k),2*u+1);all.set(x.subarray(2*u+k),3*u+1);for(let c=1+k;c<u;c++){all[2*u+c]=
-x[c];all[3*u+c]=-x[u+c]}return all}#folded(all){const{k,u}=this;const g=new Float64Array(this.size);
-g.set(all.subarray(0,2*u));g.set(all.subarray(2*u+1,2*u+1+k),2*u);g.set(all.subarray(3*u+1,3*u+1+k),
-2*u+k);for(let c=1+k;c<u;c++){g[c]+=all[2*u+c];g[u+c]-=all[3*u+c]}return g}};function tieHoles(coefficients,vertices,columns){
-for(let h=vertices;h<columns;h++){coefficients[2*columns+h]=coefficients[h];coefficients[3*columns+h]=
--coefficients[columns+h]}}function scaledDerivatives(domain,panels,rows){const{count,lengths}=panels;
-const samples={...zeros(domain.columns*count),count};for(let i=0;i<count;i++){const root=Math.sqrt(lengths[i]);
-const d=derivativesOf(domain,rows,(count+i)*domain.columns);for(let j=0;j<domain.columns;j++){samples.
-re[j*count+i]=root*d.re[j];samples.im[j*count+i]=root*d.im[j]}}return samples}function inner({re,im,
-count},a,b){const p=a*count;const q=b*count;let x=0;let y=0;for(let i=0;i<count;i++){x+=re[p+i]*re[q+
-i]+im[p+i]*im[q+i];y+=re[p+i]*im[q+i]-im[p+i]*re[q+i]}return[x,y]}function gramMatrix(samples,chosen){
-const k=chosen.length;const gram=zeros(k*k);let trace=0;for(let a=0;a<k;a++){for(let b=0;b<=a;b++){const[
-re,im]=inner(samples,chosen[a],chosen[b]);gram.re[a*k+b]=re;gram.im[a*k+b]=im}trace+=gram.re[a*k+a]}
-for(let a=0;a<k;a++){gram.re[a*k+a]+=RIDGE*trace/k}return gram}function inverseFactor(gram,k){complexFactor(
-gram,k);const inverse=zeros(k*k);for(let a=0;a<k;a++){const diagonal=gram.re[a*k+a];inverse.re[a*k+a]=
-1/diagonal;for(let j=0;j<a;j++){const x=gram.re[a*k+j]/diagonal;const y=gram.im[a*k+j]/diagonal;for(let b=0;b<=
-j;b++){const re=inverse.re[j*k+b];const im=inverse.im[j*k+b];inverse.re[a*k+b]-=x*re-y*im;inverse.im[a*
-k+b]-=x*im+y*re}}}return inverse}function complexFactor({re,im},k){for(let a=0;a<k;a++){const p=a*k;
-for(let b=0;b<=a;b++){const q=b*k;let x=re[p+b];let y=im[p+b];for(let j=0;j<b;j++){x-=re[p+j]*re[q+j]+
-im[p+j]*im[q+j];y-=im[p+j]*re[q+j]-re[p+j]*im[q+j]}re[p+b]=a===b?Math.sqrt(x):x/re[q+b];im[p+b]=a===
-b?0:y/re[q+b]}}}function projectionsOn(samples,chosen,column){const projections=zeros(chosen.length);
-for(const[j,row]of chosen.entries()){const[re,im]=inner(samples,row,column);projections.re[j]=re;projections.
-im[j]=im}return projections}function timesLower(lower,vector,k){const product=zeros(k);for(let c=0;c<
-k;c++){for(let j=0;j<=c;j++){const a=lower.re[c*k+j];const b=lower.im[c*k+j];product.re[c]+=a*vector.
-re[j]-b*vector.im[j];product.im[c]+=a*vector.im[j]+b*vector.re[j]}}return product}function timesAdjoint(lower,vector,k){
-const product=zeros(k);for(let c=0;c<k;c++){for(let j=0;j<=c;j++){const a=lower.re[c*k+j];const b=-lower.
-im[c*k+j];product.re[j]+=a*vector.re[c]-b*vector.im[c];product.im[j]+=a*vector.im[c]+b*vector.re[c]}}
-return product}function normOfRest({re,im,count},chosen,along,column){let sum=0;for(let i=0;i<count;i++){
-let x=re[column*count+i];let y=im[column*count+i];for(const[j,row]of chosen.entries()){const a=re[row*
-count+i];const b=im[row*count+i];x-=a*along.re[j]-b*along.im[j];y-=a*along.im[j]+b*along.re[j]}sum+=
-x*x+y*y}return Math.sqrt(sum)}var Shape=class{constructor(outline){this.domain=new Domain(outline);this.panels=gradedPanels(this.domain);
-this.rows=rowsAt(this.domain,this.panels.nodes);this.prover=new Prover(this.domain,this.panels,this.
-rows);this.whitening=new Whitening(this.domain,this.panels,this.rows)}identity(){const{exterior,columns,
-singular}=this.domain;const coefficients=new Float64Array(4*columns);coefficients.set(singular.re.subarray(
-0,exterior));coefficients.set(singular.im.subarray(0,exterior),columns);return coefficients}moved(coefficients,[
-cos,sin],by){const{exterior,columns:n}=this.domain;const moved=new Float64Array(4*n);for(let j=0;j<n;j++){
-const shift=j<exterior?by:[0,0];const[pr,pi]=[coefficients[j],coefficients[n+j]];const[qr,qi]=[coefficients[2*
-n+j],coefficients[3*n+j]];moved[j]=cos*pr-sin*pi+shift[0];moved[n+j]=cos*pi+sin*pr+shift[1];moved[2*
-n+j]=cos*qr+sin*qi;moved[3*n+j]=cos*qi-sin*qr}return moved}};var BLOCK=48;function dot(a,b){let sum=0;for(let i=0;i<a.length;i++){sum+=a[i]*b[i]}return sum}function addScaled(t,x,y){
-for(let i=0;i<y.length;i++){y[i]+=t*x[i]}}function addProduct(a,b,c,rows,columns,length,{sign=1,lower=false}={}){
-const tile=new Float64Array(8);for(let i=0;i<rows;i+=4){const end=lower?Math.min(i+4,columns):columns;
-for(let j=0;j<end;j+=2){fillTile(a,b,i,j,rows,columns,length,tile);for(let k=0;k<8;k++){const row=i+
-(k>>1);const column=j+(k&1);if(row<rows&&column<columns){c.values[c.first+row*c.stride+column]+=sign*
-tile[k]}}}}}function fillTile(a,b,i,j,rows,columns,length,tile){const left=a.values;const right=b.values;
-const a0=a.first+i*a.stride;const a1=a.first+Math.min(i+1,rows-1)*a.stride;const a2=a.first+Math.min(
-i+2,rows-1)*a.stride;const a3=a.first+Math.min(i+3,rows-1)*a.stride;const b0=b.first+j*b.stride;const b1=b.
-first+Math.min(j+1,columns-1)*b.stride;let s00=0;let s01=0;let s10=0;let s11=0;let s20=0;let s21=0;let s30=0;
-let s31=0;for(let t=0;t<length;t++){const x=right[b0+t];const y=right[b1+t];const p=left[a0+t];const q=left[a1+
-t];const r=left[a2+t];const s=left[a3+t];s00+=p*x;s01+=p*y;s10+=q*x;s11+=q*y;s20+=r*x;s21+=r*y;s30+=
-s*x;s31+=s*y}tile[0]=s00;tile[1]=s01;tile[2]=s10;tile[3]=s11;tile[4]=s20;tile[5]=s21;tile[6]=s30;tile[7]=
-s31}function factorise(a,n){for(let start=0;start<n;start+=BLOCK){const end=Math.min(start+BLOCK,n);
-if(!factoriseBlock(a,n,start,end)){return false}const below={values:a,first:end*n+start,stride:n};const rest={
-values:a,first:end*n+end,stride:n};addProduct(below,below,rest,n-end,n-end,end-start,{sign:-1,lower:true})}
-return true}function factoriseBlock(a,n,start,end){for(let i=start;i<n;i++){const row=i*n;const last=Math.
-min(i,end-1);for(let j=start;j<=last;j++){const other=j*n;let rest=a[row+j];for(let k=start;k<j;k++){
-rest-=a[row+k]*a[other+k]}if(i!==j){a[row+j]=rest/a[other+j]}else if(rest>0){a[row+j]=Math.sqrt(rest)}else{
-return false}}}return true}function solveWith(factor,b){const n=b.length;const x=Float64Array.from(b);
-for(let i=0;i<n;i++){const row=i*n;let rest=x[i];for(let j=0;j<i;j++){rest-=factor[row+j]*x[j]}x[i]=
-rest/factor[row+i]}for(let i=n-1;i>=0;i--){const row=i*n;x[i]/=factor[row+i];const own=x[i];for(let j=0;j<
-i;j++){x[j]-=factor[row+j]*own}}return x}var MEMORY=30;var LEAST_CURVATURE=1e-12;var RIDGES=[0,1e-9,1e-7,1e-5,.001,.01];var Metric=class{#pairs=[];constructor(isometric,factor){
-this.isometric=isometric;this.factor=factor}direction(gradient){const q=Float64Array.from(gradient);
-const shares=this.#pairs.map(()=>0);for(let i=this.#pairs.length-1;i>=0;i--){const{step,change,curvature}=this.#pairs[i];
-shares[i]=dot(step,q)/curvature;addScaled(-shares[i],change,q)}const direction=solveWith(this.factor,
-q);for(const[i,{step,change,curvature}]of this.#pairs.entries()){const share=dot(change,direction)/curvature;
-addScaled(shares[i]-share,step,direction)}return direction.map(value=>-value)}learn(step,change){const curvature=dot(
-step,change);const sizes=Math.sqrt(dot(step,step)*dot(change,change));if(!(curvature>LEAST_CURVATURE*
-sizes)){return}this.#pairs.push({step,change,curvature});if(this.#pairs.length>MEMORY){this.#pairs.shift()}}};
-function metricAt(assembler,samples,energy,pins){const exact=assembler.assemble(samples,energy,false);
-const metric=factorised(exact,pins,[0]);return metric??factorised(assembler.assemble(samples,energy,
-true),pins,RIDGES)}function repinned(metric,pins){return factorised(metric.isometric,pins,RIDGES)}function factorised(isometric,pins,ridges){
-const size=Math.sqrt(isometric.length);for(const ridge of ridges){const whole=withPins(withRidge(isometric,
-size,ridge),size,pins);if(factorise(whole,size)){return new Metric(isometric,whole)}}return null}function withPins(h,size,pins){
-for(const{reduced,weight}of pins.rows){for(let i=0;i<size;i++){const x=weight*reduced[i];for(let j=0;j<=
-i;j++){h[i*size+j]+=x*reduced[j]}}}return h}function withRidge(h,size,ridge){const shifted=Float64Array.
-from(h);let trace=0;for(let i=0;i<size;i++){trace+=h[i*size+i]}for(let i=0;i<size;i++){shifted[i*size+
-i]+=ridge*trace/size}return shifted}function noDifferentials(){return{alpha1:0,alpha2:0,beta1:0,beta2:0,beta3:0}}var symmetricDirichlet={
-density(x,y){const det=x-y;return(x+y)*(1+1/(det*det))},differentiate(x,y,d){const inverse=1/(x-y);const cube=inverse*
-inverse*inverse;const fourth=cube*inverse;d.alpha1=1-(x+3*y)*cube;d.alpha2=1+(3*x+y)*cube;d.beta1=2*
-(x+5*y)*fourth;d.beta2=2*(5*x+y)*fourth;d.beta3=-6*(x+y)*fourth}};function exponential(s){const density=(x,y)=>Math.
-exp(s*symmetricDirichlet.density(x,y));return{density,differentiate(x,y,d){symmetricDirichlet.differentiate(
-x,y,d);const factor=s*density(x,y);const{alpha1,alpha2}=d;d.alpha1=factor*alpha1;d.alpha2=factor*alpha2;
-d.beta1=factor*(d.beta1+s*alpha1*alpha1);d.beta2=factor*(d.beta2+s*alpha2*alpha2);d.beta3=factor*(d.
-beta3+s*alpha1*alpha2)}}}function amips(s){const density=(x,y)=>{const det=x-y;return Math.exp((2*s*
-(x+y)+1)/det+det)};return{density,differentiate(x,y,d){const inverse=1/(x-y);const square=inverse*inverse;
-const cube=square*inverse;const a1=1-(4*s*y+1)*square;const a2=-1+(4*s*x+1)*square;const energy=density(
-x,y);d.alpha1=a1*energy;d.alpha2=a2*energy;d.beta1=(a1*a1+2*(4*s*y+1)*cube)*energy;d.beta2=(a2*a2+2*
-(4*s*x+1)*cube)*energy;d.beta3=(a1*a2-(4*s*(x+y)+2)*cube)*energy}}}var mips={density:(x,y)=>(x+y)/(x-
-y),differentiate(x,y,d){const inverse=1/(x-y);const square=inverse*inverse;const cube=square*inverse;
-d.alpha1=-2*y*square;d.alpha2=2*x*square;d.beta1=4*y*cube;d.beta2=4*x*cube;d.beta3=-2*(x+y)*cube}};var arap={
-density:(x,y)=>2*(x+y)-4*Math.sqrt(x)+2,differentiate(x,_,d){const root=1/Math.sqrt(x);d.alpha1=2-2*
-root;d.alpha2=2;d.beta1=root*root*root;d.beta2=0;d.beta3=0}};var ENERGIES={iso:()=>symmetricDirichlet,
-exp:exponential,amips,mips:()=>mips,arap:()=>arap};function energyNamed(name,s=1){return ENERGIES[name](
-s)}function isometricEnergy(energy,weights,samples){const count=weights.length;let sum=0;for(let i=0;i<
-count;i++){const fr=samples[i];const fi=samples[count+i];const gr=samples[2*count+i];const gi=samples[3*
-count+i];const x=fr*fr+fi*fi;const y=gr*gr+gi*gi;if(!(x>y)){return Infinity}sum+=weights[i]*energy.density(
-x,y)}return Number.isNaN(sum)?Infinity:sum}function energyGradient(energy,weights,samples){const count=weights.
-length;const gradient=new Float64Array(4*count);const d=noDifferentials();for(let i=0;i<count;i++){const[
-fr,fi,gr,gi]=[i,count+i,2*count+i,3*count+i];const x=samples[fr]*samples[fr]+samples[fi]*samples[fi];
-const y=samples[gr]*samples[gr]+samples[gi]*samples[gi];energy.differentiate(x,y,d);const alongF=2*weights[i]*
-d.alpha1;const alongG=2*weights[i]*d.alpha2;gradient[fr]=alongF*samples[fr];gradient[fi]=alongF*samples[fi];
-gradient[gr]=alongG*samples[gr];gradient[gi]=alongG*samples[gi]}return gradient}var NODES_PER_COORDINATE=2.25;function localHessian(d,x,y){return{acrossF:2*d.alpha1,acrossG:2*d.alpha2,
-alongFF:2*d.alpha1+4*d.beta1*x,alongGG:2*d.alpha2+4*d.beta2*y,alongFG:4*d.beta3*Math.sqrt(x*y)}}function positivePart(k){
-const mean=(k.alongFF+k.alongGG)/2;const half=(k.alongFF-k.alongGG)/2;const radius=Math.hypot(half,k.
-alongFG);const large=Math.max(mean+radius,0);const small=Math.max(mean-radius,0);const centre=(large+
-small)/2;const stretch=radius>0?(large-small)/(2*radius):1;return{acrossF:Math.max(k.acrossF,0),acrossG:Math.
-max(k.acrossG,0),alongFF:centre+stretch*half,alongGG:centre-stretch*half,alongFG:stretch*k.alongFG}}
-var Assembler=class{constructor(shape,{rows,weights,middles}){const{panels,whitening,domain}=shape;this.
-shape=shape;const few=panels.count>=NODES_PER_COORDINATE*whitening.u;this.first=few?panels.count:0;this.
-nodes=rows.count-this.first;this.weights=few?middles:weights;this.re=new Float64Array(whitening.u*this.
-nodes);this.im=new Float64Array(whitening.u*this.nodes);const own={...rows,...this.#ownRows(rows)};for(let c=0;c<
-whitening.u;c+=2){const parts=quarters(samplesAt(own,slopesOf(domain,columnsOf(shape,c))));const first=c*
-this.nodes;this.re.set(parts[0],first);this.im.set(parts[1],first);if(c+1<whitening.u){this.re.set(parts[2],
-first+this.nodes);this.im.set(parts[3],first+this.nodes)}}}#ownRows({columns,re,im}){const start=this.
-first*columns;return{count:this.nodes,re:re.subarray(start),im:im.subarray(start)}}assemble(samples,energy,project){
-const{u,size}=this.shape.whitening;const local=this.#local(samples,energy,project);const f=this.#framed(
-local.f,0);const g=this.#framed(local.g,1);const h=new Float64Array(size*size);const phi=blockOf(f,2*
-this.nodes,2*u,[local.alongFF,local.acrossF]);const psi=blockOf(g,2*this.nodes,2*(u-1),[local.alongGG,
-local.acrossG]);const cross=this.#crossBlock(f,g,local.alongFG);this.#gather(h,phi,psi,cross);return h}#local(samples,energy,project){
-const{nodes,first,weights}=this;const all=samples.length/4;const array=()=>new Float64Array(nodes);const f={
-re:array(),im:array()};const g={re:array(),im:array()};const k={alongFF:array(),acrossF:array(),alongGG:array(),
-acrossG:array(),alongFG:array()};const d=noDifferentials();for(let t=0;t<nodes;t++){const i=first+t;
-const x=unitInto(f,t,samples[i],samples[all+i]);const y=unitInto(g,t,samples[2*all+i],samples[3*all+
-i]);energy.differentiate(x,y,d);const exact=localHessian(d,x,y);const own=project?positivePart(exact):
-exact;k.alongFF[t]=weights[t]*own.alongFF;k.acrossF[t]=weights[t]*own.acrossF;k.alongGG[t]=weights[t]*
-own.alongGG;k.acrossG[t]=weights[t]*own.acrossG;k.alongFG[t]=weights[t]*own.alongFG}return{f,g,...k}}#framed(frame,psi){
-const{nodes}=this;const{u,k}=this.shape.whitening;const count=u-psi;const rows=new Float64Array(2*count*
-2*nodes);for(let c=psi;c<u;c++){const sign=psi===1&&c>k?-1:1;const real=(c-psi)*2*nodes;const imaginary=(count+
-c-psi)*2*nodes;for(let t=0;t<nodes;t++){const x=this.re[c*nodes+t];const y=this.im[c*nodes+t];const along=frame.
-re[t]*x+frame.im[t]*y;const across=frame.re[t]*y-frame.im[t]*x;rows[real+t]=along;rows[real+nodes+t]=
-across;rows[imaginary+t]=-sign*across;rows[imaginary+nodes+t]=sign*along}}return rows}#crossBlock(f,g,alongFG){
-const{nodes}=this;const{u}=this.shape.whitening;const weighted=new Float64Array(2*u*nodes);for(let i=0;i<
-2*u;i++){for(let t=0;t<nodes;t++){weighted[i*nodes+t]=alongFG[t]*f[i*2*nodes+t]}}const block=new Float64Array(
-2*(u-1)*2*u);const left={values:g,first:0,stride:2*nodes};const right={values:weighted,first:0,stride:nodes};
-const into={values:block,first:0,stride:2*u};addProduct(left,right,into,2*(u-1),2*u,nodes);return block}#gather(h,phi,psi,cross){
-const{u,k,size}=this.shape.whitening;const width=2*(u-1);for(let i=0;i<2*u;i++){for(let j=0;j<=i;j++){
-h[i*size+j]=phi[i*2*u+j]}}const add=(a,b,value)=>{h[Math.max(a,b)*size+Math.min(a,b)]+=value};for(let i=0;i<
-width;i++){const row=placeOfPsi(i,u,k);for(let j=0;j<=i;j++){add(row,placeOfPsi(j,u,k),psi[i*width+j])}
-for(let j=0;j<2*u;j++){const value=cross[i*2*u+j];add(row,j,row===j?2*value:value)}}}};function columnsOf({
-domain,whitening},c){const{columns}=domain;const{u,t}=whitening;const coefficients=new Float64Array(
-4*columns);const following=Math.min(c+1,u-1);for(let j=0;j<columns;j++){coefficients[j]=t.re[j*u+c];
-coefficients[columns+j]=t.im[j*u+c];coefficients[2*columns+j]=t.re[j*u+following];coefficients[3*columns+
-j]=t.im[j*u+following]}return coefficients}function unitInto(frame,t,re,im){const square=re*re+im*im;
-const size=Math.sqrt(square);frame.re[t]=size>0?re/size:1;frame.im[t]=size>0?im/size:0;return square}
-function blockOf(rows,length,count,[along,across]){const nodes=length/2;const weighted=new Float64Array(
-rows.length);for(let first=0;first<rows.length;first+=length){for(let t=0;t<nodes;t++){weighted[first+
-t]=along[t]*rows[first+t];weighted[first+nodes+t]=across[t]*rows[first+nodes+t]}}const block=new Float64Array(
-count*count);const left={values:weighted,first:0,stride:length};const right={values:rows,first:0,stride:length};
-const into={values:block,first:0,stride:count};addProduct(left,right,into,count,count,length,{lower:true});
-return block}function placeOfPsi(j,u,k){const imaginary=j>=u-1;const c=imaginary?j-(u-1):j;if(c<k){return 2*
-u+(imaginary?k:0)+c}return(imaginary?u:0)+1+c}var RATIO=.6;var LONGER=1.3;var SHORTER=.75;var LONGEST_STEP=2;var ARMIJO=1e-4;var SAFETY=.7;var LEAST_STEP=1e-12;
-function largestStep(samples,change){const count=samples.length/4;let least=Infinity;for(let i=0;i<count;i++){
-const a=difference(change,change,i,count);const b=2*difference(samples,change,i,count);const c=difference(
-samples,samples,i,count);const discriminant=b*b-4*a*c;const denominator=Math.sqrt(Math.max(discriminant,
-0))-b;if(discriminant>=0&&denominator>0){least=Math.min(least,2*c/denominator)}}return least}function difference(a,b,i,count){
-const[j,k,l]=[count+i,2*count+i,3*count+i];return a[i]*b[i]+a[j]*b[j]-a[k]*b[k]-a[l]*b[l]}function search(energyAt,slope,largest){
-const start=energyAt(0);const limit=SAFETY*largest;const first=Math.min(1,limit);let step=first;let energy=energyAt(
-step);while(!(energy<start+ARMIJO*step*slope)){step*=RATIO;if(step<LEAST_STEP){return 0}energy=energyAt(
-step)}for(const ratio of step===first?[LONGER,SHORTER]:[SHORTER]){const better=followed(energyAt,step,
-energy,ratio,Math.min(LONGEST_STEP,limit));if(better!==step){return better}}return step}function followed(energyAt,step,energy,ratio,longest){
-let best=step;let least=energy;for(let next=ratio*step;next<=longest&&next>LEAST_STEP;next*=ratio){const found=energyAt(
-next);if(!(found<least)){break}best=next;least=found}return best}var TURN=10;var MOST=25e9;var MOST_TURN=1e13;var FARTHEST_TURN=1;var SAME_DIRECTION=1e-4;var Pins=class{constructor(shape,pose,weight){
-this.shape=shape;this.pose=pose;this.weight=weight;this.coordinates=pose.handles.map(handle=>coordinatesAt(
-shape.domain,handle));this.derivatives=turnedPins(pose).map(i=>derivativesAt(shape,pose.handles[i]));
-const{unit}=shape.domain;this.images=this.coordinates.flatMap((c,i)=>{const firm=pose.weights?.[i]??
-1;const held=Math.min(weight,MOST/firm)*firm/(unit*unit);const[x,y]=pose.targets[i];const rows=imageRows(
-c);return[this.#row(rows[0],x,held),this.#row(rows[1],y,held)]});this.turns=[]}get rows(){return[...this.
-images,...this.turns]}get turned(){return this.derivatives.length>0}aim(pose){this.pose=pose;for(const[
-i,[x,y]]of pose.targets.entries()){this.images[2*i].aim=x;this.images[2*i+1].aim=y}}measure(coefficients,damping){
-this.turns=turnedPins(this.pose).flatMap((i,place)=>{const d=this.derivatives[place];const[re,im]=productOf(
-d,coefficients);const size=Math.hypot(re,im);const own=Math.atan2(im,re);const angle=this.pose.angles?.[i]??
-null;const scale=this.pose.scales?.[i]??null;const left=angle===null?0:wrapped(angle-own);const direction=own+
-Math.max(-FARTHEST_TURN,Math.min(FARTHEST_TURN,left));const[along,across]=turnRows(d,direction);const firm=this.
-pose.weights?.[i]??1;const held=Math.min(TURN*this.weight,MOST_TURN/firm)*firm;const bent=scale===null?
-1:bend(1-scale/size,damping);return[this.#row(along,scale??0,scale===null?0:held),this.#row(across,0,
-held*(angle===null?bent:1))]})}apartFrom(others){if(others.length!==this.turns.length){return Infinity}
-let apart=0;let alike=true;for(const[i,{row,weight}]of this.turns.entries()){const gap=row.map((value,j)=>value-
-others[i].row[j]);apart=Math.max(apart,Math.sqrt(dot(gap,gap)/dot(row,row)));alike=alike&&Math.abs(weight-
-others[i].weight)<=.1*(1+weight)}return alike&&apart<=SAME_DIRECTION?0:Math.max(apart,SAME_DIRECTION)}#row(row,aim,weight){
-return{row,reduced:this.shape.whitening.pulledBack(row),aim,weight}}residual(coefficients){return Float64Array.
-from(this.rows,({row,aim})=>dot(row,coefficients)-aim)}change(direction){return Float64Array.from(this.
-rows,({row})=>dot(row,direction))}product(a,b){return this.rows.reduce((sum,{weight},i)=>sum+weight*
-a[i]*b[i],0)}};function turnedPins({handles,angles,scales}){const all=[...handles.keys()];return all.
-filter(i=>(angles?.[i]??null)!==null||(scales?.[i]??null)!==null)}function derivativesAt({domain},[x,
-y]){const row=zeros(domain.columns);fillRow(domain,x,y,row,0);return derivativesOf(domain,row,0)}function imageRows({
-re,im}){const minusRe=re.map(value=>-value);const minusIm=im.map(value=>-value);return[joined([re,minusIm,
-re,minusIm]),joined([im,re,minusIm,minusRe])]}function turnRows(d,direction){const cos=Math.cos(direction);
-const sin=Math.sin(direction);const re=d.re.map((value,j)=>value*cos+d.im[j]*sin);const im=d.im.map(
-(value,j)=>value*cos-d.re[j]*sin);const minusIm=im.map(value=>-value);const none=new Float64Array(re.
-length);return[joined([re,minusIm,none,none]),joined([im,re,none,none])]}function joined(parts){const size=parts[0].
-length;const whole=new Float64Array(parts.length*size);for(const[i,part]of parts.entries()){whole.set(
-part,i*size)}return whole}function productOf(d,coefficients){const n=d.re.length;let re=0;let im=0;for(let j=0;j<
-n;j++){re+=d.re[j]*coefficients[j]-d.im[j]*coefficients[n+j];im+=d.re[j]*coefficients[n+j]+d.im[j]*coefficients[j]}
-return[re,im]}function bend(strain,damping){return Math.min(1,Math.max(0,damping*strain,(1-damping)*
-strain))}function wrapped(angle){return Math.atan2(Math.sin(angle),Math.cos(angle))}function quadratureOf({domain,panels,rows},stiff){const{count,weights,lengths}=panels;if(!stiff){return{
-rows,weights,middles:lengths,added:0}}const{factors,points}=stiff;const inside=Float64Array.from(stiff.
-weights);const onPanels=weights.map((weight,i)=>weight*factors[i]);const onMiddles=lengths.map((length,i)=>length*
-factors[count+i]);const extra=onPanels.reduce((sum,weight,i)=>sum+weight-weights[i],0);return{rows:joinedRows(
-rows,rowsAt(domain,complexOf(points))),weights:joined2(onPanels,inside),middles:joined2(onMiddles,inside),
-added:inside.reduce((sum,weight)=>sum+weight,extra)}}function joinedRows(a,b){return{count:a.count+b.
-count,columns:a.columns,re:joined2(a.re,b.re),im:joined2(a.im,b.im),norms:joined2(a.norms,b.norms)}}
-function joined2(a,b){const both=new Float64Array(a.length+b.length);both.set(a);both.set(b,a.length);
-return both}var LEAST_ENERGY=1e-6;var SHORTER2=.5;var MOST_TRIES=12;var CONTRACTION=.3;var BEHIND=.001;var MOST_RENEWALS=3;
-var ROUNDING=1e-9;var MOST_MEASUREMENTS=16;var KEPT=1e9;var FAR=.2;var DAMPING=3;var Solver=class _Solver{#assembler;#metric=null;#measurements=0;#damping=1;constructor(shape,{
-energy="iso",s=1,weight=1e5,stiff=null}={}){const{domain,panels}=shape;this.shape=shape;this.energyMeasure=
-energyNamed(energy,s);this.weight=weight;this.quadrature=quadratureOf(shape,stiff);this.prover=stiff?
-new Prover(domain,panels,this.quadrature.rows):shape.prover;this.#assembler=new Assembler(shape,this.
-quadrature);this.pins=new Pins(shape,{handles:[],targets:[]},weight);this.state=this.#certified(shape.
-identity());this.promised=Infinity;this.factors=0}withOptions(options){const other=new _Solver(this.
-shape,options);other.#pin(this.pins.pose);other.state=other.#certified(this.state.coefficients);other.#remeasure();
-return other}get energy(){return this.state.isometric+this.#pinEnergy(this.state.residual)}solve(pose,{
-tolerance=1e-8,iterations=200}={}){this.begin(pose);return this.#descend(tolerance,iterations)}begin(pose){
-const{handles,targets}=pose;const[turn,by]=rigidMotion(handles,targets);this.#pin(pose);this.state=this.#certified(
-this.shape.moved(this.shape.identity(),turn,by));this.#metric=null;this.#remeasure()}drag(pose,steps=2){
-this.aim(pose);let outcome="minimal";for(let i=0;i<steps;i++){outcome=this.step(1e-12);if(outcome!==
-"stepped"){break}}for(let i=0;i<MOST_RENEWALS&&this.#isBehind(outcome);i++){this.#metric=null;outcome=
-this.step(1e-12)}return outcome}#isBehind(outcome){const failed=outcome==="refused"||outcome==="no d\
-ecrease";return failed?this.promised>ROUNDING:outcome==="stepped"&&this.promised>BEHIND}aim(pose){if(pinsAlike(
-this.pins.pose,pose)){this.pins.aim(pose)}else{this.#pin(pose);this.#metric=this.#metric&&repinned(this.#metric,
-this.pins)}this.#remeasure()}#descend(tolerance,iterations){let gain=Infinity;for(let i=0;i<iterations;i++){
-const fresh=this.#metric===null;const before=this.energy;const outcome=this.step(tolerance);if(outcome!==
-"stepped"){const ends=fresh||outcome==="minimal";const changed=ends?this.#measure():false;if(ends&&!changed){
-return outcome}this.#metric=ends?this.#metric:null;gain=Infinity;continue}const now=before-this.energy;
-if(!fresh&&now>CONTRACTION*gain){this.#metric=null}gain=now;this.#measure()}return"stepped"}step(tolerance){
-this.#metric??=this.#newMetric();if(this.#metric===null){return"indefinite"}const gradient=this.#gradient();
-const direction=this.#metric.direction(gradient);const slope=dot(gradient,direction);this.promised=-slope/
-2/Math.max(this.energy,LEAST_ENERGY);if(!(this.promised>tolerance)){return this.promised>=0?"minimal":
-"no decrease"}const change=this.shape.whitening.toCoefficients(direction);const longest=this.#searched(
-change,slope);if(longest===0){return"no decrease"}const step=this.#proved(change,longest);if(step===
-0){return"refused"}const after=this.#gradient();const moved=direction.map(value=>step*value);const turned=after.
-map((value,i)=>value-gradient[i]);this.#metric.learn(moved,turned);return"stepped"}#searched(change,slope){
-const{shape,state,pins}=this;const rise=samplesAt(this.quadrature.rows,slopesOf(shape.domain,change));
-const moved=pins.change(change);const constant=pins.product(state.residual,state.residual)/2;const linear=pins.
-product(state.residual,moved);const quadratic=pins.product(moved,moved)/2;const there=new Float64Array(
-rise.length);const energyAt=t=>{for(let i=0;i<there.length;i++){there[i]=state.samples[i]+t*rise[i]}
-const pinned=constant+t*linear+t*t*quadratic;return this.#isometric(there)+pinned};return search(energyAt,
-slope,largestStep(state.samples,rise))}#proved(change,longest){let step=longest;for(let i=0;i<MOST_TRIES;i++){
-const coefficients=Float64Array.from(this.state.coefficients);addScaled(step,change,coefficients);const proof=this.
-prover.prove(coefficients);if(proof.certificate.certified){this.state=this.#stateOf(coefficients,proof);
-return step}step*=SHORTER2}return 0}#certified(coefficients){const proof=this.prover.prove(coefficients);
-if(!proof.certificate.certified){throw new Error("the map to start from cannot be proved locally inj\
-ective")}return this.#stateOf(coefficients,proof)}#stateOf(coefficients,{certificate,samples}){const isometric=this.#isometric(
-samples);const residual=this.pins.residual(coefficients);return{coefficients,certificate,samples,isometric,
-residual,gradient:null}}#gradient(){const{state,pins}=this;state.gradient??=this.#isometricGradient();
-const gradient=Float64Array.from(state.gradient);for(const[i,{reduced,weight}]of pins.rows.entries()){
-addScaled(weight*state.residual[i],reduced,gradient)}return gradient}#isometric(samples){const{energyMeasure,
-quadrature}=this;const whole=isometricEnergy(energyMeasure,quadrature.weights,samples);return whole-
-quadrature.added*energyMeasure.density(1,0)}#isometricGradient(){const{shape,state,energyMeasure,quadrature}=this;
-const bySamples=energyGradient(energyMeasure,quadrature.weights,state.samples);const bySlopes=pulledThroughRows(
-quadrature.rows,bySamples);return shape.whitening.pulledBack(pulledThroughSlopes(shape.domain,bySlopes))}#pinEnergy(residual){
-return this.pins.product(residual,residual)/2}#newMetric(){this.factors++;return metricAt(this.#assembler,
-this.state.samples,this.energyMeasure,this.pins)}#pin(pose){this.pins=new Pins(this.shape,pose,this.
-weight)}#remeasure(){this.#measurements=0;this.#damping=1;this.#measure();this.state.residual=this.pins.
-residual(this.state.coefficients)}#measure(){const{pins}=this;if(!pins.turned||this.#damping===KEPT){
-return false}if(this.#measurements===MOST_MEASUREMENTS){this.#damping=KEPT}const before=pins.turns;pins.
-measure(this.state.coefficients,this.#damping);const apart=pins.apartFrom(before);if(apart===0){pins.
-turns=before;return false}if(this.#measurements>0&&apart>FAR&&this.#damping!==KEPT){this.#damping*=DAMPING}
-this.#measurements++;this.#metric=this.#metric&&repinned(this.#metric,pins);this.state.residual=pins.
-residual(this.state.coefficients);return true}};function pinsAlike(a,b){const kept=({handles,weights,
-angles,scales})=>JSON.stringify([handles,weights??null,angles??null,scales??null]);return kept(a)===
-kept(b)}function rigidMotion(points,targets){const middle=meanOf(points);const aim=meanOf(targets);let re=0;
-let im=0;for(const[i,point]of points.entries()){const[x,y]=[point[0]-middle[0],point[1]-middle[1]];const[
-u,v]=[targets[i][0]-aim[0],targets[i][1]-aim[1]];re+=x*u+y*v;im+=x*v-y*u}const size=Math.hypot(re,im);
-const[cos,sin]=size>0?[re/size,im/size]:[1,0];const by=[aim[0]-cos*middle[0]+sin*middle[1],aim[1]-cos*
-middle[1]-sin*middle[0]];return[[cos,sin],[by[0],by[1]]]}function meanOf(points){const count=Math.max(
-points.length,1);const x=points.reduce((sum,point)=>sum+point[0],0);const y=points.reduce((sum,point)=>sum+
-point[1],0);return[x/count,y/count]}var SETTLED=1e-7;var LiveWorker=class{#post;#later;#waiting=[];#scheduled=false;#solver=null;#points=null;#drag=null;constructor(post,later){
-this.#post=post;this.#later=later}receive(request){const last=this.#waiting.at(-1);if(request.type===
-"drag"&&last?.type==="drag"){this.#waiting.pop()}this.#waiting.push(request);this.#schedule()}#schedule(){
-if(this.#scheduled){return}this.#scheduled=true;this.#later(()=>{this.#scheduled=false;this.#turn()})}#turn(){
-const request=this.#waiting.shift();const id=request?.id??this.#drag?.id??0;try{if(request){this.#answer(
-request)}else if(this.#drag){this.#follow(this.#drag.id,this.#drag.pose)}}catch(error){this.#drag=null;
-this.#post({type:"failed",id,message:String(error)})}if(this.#waiting.length>0||this.#drag){this.#schedule()}}#answer(request){
-this.#drag=null;switch(request.type){case"shape":return this.#prepare(request.id,request.outline,request.
-points,request.options);case"options":return this.#change(request.id,request.options);case"solve":return this.#solve(
-request.id,request.pose);case"drag":return this.#follow(request.id,request.pose)}}#prepare(id,outline,points,options){
-const shape=new Shape(outline);this.#solver=new Solver(shape,options);this.#points=points?new FieldPoints(
-shape.domain,points):null;const{panels,domain}=shape;this.#post({type:"ready",id,panels:panels.count,
-columns:domain.columns})}#change(id,options){this.#solver=this.#ready().withOptions(options);this.#postMap(
-id,"minimal",true)}#solve(id,pose){const outcome=this.#ready().solve(pose);this.#postMap(id,outcome,
-true)}#follow(id,pose){const solver=this.#ready();const outcome=solver.drag(pose);const settled=outcome!==
-"stepped"||solver.promised<SETTLED;this.#drag=settled?null:{id,pose};this.#postMap(id,outcome,settled)}#ready(){
-if(!this.#solver){throw new Error("there is no shape yet; send a request of the type shape first")}return this.#solver}#postMap(id,outcome,settled){
-const{state,energy}=this.#ready();const coefficients=state.coefficients.slice();const field=this.#points?.
-evaluate(coefficients);const map={type:"map",id,settled,outcome,energy,coefficients,certificate:state.
-certificate,images:field?.images??null,samples:field?.samples??null};this.#post(map)}};function serve(scope){
-const turns=new MessageChannel;const queue=[];turns.port1.onmessage=()=>queue.shift()?.();const worker=new LiveWorker(
-answer=>scope.postMessage(answer),turn=>{queue.push(turn);turns.port2.postMessage(null)});scope.onmessage=
-({data})=>worker.receive(data)}serve(globalThis);})();
+"use strict";(()=>{var nt=.6931471803691238,et=19082149292705877e-26,fs=0x40000000000000,us=.6666666666666735,ms=.3999999999940942,
+ps=.2857142874366239,gs=.22222198432149784,ds=.1818357216161805,ws=.15313837699209373,ys=.14798198605116586,
+Ms=.3333333333333293,As=-.19999999999876483,Fs=.14285714272503466,xs=-.11111110405462356,bs=.09090887133436507,
+vs=-.0769187620504483,Os=.06661073137387531,Is=-.058335701337905735,Ts=.049768779946159324,Es=-.036531572744216916,
+Rs=.016285820115365782,It=[.4636476090008061,.7853981633974483,.982793723247329,1.5707963267948966],
+Tt=[22698777452961687e-33,3061616997868383e-32,13903311031230998e-33,6123233995736766e-32],Ss=1862645149230957e-24,
+qs=7378697629483821e4,Ot=12246467991473532e-32,Y=new Float64Array(1),W=new Int32Array(Y.buffer);Y[0]=
+1;var ot=W[1]===0?0:1;function A(r,t){return Math.sqrt(r*r+t*t)}function rt(r){if(!(r>0)||r===1/0)return Gs(
+r);let t=r<22250738585072014e-324;Y[0]=t?r*fs:r;let s=(W[ot]>>20)-1023-(t?54:0),n=W[ot]&1048575,e=n+
+614244&1048576;return W[ot]=n|e^1072693248,Ns(s+(e>>20),Y[0]-1,n)}function Gs(r){return r===0?-1/0:r===
+1/0?1/0:NaN}function Ns(r,t,s){if((1048575&2+s)<3){let l=t*t*(.5-.3333333333333333*t);return r*nt-(l-
+r*et-t)}let n=t/(2+t),e=n*n,o=e*e,i=o*(ms+o*(gs+o*ws)),a=e*(us+o*(ps+o*(ds+o*ys)))+i;if((s-398458|440401-
+s)>0){let l=.5*t*t;return r*nt-(l-(n*(l+a)+r*et)-t)}return r*nt-(n*(t-a)-r*et-t)}function J(r,t){if(!Number.
+isFinite(t)||!Number.isFinite(r))return NaN;let s=r===0?0:_s(Math.abs(r/t));return t>=0?r<0?-s:s:r<0?
+s-Ot-Math.PI:Math.PI-(s-Ot)}function _s(r){return r<.4375?r<Ss?r:r-r*Et(r):r>=qs?It[3]+Tt[3]:r<.6875?
+C(0,(2*r-1)/(2+r)):r<1.1875?C(1,(r-1)/(r+1)):r<2.4375?C(2,(r-1.5)/(1+1.5*r)):C(3,-1/r)}function C(r,t){
+return It[r]-(t*Et(t)-Tt[r]-t)}function Et(r){let t=r*r,s=t*t,n=t*(Ms+s*(Fs+s*(bs+s*(Os+s*(Ts+s*Rs))))),
+e=s*(As+s*(xs+s*(vs+s*(Is+s*Es))));return n+e}var K=class{constructor(t){let s=[t.offset_cage,...t.offset_holes];this.cage=[t.cage,...t.holes],this.
+singular=D([...s.flat(),...t.hole_points]),this.exterior=t.offset_cage.length,this.holes=t.hole_points.
+length,this.vertices=s.flat().length,this.columns=this.vertices+this.holes;let{next:n,previous:e}=js(
+s.map(c=>c.length));this.next=n,this.previous=e;let{edge:o,inverse:i}=Ps(this.singular,n);this.edge=
+o,this.inverseEdge=i,this.largest=Us(this.singular,this.exterior),this.unit=Ds(t.cage)/20,this.free=
+Ls(s.map(c=>c.length))}};function D(r){return{re:Float64Array.from(r,t=>t[0]),im:Float64Array.from(r,
+t=>t[1])}}function M(r){return{re:new Float64Array(r),im:new Float64Array(r)}}function js(r){let t=r.
+reduce((o,i)=>o+i,0),s=new Int32Array(t),n=new Int32Array(t),e=0;for(let o of r){for(let i=0;i<o;i++){
+let c=e+(i+1)%o;s[e+i]=c,n[c]=e+i}e+=o}return{next:s,previous:n}}function Ls(r){let t=[],s=0;for(let[
+n,e]of r.entries()){for(let o=n===0?1:2;o<e;o++)t.push(s+o);s+=e}return Int32Array.from(t)}function Ps(r,t){
+let s=M(t.length),n=M(t.length);for(let e=0;e<t.length;e++){let o=r.re[t[e]]-r.re[e],i=r.im[t[e]]-r.
+im[e],c=o*o+i*i;s.re[e]=o,s.im[e]=i,n.re[e]=o/c,n.im[e]=-i/c}return{edge:s,inverse:n}}function Us(r,t){
+let s=0;for(let n=0;n<t;n++)s=Math.max(s,A(r.re[n],r.im[n]));return s}function Ds(r){let t=[0,1].map(
+s=>{let n=r.map(e=>e[s]);return Math.max(...n)-Math.min(...n)});return Math.max(...t)}var T=11102230246251565e-32,x=1+9313225746154785e-25,Rt=64*T,St=64*T,zs=16*T,it=16*T,Bs=1.25,Hs=1e-140;
+function ct(r,t,s,n){let e=(3*r+128)*T*t*s,o=zs/Math.PI*n;return Bs*x*(e+o)+Hs}var qt=2*Math.PI,ks=1e20;function N(r,t){let s=t.re.length,{columns:n}=r,e={count:s,columns:n,...M(s*
+n),norms:new Float64Array(s)};for(let o=0;o<s;o++)e.norms[o]=_(r,t.re[o],t.im[o],e,o*n);return e}function _(r,t,s,n,e){
+let{vertices:o,columns:i,next:c,singular:a}=r,l=!0;for(let f=0;f<o;f++){let u=c[f],m=a.re[f]-t,p=a.im[f]-
+s,g=a.re[u]-t,d=a.im[u]-s,w=J(m*d-p*g,m*g+p*d)/qt;n.re[e+f]=w,n.im[e+f]=-rt((g*g+d*d)/(m*m+p*p))/(2*
+qt),l=l&&Math.abs(w)<.5-Rt}for(let f=o;f<i;f++){let u=t-a.re[f],m=s-a.im[f],p=u*u+m*m;n.re[e+f]=u/p,
+n.im[e+f]=-m/p}let h=x*Math.sqrt(Cs(n,e,i));return l&&h<ks?h:1/0}function Cs(r,t,s){let n=0;for(let e=t;e<
+t+s;e++)n+=r.re[e]*r.re[e]+r.im[e]*r.im[e];return n}function j(r,[t,s]){let{vertices:n,columns:e,next:o,
+previous:i,singular:c}=r,a=M(e);_(r,t,s,a,0);let l=_t(r,a),h=M(e);for(let f=0;f<n;f++){let u=i[f],m=c.
+re[o[f]]-t,p=c.im[o[f]]-s,g=c.re[u]-t,d=c.im[u]-s;h.re[f]=m*l.re[f]-p*l.im[f]-(g*l.re[u]-d*l.im[u]),
+h.im[f]=m*l.im[f]+p*l.re[f]-(g*l.im[u]+d*l.re[u])}for(let f=n;f<e;f++)h.re[f]=rt(A(t-c.re[f],s-c.im[f]));
+return h}function V(r,t,s){let{vertices:n,columns:e,previous:o}=r,i=s+e,c={re:t.re.subarray(s,i),im:t.
+im.subarray(s,i)},a=_t(r,c),l={re:Float64Array.from(c.re),im:Float64Array.from(c.im)};for(let h=0;h<
+n;h++)l.re[h]=a.re[o[h]]-a.re[h],l.im[h]=a.im[o[h]]-a.im[h];return l}function _t({vertices:r,inverseEdge:t},s){
+let n=M(r);for(let e=0;e<r;e++)n.re[e]=s.re[e]*t.re[e]-s.im[e]*t.im[e],n.im[e]=s.re[e]*t.im[e]+s.im[e]*
+t.re[e];return n}function S(r,t){let{vertices:s,columns:n,next:e,edge:o}=r,i=new Float64Array(4*n);for(let c of[
+0,2*n]){let a=t.subarray(c,c+n),l=t.subarray(c+n,c+2*n);for(let h=0;h<s;h++){let f=a[e[h]]-a[h],u=l[e[h]]-
+l[h],m=o.re[h],p=o.im[h],g=m*m+p*p;i[c+h]=(f*m+u*p)/g,i[c+n+h]=(u*m-f*p)/g}for(let h=s;h<n;h++)i[c+h]=
+a[h],i[c+n+h]=l[h]}return i}function jt(r,t){let{vertices:s,columns:n,next:e,inverseEdge:o}=r,i=new Float64Array(
+4*n);for(let c of[0,2*n]){let a=c+n;for(let l=0;l<s;l++){let h=t[c+l]*o.re[l]+t[a+l]*o.im[l],f=t[a+l]*
+o.re[l]-t[c+l]*o.im[l];i[c+e[l]]+=h,i[a+e[l]]+=f,i[c+l]-=h,i[a+l]-=f}for(let l=s;l<n;l++)i[c+l]=t[c+
+l],i[a+l]=t[a+l]}return i}function E(r,t){let s=new Float64Array(4*r.count),[n,e,o,i]=F(t),[c,a,l,h]=F(
+s);return Gt(r,n,e,c,a),Gt(r,o,i,l,h),s}function Gt(r,t,s,n,e){let{count:o,columns:i}=r,c=r.re,a=r.im;
+for(let l=0;l<o;l+=2){let h=Math.min(l+1,o-1),f=l*i,u=h*i,m=0,p=0,g=0,d=0;for(let w=0;w<i;w++){let y=c[f+
+w],b=a[f+w],O=c[u+w],I=a[u+w],q=t[w],G=s[w];m+=y*q-b*G,p+=y*G+b*q,g+=O*q-I*G,d+=O*G+I*q}n[l]=m,e[l]=
+p,n[h]=g,e[h]=d}}function Lt(r,t){let s=new Float64Array(4*r.columns),[n,e,o,i]=F(s),[c,a,l,h]=F(t);
+return Nt(r,c,a,n,e),Nt(r,l,h,o,i),s}function Nt(r,t,s,n,e){let{count:o,columns:i}=r,c=r.re,a=r.im;for(let l=0;l<
+o;l+=2){let h=l+1<o,f=l*i,u=h?f+i:f,m=t[l],p=s[l],g=h?t[l+1]:0,d=h?s[l+1]:0;for(let w=0;w<i;w++){let y=c[f+
+w],b=a[f+w],O=c[u+w],I=a[u+w];n[w]+=y*m+b*p+(O*g+I*d),e[w]+=y*p-b*m+(O*d-I*g)}}}function F(r){let t=r.
+length/4;return[r.subarray(0,t),r.subarray(t,2*t),r.subarray(2*t,3*t),r.subarray(3*t)]}var L=class{#t;#s;#n;constructor(t,s){let{columns:n}=t;this.#t=t,this.count=s.length,this.#s=M(s.length*
+n);for(let[e,o]of s.entries()){let i=j(t,o);this.#s.re.set(i.re,e*n),this.#s.im.set(i.im,e*n)}this.#n=
+N(t,D(s))}evaluate(t){let s=S(this.#t,t);return{images:Ws(this.#s,this.count,t),samples:E(this.#n,s)}}};
+function Ws({re:r,im:t},s,n){let e=new Float64Array(2*s),o=n.length/4,[i,c,a,l]=F(n),h={re:i.map((u,m)=>u+
+a[m]),im:c.map((u,m)=>u+l[m])},f={re:i.map((u,m)=>u-a[m]),im:c.map((u,m)=>u-l[m])};for(let u=0;u<s;u++){
+let m=u*o,p=0,g=0;for(let d=0;d<o;d++)p+=r[m+d]*h.re[d]-t[m+d]*h.im[d],g+=r[m+d]*f.im[d]+t[m+d]*f.re[d];
+e[2*u]=p,e[2*u+1]=g}return e}var Ys=48;function Pt(r){let t=[],s=[];for(let[l,h]of r.cage.entries()){for(let[f,u]of h.entries())lt(
+r,u,h[(f+1)%h.length],0,t);for(;s.length<t.length;)s.push(l)}let n=t.length,e=Ks(s),o=Vs(t,e),i=Qs(t,
+e),c=r.cage.length,a=Xs(i,e);return{count:n,loops:c,next:e,loop:Int32Array.from(s),nodes:o,lengths:i,
+weights:a}}function Ut(r){return r.cage.flatMap(t=>t.map((s,n)=>{let e=[];return at(r,s,t[(n+1)%t.length],
+0,0,e),e}))}function at(r,t,s,n,e,o){if(Dt(r,t,s,e)){o.push([n,e]);return}let i=ht(t,s);at(r,t,i,2*n,
+e+1,o),at(r,i,s,2*n+1,e+1,o)}function Dt(r,t,s,n){let e=A(s[0]-t[0],s[1]-t[1]);return n===Ys||e<=Js(
+r,t,s)}function lt(r,t,s,n,e){if(Dt(r,t,s,n)){e.push(t);return}let o=ht(t,s);lt(r,t,o,n+1,e),lt(r,o,
+s,n+1,e)}function ht(r,t){return[(r[0]+t[0])/2,(r[1]+t[1])/2]}function Js(r,t,s){let n=1/0;for(let e=0;e<
+r.columns;e++)n=Math.min(n,ft(r.singular,e,t[0],t[1],s[0],s[1]));return n}function ft(r,t,s,n,e,o){let i=e-
+s,c=o-n,a=r.re[t]-s,l=r.im[t]-n,h=i*i+c*c,f=(a*i+l*c)/(h>0?h:1),u=Math.min(1,Math.max(0,f));return A(
+a-u*i,l-u*c)}function Ks(r){let t=new Int32Array(r.length),s=0;for(let n=0;n<r.length;n++)r[n]!==r[s]&&
+(s=n),t[n]=r[n+1]===r[n]?n+1:s;return t}function Vs(r,t){let s=r.length,n=M(2*s);for(let[e,o]of r.entries()){
+let i=ht(o,r[t[e]]);n.re[e]=o[0],n.im[e]=o[1],n.re[s+e]=i[0],n.im[s+e]=i[1]}return n}function Qs(r,t){
+let s=Float64Array.from(r,(e,o)=>{let i=r[t[o]];return A(i[0]-e[0],i[1]-e[1])}),n=s.reduce((e,o)=>e+
+o,0);return s.map(e=>e/n)}function Xs(r,t){let s=r.length,n=new Float64Array(2*s);for(let e=0;e<s;e++)
+n[e]+=r[e]/6,n[t[e]]+=r[e]/6,n[s+e]=4*r[e]/6;return n}var Wt=2*Math.PI,Zs=Math.sqrt(3)/216,$s=4,P=class{#t;#s;#n;constructor(t,s,n){this.domain=t,this.panels=
+s,this.rows=n;let{columns:e}=t;this.#t=new Float64Array(s.count*e),this.#s=new Float64Array(e),this.#n=
+M(e);let{re:o,im:i}=s.nodes;for(let c=0;c<s.count;c++){let a=s.next[c];Bt(t,o[c],i[c],o[a],i[a],this.#t,
+c*e)}}certify(t){return this.prove(t).certificate}prove(t){let s=new ut(this.domain,t),n=E(this.rows,
+s.slopes);return{certificate:this.#e(s,F(n)),samples:n}}#e(t,s){let{panels:n}=this,e=new Float64Array(
+n.loops),o={sigma2_lower:1/0,sigma1_upper:0,k_upper:0,halved:0,refused:-1};for(let h=0;h<n.count;h++){
+let f=this.#r(t,s,h,o);if(o.sigma2_lower=Math.min(o.sigma2_lower,f.sigma2),o.sigma1_upper=Math.max(o.
+sigma1_upper,f.sigma1),o.k_upper=Math.max(o.k_upper,f.k),e[n.loop[h]]+=f.turning,!(f.sigma2>0)){o.refused=
+h;break}}let i=Array.from(e,h=>Math.round(h/Wt)+0),c=i.reduce((h,f)=>h+f,0),a=t.tied&&o.refused<0&&c===
+0,l=a?Math.min(o.k_upper,1):o.k_upper;return{certified:a,...o,k_upper:l,windings:i}}#r(t,s,n,e){let{
+panels:o}=this,i=this.#i(s,n),c=this.#i(s,o.count+n),a=this.#i(s,o.next[n]);return this.#c(t,i,c,a,this.#t,
+n*t.columns,0,e)}#i([t,s,n,e],o){let{re:i,im:c}=this.panels.nodes,a=this.rows.norms[o];return{x:i[o],
+y:c[o],norm:a,fr:t[o],fi:s[o],gr:n[o],gi:e[o]}}#c(t,s,n,e,o,i,c,a){let l=Math.max(s.norm,n.norm,e.norm),
+[h,f]=t.errors(o,i,l),u=sn(s,n,e,h,f);if(u.sigma2>0)return u;let m=!(A(s.fr,s.fi)>A(s.gr,s.gi));if(c===
+$s||m)return u;a.halved++;let p=this.#o(t,s,n,c,a);if(!(p.sigma2>0))return p;let g=this.#o(t,n,e,c,a);
+return{sigma2:Math.min(p.sigma2,g.sigma2),sigma1:Math.max(p.sigma1,g.sigma1),k:Math.max(p.k,g.k),turning:p.
+turning+g.turning}}#o(t,s,n,e,o){let i=this.#s,c=this.#a(t,(s.x+n.x)/2,(s.y+n.y)/2);return Bt(this.domain,
+s.x,s.y,n.x,n.y,i,0),this.#c(t,s,c,n,i,0,e+1,o)}#a(t,s,n){let e=_(this.domain,s,n,this.#n,0),o=Float64Array.
+of(e),i={count:1,columns:t.columns,...this.#n,norms:o},[c,a,l,h]=E(i,t.slopes);return{x:s,y:n,norm:e,
+fr:c,fi:a,gr:l,gi:h}}},ut=class{constructor(t,s){let{vertices:n,columns:e}=t;this.columns=e,this.tied=
+tn(s,n,e),this.slopes=S(t,s);let[o,i,c,a]=F(this.slopes);this.f=zt(t,o,i),this.g=zt(t,c,a)}errors(t,s,n){
+let e=0,o=0;for(let l=0;l<this.columns;l++)e+=t[s+l]*this.f.jumps[l],o+=t[s+l]*this.g.jumps[l];let{f:i,
+g:c,columns:a}=this;return[x*(e+ct(a,n,i.norm,i.sum)),x*(o+ct(a,n,c.norm,c.sum))]}};function tn(r,t,s){
+let[n,e,o,i]=F(r),c=!0;for(let a=t;a<s;a++)c=c&&n[a]===o[a]&&e[a]===-i[a];return c}function zt({vertices:r,
+columns:t,previous:s},n,e){let o=new Float64Array(t),i=0,c=0;for(let a=0;a<t;a++){let l=A(n[a],e[a]);
+if(i+=l*l,a<r){let h=s[a],f=32*T*(l+A(n[h],e[h]));o[a]=A(n[h]-n[a],e[h]-e[a])+f,c+=l}else o[a]=l}return{
+jumps:o,norm:x*Math.sqrt(i),sum:c}}function Bt(r,t,s,n,e,o,i){let c=St*r.largest,a=A(n-t,e-s);for(let l=0;l<
+r.columns;l++){let f=ft(r.singular,l,t,s,n,e)*(1-32*T)-32*T*a-c,u=Math.max(f,0),m=(a+2*c)/u,p=x*Zs*m*
+m*m,g=x*2*c/u;o[i+l]=l<r.vertices?(2*p+g)/Wt:(6*p+g)/u}}function sn(r,t,s,n,e){let o={fr:2*t.fr-(r.fr+
+s.fr)/2,fi:2*t.fi-(r.fi+s.fi)/2,gr:2*t.gr-(r.gr+s.gr)/2,gi:2*t.gi-(r.gi+s.gi)/2},i=kt(r,Ht(r,o),t,n,
+e),c=kt(t,Ht(o,s),s,n,e),a=nn(r,o,s,n),l=s.fi*r.fr-s.fr*r.fi;return{sigma2:a?Math.min(i.sigma2,c.sigma2):
+-1/0,sigma1:Math.max(i.sigma1,c.sigma1),k:Math.max(i.k,c.k),turning:J(l,s.fr*r.fr+s.fi*r.fi)}}function Ht(r,t){
+return{fr:(r.fr+t.fr)/2,fi:(r.fi+t.fi)/2,gr:(r.gr+t.gr)/2,gi:(r.gi+t.gi)/2}}function nn(r,t,s,n){let e=A(
+r.fr,r.fi),o=A(s.fr,s.fi),i=r.fr/e+s.fr/o,c=r.fi/e+s.fi/o,a=A(i,c),l=1/0;for(let{fr:h,fi:f}of[r,t,s])
+l=Math.min(l,(i*h+c*f)/a);return l>n}function kt(r,t,s,n,e){let o=Ct(r.fr,r.fi,t.fr,t.fi,s.fr,s.fi),
+i=Ct(r.gr,r.gi,t.gr,t.gi,s.gr,s.gi),c=x*Math.sqrt(o.most),a=x*Math.sqrt(i.most),l=1/0,h=1/0,f=0;for(let b=0;b<
+5;b++){let O=o.coefficients[b]-it*o.most,I=i.coefficients[b]+it*i.most;l=Math.min(l,O-I),h=Math.min(
+h,O),f=Math.max(f,I/O)}let u=x*(c+a+n+e);if(!(u*u<1/0&&l>0))return{sigma2:-1/0,sigma1:u,k:1/0};let p=l/
+((c+a)*x)-n-e,g=Math.sqrt(h),d=(Math.sqrt(f)*g+e)/(g-n),w=(u-p)/(u+p),y=x*(g>n?Math.min(d,w):w);return{
+sigma2:p,sigma1:u,k:y}}function Ct(r,t,s,n,e,o){let i=r*r+t*t,c=s*s+n*n,a=e*e+o*o,l=(r*e+t*o+2*c)/3;
+return{coefficients:[i,r*s+t*n,l,s*e+n*o,a],most:Math.max(i,c,a)}}var en=1e-13,Q=class{constructor(t,s,n){this.domain=t,this.k=t.free.length,this.u=1+this.k+t.holes,this.
+size=2*this.u+2*this.k,this.t=M(t.columns*this.u);let e=rn(t,s,n),o=an(cn(e,t.free),this.k);this.#t(),
+this.#s(o);for(let i=0;i<t.holes;i++)this.#n(i,o,e);this.#e(s.nodes.re[0],s.nodes.im[0])}#t(){for(let t=0;t<
+this.domain.exterior;t++)this.t.re[t*this.u]=1}#s(t){let{k:s,u:n,t:e}=this;for(let o=0;o<s;o++)for(let i=0;i<=
+o;i++){let c=this.domain.free[i]*n+1+o;e.re[c]=t.re[o*s+i],e.im[c]=-t.im[o*s+i]}}#n(t,s,n){let{domain:e,
+k:o,u:i,t:c}=this,a=e.vertices+t,l=hn(n,e.free,a),h=un(s,fn(s,l,o),o),f=mn(n,e.free,h,a),u=1+o+t;for(let m=0;m<
+o;m++)c.re[e.free[m]*i+u]=-h.re[m]/f,c.im[e.free[m]*i+u]=-h.im[m]/f;c.re[a*i+u]=1/f}#e(t,s){let{domain:n,
+u:e,t:o}=this,i=j(n,[t,s]);for(let c=1;c<e;c++){let a=0,l=0;for(let h=0;h<n.columns;h++){let f=o.re[h*
+e+c],u=o.im[h*e+c];a+=i.re[h]*f-i.im[h]*u,l+=i.re[h]*u+i.im[h]*f}for(let h=0;h<n.exterior;h++)o.re[h*
+e+c]-=a,o.im[h*e+c]-=l}}toCoefficients(t){let{u:s,t:n}=this,{columns:e,vertices:o}=this.domain,i=new Float64Array(
+4*e),[c,a,l,h]=F(this.#r(t));for(let f=0;f<e;f++){let u=0,m=0,p=0,g=0;for(let d=0;d<s;d++){let w=n.re[f*
+s+d],y=n.im[f*s+d];u+=w*c[d]-y*a[d],m+=w*a[d]+y*c[d],p+=w*l[d]-y*h[d],g+=w*h[d]+y*l[d]}i[f]=u,i[e+f]=
+m,i[2*e+f]=p,i[3*e+f]=g}return on(i,o,e),i}pulledBack(t){let{u:s,t:n}=this,{columns:e}=this.domain,o=new Float64Array(
+4*s),[i,c,a,l]=F(o);for(let h=0;h<e;h++){let f=t[h],u=t[e+h],m=t[2*e+h],p=t[3*e+h];for(let g=0;g<s;g++){
+let d=n.re[h*s+g],w=n.im[h*s+g];i[g]+=d*f+w*u,c[g]+=d*u-w*f,a[g]+=d*m+w*p,l[g]+=d*p-w*m}}return this.#i(
+o)}#r(t){let{k:s,u:n}=this,e=new Float64Array(4*n);e.set(t.subarray(0,2*n)),e.set(t.subarray(2*n,2*n+
+s),2*n+1),e.set(t.subarray(2*n+s),3*n+1);for(let o=1+s;o<n;o++)e[2*n+o]=t[o],e[3*n+o]=-t[n+o];return e}#i(t){
+let{k:s,u:n}=this,e=new Float64Array(this.size);e.set(t.subarray(0,2*n)),e.set(t.subarray(2*n+1,2*n+
+1+s),2*n),e.set(t.subarray(3*n+1,3*n+1+s),2*n+s);for(let o=1+s;o<n;o++)e[o]+=t[2*n+o],e[n+o]-=t[3*n+
+o];return e}};function on(r,t,s){for(let n=t;n<s;n++)r[2*s+n]=r[n],r[3*s+n]=-r[s+n]}function rn(r,t,s){
+let{count:n,lengths:e}=t,o={...M(r.columns*n),count:n};for(let i=0;i<n;i++){let c=Math.sqrt(e[i]),a=V(
+r,s,(n+i)*r.columns);for(let l=0;l<r.columns;l++)o.re[l*n+i]=c*a.re[l],o.im[l*n+i]=c*a.im[l]}return o}
+function Yt({re:r,im:t,count:s},n,e){let o=n*s,i=e*s,c=0,a=0;for(let l=0;l<s;l++)c+=r[o+l]*r[i+l]+t[o+
+l]*t[i+l],a+=r[o+l]*t[i+l]-t[o+l]*r[i+l];return[c,a]}function cn(r,t){let s=t.length,n=M(s*s),e=0;for(let o=0;o<
+s;o++){for(let i=0;i<=o;i++){let[c,a]=Yt(r,t[o],t[i]);n.re[o*s+i]=c,n.im[o*s+i]=a}e+=n.re[o*s+o]}for(let o=0;o<
+s;o++)n.re[o*s+o]+=en*e/s;return n}function an(r,t){ln(r,t);let s=M(t*t);for(let n=0;n<t;n++){let e=r.
+re[n*t+n];s.re[n*t+n]=1/e;for(let o=0;o<n;o++){let i=r.re[n*t+o]/e,c=r.im[n*t+o]/e;for(let a=0;a<=o;a++){
+let l=s.re[o*t+a],h=s.im[o*t+a];s.re[n*t+a]-=i*l-c*h,s.im[n*t+a]-=i*h+c*l}}}return s}function ln({re:r,
+im:t},s){for(let n=0;n<s;n++){let e=n*s;for(let o=0;o<=n;o++){let i=o*s,c=r[e+o],a=t[e+o];for(let l=0;l<
+o;l++)c-=r[e+l]*r[i+l]+t[e+l]*t[i+l],a-=t[e+l]*r[i+l]-r[e+l]*t[i+l];r[e+o]=n===o?Math.sqrt(c):c/r[i+
+o],t[e+o]=n===o?0:a/r[i+o]}}}function hn(r,t,s){let n=M(t.length);for(let[e,o]of t.entries()){let[i,
+c]=Yt(r,o,s);n.re[e]=i,n.im[e]=c}return n}function fn(r,t,s){let n=M(s);for(let e=0;e<s;e++)for(let o=0;o<=
+e;o++){let i=r.re[e*s+o],c=r.im[e*s+o];n.re[e]+=i*t.re[o]-c*t.im[o],n.im[e]+=i*t.im[o]+c*t.re[o]}return n}
+function un(r,t,s){let n=M(s);for(let e=0;e<s;e++)for(let o=0;o<=e;o++){let i=r.re[e*s+o],c=-r.im[e*
+s+o];n.re[o]+=i*t.re[e]-c*t.im[e],n.im[o]+=i*t.im[e]+c*t.re[e]}return n}function mn({re:r,im:t,count:s},n,e,o){
+let i=0;for(let c=0;c<s;c++){let a=r[o*s+c],l=t[o*s+c];for(let[h,f]of n.entries()){let u=r[f*s+c],m=t[f*
+s+c];a-=u*e.re[h]-m*e.im[h],l-=u*e.im[h]+m*e.re[h]}i+=a*a+l*l}return Math.sqrt(i)}var X=class{constructor(t){this.domain=new K(t),this.panels=Pt(this.domain),this.rows=N(this.domain,
+this.panels.nodes),this.prover=new P(this.domain,this.panels,this.rows),this.whitening=new Q(this.domain,
+this.panels,this.rows)}identity(){let{exterior:t,columns:s,singular:n}=this.domain,e=new Float64Array(
+4*s);return e.set(n.re.subarray(0,t)),e.set(n.im.subarray(0,t),s),e}moved(t,[s,n],e){let{exterior:o,
+columns:i}=this.domain,c=new Float64Array(4*i);for(let a=0;a<i;a++){let l=a<o?e:[0,0],[h,f]=[t[a],t[i+
+a]],[u,m]=[t[2*i+a],t[3*i+a]];c[a]=s*h-n*f+l[0],c[i+a]=s*f+n*h+l[1],c[2*i+a]=s*u+n*m,c[3*i+a]=s*m-n*
+u}return c}};function v(r,t){let s=0;for(let n=0;n<r.length;n++)s+=r[n]*t[n];return s}function U(r,t,s){for(let n=0;n<
+s.length;n++)s[n]+=r*t[n]}function Z(r,t,s,n,e,o,{sign:i=1,lower:c=!1}={}){let a=new Float64Array(8);
+for(let l=0;l<n;l+=4){let h=c?Math.min(l+4,e):e;for(let f=0;f<h;f+=2){pn(r,t,l,f,n,e,o,a);for(let u=0;u<
+8;u++){let m=l+(u>>1),p=f+(u&1);m<n&&p<e&&(s.values[s.first+m*s.stride+p]+=i*a[u])}}}}function pn(r,t,s,n,e,o,i,c){
+let a=r.values,l=t.values,h=r.first+s*r.stride,f=r.first+Math.min(s+1,e-1)*r.stride,u=r.first+Math.min(
+s+2,e-1)*r.stride,m=r.first+Math.min(s+3,e-1)*r.stride,p=t.first+n*t.stride,g=t.first+Math.min(n+1,o-
+1)*t.stride,d=0,w=0,y=0,b=0,O=0,I=0,q=0,G=0;for(let R=0;R<i;R++){let H=l[p+R],k=l[g+R],Ft=a[h+R],xt=a[f+
+R],bt=a[u+R],vt=a[m+R];d+=Ft*H,w+=Ft*k,y+=xt*H,b+=xt*k,O+=bt*H,I+=bt*k,q+=vt*H,G+=vt*k}c[0]=d,c[1]=w,
+c[2]=y,c[3]=b,c[4]=O,c[5]=I,c[6]=q,c[7]=G}function Jt(r,t){for(let s=0;s<t;s+=48){let n=Math.min(s+48,
+t);if(!gn(r,t,s,n))return!1;let e={values:r,first:n*t+s,stride:t},o={values:r,first:n*t+n,stride:t};
+Z(e,e,o,t-n,t-n,n-s,{sign:-1,lower:!0})}return!0}function gn(r,t,s,n){for(let e=s;e<t;e++){let o=e*t,
+i=Math.min(e,n-1);for(let c=s;c<=i;c++){let a=c*t,l=r[o+c];for(let h=s;h<c;h++)l-=r[o+h]*r[a+h];if(e!==
+c)r[o+c]=l/r[a+c];else if(l>0)r[o+c]=Math.sqrt(l);else return!1}}return!0}function Kt(r,t){let s=t.length,
+n=Float64Array.from(t);for(let e=0;e<s;e++){let o=e*s,i=n[e];for(let c=0;c<e;c++)i-=r[o+c]*n[c];n[e]=
+i/r[o+e]}for(let e=s-1;e>=0;e--){let o=e*s;n[e]/=r[o+e];let i=n[e];for(let c=0;c<e;c++)n[c]-=r[o+c]*
+i}return n}var dn=30,wn=1e-12,Vt=[0,1e-9,1e-7,1e-5,.001,.01],mt=class{#t=[];constructor(t,s){this.isometric=t,this.
+factor=s}direction(t){let s=Float64Array.from(t),n=this.#t.map(()=>0);for(let o=this.#t.length-1;o>=
+0;o--){let{step:i,change:c,curvature:a}=this.#t[o];n[o]=v(i,s)/a,U(-n[o],c,s)}let e=Kt(this.factor,s);
+for(let[o,{step:i,change:c,curvature:a}]of this.#t.entries()){let l=v(c,e)/a;U(n[o]-l,i,e)}return e.
+map(o=>-o)}learn(t,s){let n=v(t,s),e=Math.sqrt(v(t,t)*v(s,s));n>wn*e&&(this.#t.push({step:t,change:s,
+curvature:n}),this.#t.length>dn&&this.#t.shift())}};function Qt(r,t,s,n){let e=r.assemble(t,s,!1);return pt(
+e,n,[0])??pt(r.assemble(t,s,!0),n,Vt)}function gt(r,t){return pt(r.isometric,t,Vt)}function pt(r,t,s){
+let n=Math.sqrt(r.length);for(let e of s){let o=yn(Mn(r,n,e),n,t);if(Jt(o,n))return new mt(r,o)}return null}
+function yn(r,t,s){for(let{reduced:n,weight:e}of s.rows)for(let o=0;o<t;o++){let i=e*n[o];for(let c=0;c<=
+o;c++)r[o*t+c]+=i*n[c]}return r}function Mn(r,t,s){let n=Float64Array.from(r),e=0;for(let o=0;o<t;o++)
+e+=r[o*t+o];for(let o=0;o<t;o++)n[o*t+o]+=s*e/t;return n}function wt(){return{alpha1:0,alpha2:0,beta1:0,beta2:0,beta3:0}}var dt={density(r,t){let s=r-t;return(r+
+t)*(1+1/(s*s))},differentiate(r,t,s){let n=1/(r-t),e=n*n*n,o=e*n;s.alpha1=1-(r+3*t)*e,s.alpha2=1+(3*
+r+t)*e,s.beta1=2*(r+5*t)*o,s.beta2=2*(5*r+t)*o,s.beta3=-6*(r+t)*o}};function An(r){let t=(s,n)=>Math.
+exp(r*dt.density(s,n));return{density:t,differentiate(s,n,e){dt.differentiate(s,n,e);let o=r*t(s,n),
+{alpha1:i,alpha2:c}=e;e.alpha1=o*i,e.alpha2=o*c,e.beta1=o*(e.beta1+r*i*i),e.beta2=o*(e.beta2+r*c*c),
+e.beta3=o*(e.beta3+r*i*c)}}}function Fn(r){let t=(s,n)=>{let e=s-n;return Math.exp((2*r*(s+n)+1)/e+e)};
+return{density:t,differentiate(s,n,e){let o=1/(s-n),i=o*o,c=i*o,a=1-(4*r*n+1)*i,l=-1+(4*r*s+1)*i,h=t(
+s,n);e.alpha1=a*h,e.alpha2=l*h,e.beta1=(a*a+2*(4*r*n+1)*c)*h,e.beta2=(l*l+2*(4*r*s+1)*c)*h,e.beta3=(a*
+l-(4*r*(s+n)+2)*c)*h}}}var xn={density:(r,t)=>(r+t)/(r-t),differentiate(r,t,s){let n=1/(r-t),e=n*n,o=e*
+n;s.alpha1=-2*t*e,s.alpha2=2*r*e,s.beta1=4*t*o,s.beta2=4*r*o,s.beta3=-2*(r+t)*o}},bn={density:(r,t)=>2*
+(r+t)-4*Math.sqrt(r)+2,differentiate(r,t,s){let n=1/Math.sqrt(r);s.alpha1=2-2*n,s.alpha2=2,s.beta1=n*
+n*n,s.beta2=0,s.beta3=0}},vn={iso:()=>dt,exp:An,amips:Fn,mips:()=>xn,arap:()=>bn};function Xt(r,t=1){
+return vn[r](t)}function Zt(r,t,s){let n=t.length,e=0;for(let o=0;o<n;o++){let i=s[o],c=s[n+o],a=s[2*
+n+o],l=s[3*n+o],h=i*i+c*c,f=a*a+l*l;if(!(h>f))return 1/0;e+=t[o]*r.density(h,f)}return Number.isNaN(
+e)?1/0:e}function $t(r,t,s){let n=t.length,e=new Float64Array(4*n),o=wt();for(let i=0;i<n;i++){let[c,
+a,l,h]=[i,n+i,2*n+i,3*n+i],f=s[c]*s[c]+s[a]*s[a],u=s[l]*s[l]+s[h]*s[h];r.differentiate(f,u,o);let m=2*
+t[i]*o.alpha1,p=2*t[i]*o.alpha2;e[c]=m*s[c],e[a]=m*s[a],e[l]=p*s[l],e[h]=p*s[h]}return e}var On=2.25;function In(r,t,s){return{acrossF:2*r.alpha1,acrossG:2*r.alpha2,alongFF:2*r.alpha1+4*r.beta1*
+t,alongGG:2*r.alpha2+4*r.beta2*s,alongFG:4*r.beta3*Math.sqrt(t*s)}}function Tn(r){let t=(r.alongFF+r.
+alongGG)/2,s=(r.alongFF-r.alongGG)/2,n=Math.hypot(s,r.alongFG),e=Math.max(t+n,0),o=Math.max(t-n,0),i=(e+
+o)/2,c=n>0?(e-o)/(2*n):1;return{acrossF:Math.max(r.acrossF,0),acrossG:Math.max(r.acrossG,0),alongFF:i+
+c*s,alongGG:i-c*s,alongFG:c*r.alongFG}}var $=class{constructor(t,{rows:s,weights:n,middles:e}){let{panels:o,
+whitening:i,domain:c}=t;this.shape=t;let a=o.count>=On*i.u;this.first=a?o.count:0,this.nodes=s.count-
+this.first,this.weights=a?e:n,this.re=new Float64Array(i.u*this.nodes),this.im=new Float64Array(i.u*
+this.nodes);let l={...s,...this.#t(s)};for(let h=0;h<i.u;h+=2){let f=F(E(l,S(c,En(t,h)))),u=h*this.nodes;
+this.re.set(f[0],u),this.im.set(f[1],u),h+1<i.u&&(this.re.set(f[2],u+this.nodes),this.im.set(f[3],u+
+this.nodes))}}#t({columns:t,re:s,im:n}){let e=this.first*t;return{count:this.nodes,re:s.subarray(e),
+im:n.subarray(e)}}assemble(t,s,n){let{u:e,size:o}=this.shape.whitening,i=this.#s(t,s,n),c=this.#n(i.
+f,0),a=this.#n(i.g,1),l=new Float64Array(o*o),h=ss(c,2*this.nodes,2*e,[i.alongFF,i.acrossF]),f=ss(a,
+2*this.nodes,2*(e-1),[i.alongGG,i.acrossG]),u=this.#e(c,a,i.alongFG);return this.#r(l,h,f,u),l}#s(t,s,n){
+let{nodes:e,first:o,weights:i}=this,c=t.length/4,a=()=>new Float64Array(e),l={re:a(),im:a()},h={re:a(),
+im:a()},f={alongFF:a(),acrossF:a(),alongGG:a(),acrossG:a(),alongFG:a()},u=wt();for(let m=0;m<e;m++){
+let p=o+m,g=ts(l,m,t[p],t[c+p]),d=ts(h,m,t[2*c+p],t[3*c+p]);s.differentiate(g,d,u);let w=In(u,g,d),y=n?
+Tn(w):w;f.alongFF[m]=i[m]*y.alongFF,f.acrossF[m]=i[m]*y.acrossF,f.alongGG[m]=i[m]*y.alongGG,f.acrossG[m]=
+i[m]*y.acrossG,f.alongFG[m]=i[m]*y.alongFG}return{f:l,g:h,...f}}#n(t,s){let{nodes:n}=this,{u:e,k:o}=this.
+shape.whitening,i=e-s,c=new Float64Array(2*i*2*n);for(let a=s;a<e;a++){let l=s===1&&a>o?-1:1,h=(a-s)*
+2*n,f=(i+a-s)*2*n;for(let u=0;u<n;u++){let m=this.re[a*n+u],p=this.im[a*n+u],g=t.re[u]*m+t.im[u]*p,d=t.
+re[u]*p-t.im[u]*m;c[h+u]=g,c[h+n+u]=d,c[f+u]=-l*d,c[f+n+u]=l*g}}return c}#e(t,s,n){let{nodes:e}=this,
+{u:o}=this.shape.whitening,i=new Float64Array(2*o*e);for(let f=0;f<2*o;f++)for(let u=0;u<e;u++)i[f*e+
+u]=n[u]*t[f*2*e+u];let c=new Float64Array(2*(o-1)*2*o),a={values:s,first:0,stride:2*e},l={values:i,first:0,
+stride:e},h={values:c,first:0,stride:2*o};return Z(a,l,h,2*(o-1),2*o,e),c}#r(t,s,n,e){let{u:o,k:i,size:c}=this.
+shape.whitening,a=2*(o-1);for(let h=0;h<2*o;h++)for(let f=0;f<=h;f++)t[h*c+f]=s[h*2*o+f];let l=(h,f,u)=>{
+t[Math.max(h,f)*c+Math.min(h,f)]+=u};for(let h=0;h<a;h++){let f=ns(h,o,i);for(let u=0;u<=h;u++)l(f,ns(
+u,o,i),n[h*a+u]);for(let u=0;u<2*o;u++){let m=e[h*2*o+u];l(f,u,f===u?2*m:m)}}}};function En({domain:r,
+whitening:t},s){let{columns:n}=r,{u:e,t:o}=t,i=new Float64Array(4*n),c=Math.min(s+1,e-1);for(let a=0;a<
+n;a++)i[a]=o.re[a*e+s],i[n+a]=o.im[a*e+s],i[2*n+a]=o.re[a*e+c],i[3*n+a]=o.im[a*e+c];return i}function ts(r,t,s,n){
+let e=s*s+n*n,o=Math.sqrt(e);return r.re[t]=o>0?s/o:1,r.im[t]=o>0?n/o:0,e}function ss(r,t,s,[n,e]){let o=t/
+2,i=new Float64Array(r.length);for(let f=0;f<r.length;f+=t)for(let u=0;u<o;u++)i[f+u]=n[u]*r[f+u],i[f+
+o+u]=e[u]*r[f+o+u];let c=new Float64Array(s*s);return Z({values:i,first:0,stride:t},{values:r,first:0,
+stride:t},{values:c,first:0,stride:s},s,s,t,{lower:!0}),c}function ns(r,t,s){let n=r>=t-1,e=n?r-(t-1):
+r;return e<s?2*t+(n?s:0)+e:(n?t:0)+1+e}function es(r,t){let s=r.length/4,n=1/0;for(let e=0;e<s;e++){let o=yt(t,t,e,s),i=2*yt(r,t,e,s),c=yt(
+r,r,e,s),a=i*i-4*o*c,l=Math.sqrt(Math.max(a,0))-i;a>=0&&l>0&&(n=Math.min(n,2*c/l))}return n}function yt(r,t,s,n){
+let[e,o,i]=[n+s,2*n+s,3*n+s];return r[s]*t[s]+r[e]*t[e]-r[o]*t[o]-r[i]*t[i]}function os(r,t,s){let n=r(
+0),e=.7*s,o=Math.min(1,e),i=o,c=r(i);for(;!(c<n+1e-4*i*t);){if(i*=.6,i<1e-12)return 0;c=r(i)}for(let a of i===
+o?[1.3,.75]:[.75]){let l=Rn(r,i,c,a,Math.min(2,e));if(l!==i)return l}return i}function Rn(r,t,s,n,e){
+let o=t,i=s;for(let c=n*t;c<=e&&c>1e-12;c*=n){let a=r(c);if(!(a<i))break;o=c,i=a}return o}var Sn=10,qn=25e9,Gn=1e13,rs=1,is=1e-4,z=class{constructor(t,s,n){this.shape=t,this.pose=s,this.weight=
+n,this.coordinates=s.handles.map(o=>j(t.domain,o)),this.derivatives=cs(s).map(o=>Nn(t,s.handles[o]));
+let{unit:e}=t.domain;this.images=this.coordinates.flatMap((o,i)=>{let c=s.weights?.[i]??1,a=Math.min(
+n,qn/c)*c/(e*e),[l,h]=s.targets[i],f=_n(o);return[this.#t(f[0],l,a),this.#t(f[1],h,a)]}),this.turns=
+[]}get rows(){return[...this.images,...this.turns]}get turned(){return this.derivatives.length>0}aim(t){
+this.pose=t;for(let[s,[n,e]]of t.targets.entries())this.images[2*s].aim=n,this.images[2*s+1].aim=e}measure(t,s){
+this.turns=cs(this.pose).flatMap((n,e)=>{let o=this.derivatives[e],[i,c]=Ln(o,t),a=Math.hypot(i,c),l=Math.
+atan2(c,i),h=this.pose.angles?.[n]??null,f=this.pose.scales?.[n]??null,u=h===null?0:Un(h-l),m=l+Math.
+max(-rs,Math.min(rs,u)),[p,g]=jn(o,m),d=this.pose.weights?.[n]??1,w=Math.min(Sn*this.weight,Gn/d)*d,
+y=f===null?1:Pn(1-f/a,s);return[this.#t(p,f??0,f===null?0:w),this.#t(g,0,w*(h===null?y:1))]})}apartFrom(t){
+if(t.length!==this.turns.length)return 1/0;let s=0,n=!0;for(let[e,{row:o,weight:i}]of this.turns.entries()){
+let c=o.map((a,l)=>a-t[e].row[l]);s=Math.max(s,Math.sqrt(v(c,c)/v(o,o))),n=n&&Math.abs(i-t[e].weight)<=
+.1*(1+i)}return n&&s<=is?0:Math.max(s,is)}#t(t,s,n){return{row:t,reduced:this.shape.whitening.pulledBack(
+t),aim:s,weight:n}}residual(t){return Float64Array.from(this.rows,({row:s,aim:n})=>v(s,t)-n)}change(t){
+return Float64Array.from(this.rows,({row:s})=>v(s,t))}product(t,s){return this.rows.reduce((n,{weight:e},o)=>n+
+e*t[o]*s[o],0)}};function cs({handles:r,angles:t,scales:s}){return[...r.keys()].filter(e=>(t?.[e]??null)!==
+null||(s?.[e]??null)!==null)}function Nn({domain:r},[t,s]){let n=M(r.columns);return _(r,t,s,n,0),V(
+r,n,0)}function _n({re:r,im:t}){let s=r.map(e=>-e),n=t.map(e=>-e);return[tt([r,n,r,n]),tt([t,r,n,s])]}
+function jn(r,t){let s=Math.cos(t),n=Math.sin(t),e=r.re.map((a,l)=>a*s+r.im[l]*n),o=r.im.map((a,l)=>a*
+s-r.re[l]*n),i=o.map(a=>-a),c=new Float64Array(e.length);return[tt([e,i,c,c]),tt([o,e,c,c])]}function tt(r){
+let t=r[0].length,s=new Float64Array(r.length*t);for(let[n,e]of r.entries())s.set(e,n*t);return s}function Ln(r,t){
+let s=r.re.length,n=0,e=0;for(let o=0;o<s;o++)n+=r.re[o]*t[o]-r.im[o]*t[s+o],e+=r.re[o]*t[s+o]+r.im[o]*
+t[o];return[n,e]}function Pn(r,t){return Math.min(1,Math.max(0,t*r,(1-t)*r))}function Un(r){return Math.
+atan2(Math.sin(r),Math.cos(r))}function as({domain:r,panels:t,rows:s},n){let{count:e,weights:o,lengths:i}=t;if(!n)return{rows:s,weights:o,
+middles:i,added:0};let{factors:c,points:a}=n,l=Float64Array.from(n.weights),h=o.map((m,p)=>m*c[p]),f=i.
+map((m,p)=>m*c[e+p]),u=h.reduce((m,p,g)=>m+p-o[g],0);return{rows:Dn(s,N(r,D(a))),weights:B(h,l),middles:B(
+f,l),added:l.reduce((m,p)=>m+p,u)}}function Dn(r,t){return{count:r.count+t.count,columns:r.columns,re:B(
+r.re,t.re),im:B(r.im,t.im),norms:B(r.norms,t.norms)}}function B(r,t){let s=new Float64Array(r.length+
+t.length);return s.set(r),s.set(t,r.length),s}var zn=1e-6,Bn=.5,Hn=12,kn=.3,Cn=.001,Wn=3,Yn=1e-9,Jn=16,Mt=1e9,Kn=.2,Vn=3,st=class r{#t;#s=null;#n=0;#e=1;constructor(t,{
+energy:s="iso",s:n=1,weight:e=1e5,stiff:o=null}={}){let{domain:i,panels:c}=t;this.shape=t,this.energyMeasure=
+Xt(s,n),this.weight=e,this.quadrature=as(t,o),this.prover=o?new P(i,c,this.quadrature.rows):t.prover,
+this.#t=new $(t,this.quadrature),this.pins=new z(t,{handles:[],targets:[]},e),this.state=this.#a(t.identity()),
+this.promised=1/0,this.factors=0,this.steps=0}withOptions(t){let s=new r(this.shape,t);return s.#h(this.
+pins.pose),s.state=s.#a(this.state.coefficients),s.#f(),s}get energy(){return this.state.isometric+this.#M(
+this.state.residual)}solve(t,{tolerance:s=1e-8,iterations:n=200}={}){return this.begin(t),this.#i(s,
+n)}place(t,s){let n=this.#a(s);this.#h(t),this.state=n,this.#s=null,this.#f()}begin(t){let{handles:s,
+targets:n}=t,[e,o]=Xn(s,n);this.#h(t),this.state=this.#a(this.shape.moved(this.shape.identity(),e,o)),
+this.#s=null,this.#f()}drag(t,s=2){this.aim(t);let n="minimal";for(let e=0;e<s&&(n=this.step(1e-12),
+n==="stepped");e++);for(let e=0;e<Wn&&this.#r(n);e++)this.#s=null,n=this.step(1e-12);return n}#r(t){
+return t==="refused"||t==="no decrease"?this.promised>Yn:t==="stepped"&&this.promised>Cn}aim(t){Qn(this.
+pins.pose,t)?this.pins.aim(t):(this.#h(t),this.#s=this.#s&&gt(this.#s,this.pins)),this.#f()}#i(t,s){
+let n=1/0;for(let e=0;e<s;e++){let o=this.#s===null,i=this.energy,c=this.step(t);if(c!=="stepped"){let l=o||
+c==="minimal",h=l?this.#u():!1;if(l&&!h)return c;this.#s=l?this.#s:null,n=1/0;continue}let a=i-this.
+energy;!o&&a>kn*n&&(this.#s=null),n=a,this.#u()}return"stepped"}step(t){if(this.#s??=this.#w(),this.#s===
+null)return"indefinite";let s=this.#g(),n=this.#s.direction(s),e=v(s,n);if(this.promised=-e/2/Math.max(
+this.energy,zn),!(this.promised>t))return this.promised>=0?"minimal":"no decrease";let o=this.shape.
+whitening.toCoefficients(n),i=this.#c(o,e);if(i===0)return"no decrease";let c=this.#o(o,i);if(c===0)
+return"refused";let a=this.#g(),l=n.map(f=>c*f),h=a.map((f,u)=>f-s[u]);return this.#s.learn(l,h),"st\
+epped"}#c(t,s){let{shape:n,state:e,pins:o}=this,i=E(this.quadrature.rows,S(n.domain,t)),c=o.change(t),
+a=o.product(e.residual,e.residual)/2,l=o.product(e.residual,c),h=o.product(c,c)/2,f=new Float64Array(
+i.length);return os(m=>{for(let g=0;g<f.length;g++)f[g]=e.samples[g]+m*i[g];let p=a+m*l+m*m*h;return this.#d(
+f)+p},s,es(e.samples,i))}#o(t,s){let n=s;for(let e=0;e<Hn;e++){let o=Float64Array.from(this.state.coefficients);
+U(n,t,o);let i=this.prover.prove(o);if(i.certificate.certified)return this.state=this.#p(o,i),this.steps++,
+n;n*=Bn}return 0}#a(t){let s=this.prover.prove(t);if(!s.certificate.certified)throw new Error("the m\
+ap to start from cannot be proved locally injective");return this.#p(t,s)}#p(t,{certificate:s,samples:n}){
+let e=this.#d(n),o=this.pins.residual(t);return{coefficients:t,certificate:s,samples:n,isometric:e,residual:o,
+gradient:null}}#g(){let{state:t,pins:s}=this;t.gradient??=this.#y();let n=Float64Array.from(t.gradient);
+for(let[e,{reduced:o,weight:i}]of s.rows.entries())U(i*t.residual[e],o,n);return n}#d(t){let{energyMeasure:s,
+quadrature:n}=this;return Zt(s,n.weights,t)-n.added*s.density(1,0)}#y(){let{shape:t,state:s,energyMeasure:n,
+quadrature:e}=this,o=$t(n,e.weights,s.samples),i=Lt(e.rows,o);return t.whitening.pulledBack(jt(t.domain,
+i))}#M(t){return this.pins.product(t,t)/2}#w(){return this.factors++,Qt(this.#t,this.state.samples,this.
+energyMeasure,this.pins)}#h(t){this.pins=new z(this.shape,t,this.weight)}#f(){this.#n=0,this.#e=1,this.#u(),
+this.state.residual=this.pins.residual(this.state.coefficients)}#u(){let{pins:t}=this;if(!t.turned||
+this.#e===Mt)return!1;this.#n===Jn&&(this.#e=Mt);let s=t.turns;t.measure(this.state.coefficients,this.#e);
+let n=t.apartFrom(s);return n===0?(t.turns=s,!1):(this.#n>0&&n>Kn&&this.#e!==Mt&&(this.#e*=Vn),this.#n++,
+this.#s=this.#s&&gt(this.#s,t),this.state.residual=t.residual(this.state.coefficients),!0)}};function Qn(r,t){
+let s=({handles:n,weights:e,angles:o,scales:i})=>JSON.stringify([n,e??null,o??null,i??null]);return s(
+r)===s(t)}function Xn(r,t){let s=ls(r),n=ls(t),e=0,o=0;for(let[h,f]of r.entries()){let[u,m]=[f[0]-s[0],
+f[1]-s[1]],[p,g]=[t[h][0]-n[0],t[h][1]-n[1]];e+=u*p+m*g,o+=u*g-m*p}let i=Math.hypot(e,o),[c,a]=i>0?[
+e/i,o/i]:[1,0],l=[n[0]-c*s[0]+a*s[1],n[1]-c*s[1]-a*s[0]];return[[c,a],[l[0],l[1]]]}function ls(r){let t=Math.
+max(r.length,1),s=r.reduce((e,o)=>e+o[0],0),n=r.reduce((e,o)=>e+o[1],0);return[s/t,n/t]}var Zn=1e-7,At=class{#t;#s;#n=[];#e=!1;#r=null;#i=null;#c=null;#o=null;constructor(t,s){this.#t=t,this.#s=
+s}receive(t){let s=this.#n.at(-1);t.type==="drag"&&s?.type==="drag"&&this.#n.pop(),this.#n.push(t),this.#a()}#a(){
+this.#e||(this.#e=!0,this.#s(()=>{this.#e=!1,this.#p()}))}#p(){let t=this.#n.shift(),s=t?.id??this.#o?.
+id??0;try{t?this.#g(t):this.#o&&this.#w(this.#o.id,this.#o.pose)}catch(n){this.#o=null,this.#t({type:"\
+failed",id:s,message:String(n)})}(this.#n.length>0||this.#o)&&this.#a()}#g(t){switch(this.#o=null,t.
+type){case"shape":return this.#d(t.id,t.outline,t.points,t.options);case"options":return this.#y(t.id,
+t.options);case"solve":return this.#M(t.id,t.pose);case"drag":return this.#w(t.id,t.pose);case"place":
+return this.#h(t.id,t.pose,t.coefficients);case"points":return this.#f(t.id,t.points);case"claim":return this.#u(
+t.id)}}#d(t,s,n,e){let o=new X(s);this.#r=new st(o,e),this.#i=n?new L(o.domain,n):null;let{panels:i,
+domain:c}=o;this.#t({type:"ready",id:t,panels:i.count,columns:c.columns})}#y(t,s){this.#r=this.#l().
+withOptions(s),this.#m(t,"minimal",!0)}#M(t,s){let n=this.#l(),e=performance.now(),o=n.steps,i=n.solve(
+s);this.#m(t,i,!0,n.steps-o,performance.now()-e)}#w(t,s){let n=this.#l(),e=performance.now(),o=n.steps,
+i=n.drag(s),c=i!=="stepped"||n.promised<Zn;this.#o=c?null:{id:t,pose:s},this.#m(t,i,c,n.steps-o,performance.
+now()-e)}#h(t,s,n){this.#l().place(s,n),this.#m(t,"placed",!0)}#f(t,s){this.#i=new L(this.#l().shape.
+domain,s),this.#m(t,"placed",!0)}#u(t){let{state:s,shape:n}=this.#l(),{coefficients:e,certificate:o}=s,
+i=Ut(n.domain);this.#t({type:"claim",id:t,claim:{coefficients:e,certificate:o,panels:i}})}#l(){if(!this.#r)
+throw new Error("there is no shape yet; send a request of the type shape first");return this.#r}#m(t,s,n,e=0,o=0){
+let{state:i,energy:c}=this.#l(),a=i.coefficients.slice(),l=performance.now(),h=this.#i?.evaluate(a),
+f=performance.now()-l,u={type:"map",id:t,settled:n,outcome:s,energy:c,coefficients:a,certificate:i.certificate,
+images:h?.images??null,samples:h?.samples??null,pins:this.#A().evaluate(a),steps:e,took:o,evaluated:f};
+this.#t(u)}#A(){let{shape:t,pins:s}=this.#l(),{handles:n}=s.pose;return(!this.#c||JSON.stringify(this.#c.
+handles)!==JSON.stringify(n))&&(this.#c={handles:n,points:new L(t.domain,n)}),this.#c.points}};function hs(r){
+let t=new MessageChannel,s=[];t.port1.onmessage=()=>s.shift()?.();let n=new At(e=>r.postMessage(e),e=>{
+s.push(e),t.port2.postMessage(null)});r.onmessage=({data:e})=>n.receive(e)}hs(globalThis);})();

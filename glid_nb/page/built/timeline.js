@@ -4,7 +4,7 @@ startsWith("on"))element.addEventListener(name.slice(2),value);else if(name in e
 Reflect.set(element,name,value);else element.setAttribute(name,value)}element.append(...children);return element}function toFloats(view){if(!view)return new Float32Array;return new Float32Array(view.buffer.slice(view.
 byteOffset,view.byteOffset+view.byteLength))}function follow(model,listeners){for(const[names,listener]of Object.
 entries(listeners)){model.on(names,listener);listener()}}var Motion=class{constructor({times,repeat},floats){this.times=times;this.repeat=repeat;this.floats=
-floats;this.mixed=new Float32Array(floats.length/times.length);this.start=times[0];this.last=times[times.
+floats;this.mixed=floats.slice(0,floats.length/times.length);this.start=times[0];this.last=times[times.
 length-1];this.end=repeat==="ping-pong"?2*this.last-this.start:this.last}within(time){const{start,end}=this;
 if(this.repeat==="once")return Math.min(Math.max(time,start),end);const span=end-start;return start+
 ((time-start)%span+span)%span}place(time){const{times,last}=this;const within=this.within(time);const there=within>

@@ -16,7 +16,7 @@ const GLIDE = 600; // ms
 /**
  * The motion that plays from a time on; with `loop` for ever, else to its end.
  *
- * @param {Motion} motion
+ * @param {Motion<any>} motion
  * @param {number} time
  * @param {boolean} loop
  * @returns {Course}
@@ -35,7 +35,7 @@ export function playedFrom(motion, time, loop) {
  * Along the motion to a time, so that everything on the way is proved. A loop goes the shorter way
  * round.
  *
- * @param {Motion} motion
+ * @param {Motion<any>} motion
  * @param {number} time
  * @param {number} to
  * @returns {Course}

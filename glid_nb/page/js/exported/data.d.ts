@@ -2,13 +2,13 @@
 
 import type { Repeat } from "../motion/motion.js";
 
-/** Numbers as `_packed` writes them. */
+/** Numbers as `packed` writes them. */
 export interface Packed {
   step: number;
   bytes: string;
 }
 
-/** Rows of numbers as `_factored` writes them: sums of few rows. */
+/** Rows of numbers as `factored` writes them: sums of few rows. */
 export interface Factored {
   sizes: number[];
   rows: Packed & { width: number };

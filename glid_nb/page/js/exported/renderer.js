@@ -12,6 +12,12 @@
  */
 
 /**
+ * What does not change: the shaders, the picture's place, and the colours.
+ *
+ * @typedef {Pick<PageData, "vertex" | "fragment" | "frame" | "colors" | "grid" | "ranges">} Shown
+ */
+
+/**
  * What is drawn once.
  *
  * @typedef {object} Frame
@@ -46,7 +52,7 @@ export class Renderer {
   /**
    * @param {HTMLCanvasElement} canvas
    * @param {WebGL2RenderingContext} gl
-   * @param {PageData} data
+   * @param {Shown} data
    * @param {Mesh} mesh
    * @param {Float32Array} cage empty where a shader cannot hold it
    */

@@ -1,4 +1,4 @@
-// Numbers from the text that `_packed` and `_factored` in glid_nb/export/page.py wrote.
+// Numbers from the text that `packed` and `factored` in glid_nb/export/page.py wrote.
 
 /** @import { Factored, Packed } from "./data.js" */
 

@@ -50,6 +50,51 @@ export function gradedPanels(domain) {
 }
 
 /**
+ * The panels as pieces of the cage's edges, loop by loop: [k, d] from k / 2^d to (k + 1) / 2^d.
+ * @param {Domain} domain
+ */
+export function bisections(domain) {
+  return domain.cage.flatMap((vertices) =>
+    vertices.map((vertex, i) => {
+      /** @type {[k: number, d: number][]} */
+      const pieces = [];
+      appendBisections(domain, vertex, vertices[(i + 1) % vertices.length], 0, 0, pieces);
+      return pieces;
+    }),
+  );
+}
+
+/**
+ * @param {Domain} domain
+ * @param {Point} start
+ * @param {Point} end
+ * @param {number} k
+ * @param {number} d
+ * @param {[k: number, d: number][]} pieces
+ */
+function appendBisections(domain, start, end, k, d, pieces) {
+  if (isPanel(domain, start, end, d)) {
+    pieces.push([k, d]);
+    return;
+  }
+  const middle = middleOf(start, end);
+  appendBisections(domain, start, middle, 2 * k, d + 1, pieces);
+  appendBisections(domain, middle, end, 2 * k + 1, d + 1, pieces);
+}
+
+/**
+ * Whether a piece of an edge is no longer than its distance to the nearest singularity.
+ * @param {Domain} domain
+ * @param {Point} start
+ * @param {Point} end
+ * @param {number} depth how often the edge was bisected
+ */
+function isPanel(domain, start, end, depth) {
+  const length = modulus(end[0] - start[0], end[1] - start[1]);
+  return depth === MOST_BISECTIONS || length <= clearance(domain, start, end);
+}
+
+/**
  * Appends the starts of the pieces of a straight line.
  * @param {Domain} domain
  * @param {Point} start
@@ -58,8 +103,7 @@ export function gradedPanels(domain) {
  * @param {Point[]} starts
  */
 function appendPieces(domain, start, end, depth, starts) {
-  const length = modulus(end[0] - start[0], end[1] - start[1]);
-  if (depth === MOST_BISECTIONS || length <= clearance(domain, start, end)) {
+  if (isPanel(domain, start, end, depth)) {
     starts.push(start);
     return;
   }

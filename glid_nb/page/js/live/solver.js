@@ -71,8 +71,9 @@ export class Solver {
     this.state = this.#certified(shape.identity());
     /** How much the last direction promised, as a share of the energy. */
     this.promised = Infinity;
-    /** Factors that were made so far. */
+    /** Factors that were made so far, and certified steps that were taken. */
     this.factors = 0;
+    this.steps = 0;
   }
 
   /**
@@ -101,6 +102,19 @@ export class Solver {
   solve(pose, { tolerance = 1e-8, iterations = 200 } = {}) {
     this.begin(pose);
     return this.#descend(tolerance, iterations);
+  }
+
+  /**
+   * Takes up another map. Throws if it cannot be proved, and nothing changes then.
+   * @param {Pose} pose
+   * @param {Coefficients} coefficients
+   */
+  place(pose, coefficients) {
+    const state = this.#certified(coefficients);
+    this.#pin(pose);
+    this.state = state;
+    this.#metric = null; // that of another map
+    this.#remeasure();
   }
 
   /**
@@ -264,6 +278,7 @@ export class Solver {
       const proof = this.prover.prove(coefficients);
       if (proof.certificate.certified) {
         this.state = this.#stateOf(coefficients, proof);
+        this.steps++;
         return step;
       }
       step *= SHORTER;

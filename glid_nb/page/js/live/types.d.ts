@@ -82,12 +82,19 @@ export type LiveRequest =
   /** Solves from the identity. */
   | { type: "solve"; id: number; pose: Pose }
   /** Follows moved targets from the map that is; a later request replaces one that waits. */
-  | { type: "drag"; id: number; pose: Pose };
+  | { type: "drag"; id: number; pose: Pose }
+  /** Takes up another map, if it can be proved. */
+  | { type: "place"; id: number; pose: Pose; coefficients: Coefficients }
+  /** Evaluates every map at other points from now on, and answers with the map that is. */
+  | { type: "points"; id: number; points: Point[] }
+  /** Asks what a file with the proof of the map that is has to claim. */
+  | { type: "claim"; id: number };
 
 /** What the worker answers. */
 export type LiveAnswer =
   | { type: "ready"; id: number; panels: number; columns: number }
   | LiveMap
+  | { type: "claim"; id: number; claim: Claim }
   | { type: "failed"; id: number; message: string };
 
 /** A certified map. The certificate was computed from these coefficients. */
@@ -103,4 +110,24 @@ export interface LiveMap {
   /** Of the shape's points, if it has any: x and y in turn, and [Re f_z, Im f_z, Re g, Im g]. */
   images: Float64Array | null;
   samples: Samples | null;
+  /** Of the pins, likewise. */
+  pins: Field;
+  /** Steps that this answer took, and ms for them and for the evaluation at the shape's points. */
+  steps: number;
+  took: number;
+  evaluated: number;
+}
+
+/** A map at k points: x and y of each in turn, and [Re f_z, Im f_z, Re g, Im g], k numbers each. */
+export interface Field {
+  images: Float64Array;
+  samples: Samples;
+}
+
+/** What is claimed of a map, for `glid-check`. */
+export interface Claim {
+  coefficients: Coefficients;
+  certificate: Certificate;
+  /** For each edge of the cage its pieces [k, d], from k / 2^d to (k + 1) / 2^d. */
+  panels: [k: number, d: number][][];
 }

@@ -3,10 +3,12 @@
 // Between two turns it reads what has come in, so that a hand's newest position counts.
 
 import { FieldPoints } from "./fields.js";
+import { bisections } from "./panels.js";
 import { Shape } from "./shape.js";
 import { Solver } from "./solver.js";
 
-/** @import { LiveAnswer, LiveMap, LiveRequest, Outline, Pose, SolverOptions } from "./types.js" */
+/** @import { Coefficients, LiveAnswer, LiveMap, LiveRequest } from "./types.js" */
+/** @import { Outline, Pose, SolverOptions } from "./types.js" */
 /** @import { Point } from "../types.js" */
 
 const SETTLED = 1e-7; // a drag ends when a step promises less than this share of the energy
@@ -28,6 +30,8 @@ export class LiveWorker {
   #solver = null;
   /** @type {FieldPoints | null} */
   #points = null;
+  /** @type {{ handles: Point[], points: FieldPoints } | null} */
+  #pins = null;
   /**
    * The drag that is not settled yet.
    * @type {{ id: number, pose: Pose } | null}
@@ -94,6 +98,12 @@ export class LiveWorker {
         return this.#solve(request.id, request.pose);
       case "drag":
         return this.#follow(request.id, request.pose);
+      case "place":
+        return this.#place(request.id, request.pose, request.coefficients);
+      case "points":
+        return this.#evaluateAt(request.id, request.points);
+      case "claim":
+        return this.#claim(request.id);
     }
   }
 
@@ -125,8 +135,11 @@ export class LiveWorker {
    * @param {Pose} pose
    */
   #solve(id, pose) {
-    const outcome = this.#ready().solve(pose);
-    this.#postMap(id, outcome, true);
+    const solver = this.#ready();
+    const began = performance.now();
+    const before = solver.steps;
+    const outcome = solver.solve(pose);
+    this.#postMap(id, outcome, true, solver.steps - before, performance.now() - began);
   }
 
   /**
@@ -135,10 +148,39 @@ export class LiveWorker {
    */
   #follow(id, pose) {
     const solver = this.#ready();
+    const began = performance.now();
+    const before = solver.steps;
     const outcome = solver.drag(pose);
     const settled = outcome !== "stepped" || solver.promised < SETTLED;
     this.#drag = settled ? null : { id, pose };
-    this.#postMap(id, outcome, settled);
+    this.#postMap(id, outcome, settled, solver.steps - before, performance.now() - began);
+  }
+
+  /**
+   * @param {number} id
+   * @param {Pose} pose
+   * @param {Coefficients} coefficients
+   */
+  #place(id, pose, coefficients) {
+    this.#ready().place(pose, coefficients);
+    this.#postMap(id, "placed", true);
+  }
+
+  /**
+   * @param {number} id
+   * @param {Point[]} points
+   */
+  #evaluateAt(id, points) {
+    this.#points = new FieldPoints(this.#ready().shape.domain, points);
+    this.#postMap(id, "placed", true);
+  }
+
+  /** @param {number} id */
+  #claim(id) {
+    const { state, shape } = this.#ready();
+    const { coefficients, certificate } = state;
+    const panels = bisections(shape.domain);
+    this.#post({ type: "claim", id, claim: { coefficients, certificate, panels } });
   }
 
   #ready() {
@@ -152,11 +194,15 @@ export class LiveWorker {
    * @param {number} id
    * @param {string} outcome
    * @param {boolean} settled
+   * @param {number} [steps]
+   * @param {number} [took] ms
    */
-  #postMap(id, outcome, settled) {
+  #postMap(id, outcome, settled, steps = 0, took = 0) {
     const { state, energy } = this.#ready();
     const coefficients = state.coefficients.slice();
+    const began = performance.now();
     const field = this.#points?.evaluate(coefficients);
+    const evaluated = performance.now() - began;
     /** @type {LiveMap} */
     const map = {
       type: "map",
@@ -168,8 +214,22 @@ export class LiveWorker {
       certificate: state.certificate,
       images: field?.images ?? null,
       samples: field?.samples ?? null,
+      pins: this.#pinned().evaluate(coefficients),
+      steps,
+      took,
+      evaluated,
     };
     this.#post(map);
+  }
+
+  /** The pins' places, with the rows of the basis there. */
+  #pinned() {
+    const { shape, pins } = this.#ready();
+    const { handles } = pins.pose;
+    if (!this.#pins || JSON.stringify(this.#pins.handles) !== JSON.stringify(handles)) {
+      this.#pins = { handles, points: new FieldPoints(shape.domain, handles) };
+    }
+    return this.#pins.points;
   }
 }
 

@@ -3,17 +3,18 @@
 
 /** @typedef {"once" | "loop" | "ping-pong"} Repeat */
 
+/** @template {Float32Array | Float64Array} [Numbers=Float32Array] */
 export class Motion {
   /**
    * @param {{ times: number[], repeat: Repeat }} values the knots' times; of a ping-pong, those of
    *   the way there
-   * @param {Float32Array} floats the arrays of all knots, one after the other
+   * @param {Numbers} floats the arrays of all knots, one after the other
    */
   constructor({ times, repeat }, floats) {
     this.times = times;
     this.repeat = repeat;
     this.floats = floats;
-    this.mixed = new Float32Array(floats.length / times.length);
+    this.mixed = /** @type {Numbers} */ (floats.slice(0, floats.length / times.length));
     this.start = times[0];
     this.last = times[times.length - 1]; // knot
     this.end = repeat === "ping-pong" ? 2 * this.last - this.start : this.last;

@@ -5,8 +5,7 @@ import { undoOrRedo } from "./keys.js";
 import { rectangle } from "./pen.js";
 import { distance } from "./view.js";
 
-/** @import { Found, Mark, Point } from "../types.js" */
-/** @import { Link } from "./link.js" */
+/** @import { Found, KernelEvent, Mark, Point } from "../types.js" */
 /** @import { View } from "./view.js" */
 
 /**
@@ -29,6 +28,14 @@ import { distance } from "./view.js";
  * @property {(place: Point, found: Found | null) => void} [menu] opens the menu of what is there,
  *   by the right button or a long touch
  * @property {boolean} [wheelNeedsFocus] whether the wheel zooms only while the pad has the focus
+ */
+
+/**
+ * Who acts on events: the kernel's `Link`, or a page without a kernel.
+ *
+ * @typedef {object} Listener
+ * @property {(event: KernelEvent) => Promise<string | null>} put
+ * @property {AbortSignal} signal ends it
  */
 
 /** @typedef {Partial<PointerEvent & KeyboardEvent>} Pressed what of an event the kernel reads */
@@ -68,7 +75,7 @@ export class Pad {
   /**
    * @param {HTMLElement} element
    * @param {View} view
-   * @param {Link} link
+   * @param {Listener} link
    * @param {Behaviour} behaviour
    */
   constructor(element, view, link, behaviour) {

@@ -1,0 +1,75 @@
+// What a reader takes away: lines of Python, the picture, the map with its proof.
+
+import { copied } from "../pad/clipboard.js";
+import { make } from "../pad/dom.js";
+import { boxOf } from "./mesh.js";
+import { proofFiles } from "./proof_file.js";
+import { pythonCode } from "./python.js";
+
+/** @import { LiveMap } from "../live/types.js" */
+/** @import { LiveData } from "./data.js" */
+/** @import { Editing } from "./editing.js" */
+/** @import { Stage } from "./stage.js" */
+
+const MOST_PIXELS = 4096; // of a side of the picture
+const KEPT = 60_000; // ms for which the browser may still read a file
+const PLAIN = "0"; // the picture without colours
+
+/** @param {LiveData} data */
+function nameOf({ title }) {
+  return title.replace(/[^\w-]+/g, "-") || "picture";
+}
+
+/**
+ * Copies the pose as Python; returns what is to be said.
+ * @param {LiveData} data
+ * @param {Editing} editing
+ */
+export async function copyPython(data, { pins }) {
+  const text = pythonCode(pins, data.options, `${nameOf(data)}.png`);
+  const allowed = await copied(text);
+  return allowed ? "The lines are in the clipboard." : "The browser did not allow copying.";
+}
+
+/**
+ * Saves the deformed picture, with the pixels of the original.
+ * @param {LiveData} data
+ * @param {Stage} stage
+ * @param {LiveMap} shown
+ */
+export function downloadPicture(data, stage, shown) {
+  const [left, bottom, right, top] = boxOf(shown.images ?? []);
+  const perUnit = data.size[0] / (data.frame[2] - data.frame[0]); // pixels
+  const most = MOST_PIXELS / Math.max(right - left, top - bottom);
+  const density = Math.min(perUnit, most) / (window.devicePixelRatio || 1);
+  const width = Math.ceil((right - left) * density);
+  const height = Math.ceil((top - bottom) * density);
+  const middle = { x: (left + right) / 2, y: (bottom + top) / 2 };
+  stage.paint(shown, { width, height, unit: 1 / density, ...middle }, PLAIN);
+  stage.canvas.toBlob((picture) => picture && save(`${nameOf(data)}-posed.png`, picture));
+}
+
+/**
+ * Saves the map that the solver has, and its proof; returns what is to be said.
+ * @param {LiveData} data
+ * @param {Editing} editing
+ */
+export async function downloadProof(data, { solving }) {
+  const answer = await solving.ask({ type: "claim" });
+  if (answer.type !== "claim") throw new Error("the worker did not answer with a claim");
+  const { map, proof } = proofFiles(data.outline, answer.claim);
+  const name = nameOf(data);
+  save(`${name}.map.json`, new Blob([map]));
+  save(`${name}.proof.json`, new Blob([proof]));
+  return `Check them: glid-check ${name}.map.json ${name}.proof.json`;
+}
+
+/**
+ * @param {string} name
+ * @param {Blob} content
+ */
+function save(name, content) {
+  const href = URL.createObjectURL(content);
+  make("a", { href, download: name }).click();
+  setTimeout(() => URL.revokeObjectURL(href), KEPT);
+}

@@ -1,0 +1,273 @@
+// The live page: the picture under the newest certified map, its pins, and the controls around them.
+
+import { drawLasso, drawMarks } from "../canvas/draw.js";
+import { make } from "../pad/dom.js";
+import { help } from "../pad/help.js";
+import { iconButton } from "../pad/icons.js";
+import { undoOrRedo } from "../pad/keys.js";
+import { Pad } from "../pad/pad.js";
+import { painter } from "../pad/pen.js";
+import { byId } from "./elements.js";
+import { copyPython, downloadPicture, downloadProof } from "./files.js";
+import { Film } from "./film.js";
+import { Hand } from "./hand.js";
+import { HELP } from "./help_table.js";
+import { drawMissed } from "./missed.js";
+import { Report } from "./report.js";
+import { fitted, roomOn } from "./room.js";
+import { identityOf } from "./wire.js";
+
+/** @import { LiveMap } from "../live/types.js" */
+/** @import { Pen } from "../pad/pen.js" */
+/** @import { View } from "../pad/view.js" */
+/** @import { LiveData } from "./data.js" */
+/** @import { Editing } from "./editing.js" */
+/** @import { Solving } from "./solving.js" */
+/** @import { Stage } from "./stage.js" */
+
+/** @type {Record<string, string>} the overlays, by their numbers in picture.frag */
+const OVERLAYS = {
+  0: "Picture",
+  1: "Grid",
+  2: "Stretch σ₁",
+  3: "Stretch σ₂",
+  4: "Dilatation k",
+};
+const PLAIN = "0";
+const THUMBNAIL = 56; // CSS pixels
+
+export class LivePage {
+  report = new Report();
+
+  #box = byId("pad");
+  #overlay = make("select", { id: "overlay", "aria-label": "What is shown" });
+  #undo = iconButton("undo", "Undo (Ctrl+Z)", () => this.#press("undo"));
+  #redo = iconButton("redo", "Redo (Ctrl+Shift+Z)", () => this.#press("redo"));
+  #remove = iconButton("trash", "Remove the selected pins (Delete)", () => this.#press("Delete"));
+  #help = help(HELP);
+  /** @type {LiveMap | null} a frame of the motion, shown instead of the edited pose */
+  #moving = null;
+  #due = 0;
+  #paintPins;
+
+  /**
+   * @param {LiveData} data
+   * @param {{ stage: Stage, editing: Editing, view: View }} parts
+   * @param {() => Promise<Solving>} startSecond starts a solver for the motion
+   */
+  constructor(data, { stage, editing, view }, startSecond) {
+    this.data = data;
+    this.stage = stage;
+    this.editing = editing;
+    this.view = view;
+    this.film = new Film(startSecond, {
+      show: (frame) => this.#showMoving(frame),
+      thumbnail: (frame) => this.#thumbnail(frame),
+      redraw: () => this.redraw(),
+      take: ({ pins, frame }) => editing.replace(pins, frame.coefficients),
+      say: (text) => this.report.say(text),
+      color: (bound) => this.#color(bound),
+    });
+    this.hand = new Hand(editing, view, {
+      fit: () => this.fit(),
+      reset: () => this.#reset(),
+      redraw: () => this.redraw(),
+      play: () => this.film.playOrPause(),
+      say: (text) => this.report.say(text),
+      help: this.#help.toggle,
+    });
+    this.pad = new Pad(this.#box, view, this.hand, this.hand);
+    const paper = make("canvas", { className: "paper" });
+    this.#box.append(paper);
+    this.#paintPins = painter(paper, view, this.hand.signal, (pen) => this.#drawPins(pen));
+    view.changed = () => this.redraw();
+    editing.told = () => this.#changed();
+    this.#arrange();
+    this.#hear();
+    this.#changed();
+  }
+
+  #arrange() {
+    for (const [value, label] of Object.entries(OVERLAYS)) {
+      this.#overlay.append(new Option(label, value));
+    }
+    const menu = make("div", { id: "menu", popover: "auto" }, ...this.#menuRows());
+    menu.addEventListener("click", () => menu.hidePopover());
+    const more = iconButton("export", "Copy, download, reset", undefined);
+    more.popoverTargetElement = menu;
+    const buttons = [this.#undo, this.#redo, this.#remove];
+    byId("tools").append(...buttons, this.#overlay, more, this.#help.button);
+    document.body.append(menu, this.#help.table);
+    const plus = make("b", { "aria-hidden": "true" }, "+");
+    const onclick = () => this.#keepPose();
+    const keep = make("button", { className: "keep", title: "Keep this pose", onclick });
+    keep.append(plus, "Keep pose");
+    byId("dock").prepend(keep, this.film.element);
+    const colors = Array.from({ length: this.#stops }, (_, i) => this.#css(i));
+    document.documentElement.style.setProperty("--colors", colors.join());
+  }
+
+  #menuRows() {
+    const { data, editing, report } = this;
+    const row = (/** @type {string} */ label, /** @type {() => unknown} */ onclick) =>
+      make("button", { onclick }, label);
+    return [
+      row("Copy the pose as Python", async () => report.say(await copyPython(data, editing))),
+      row("Download the picture", () => {
+        downloadPicture(data, this.stage, this.shown);
+        this.redraw();
+      }),
+      row("Download the map and its proof", async () => {
+        this.film.release();
+        report.say(await downloadProof(data, editing));
+      }),
+      row("Fit the window", () => this.fit()),
+      row("Back to the undeformed shape", () => this.#reset()),
+    ];
+  }
+
+  #hear() {
+    this.#overlay.addEventListener("change", () => {
+      this.#showLegend();
+      this.redraw();
+    });
+    const goBack = (/** @type {PointerEvent} */ e) => {
+      if (!this.film.seen || e.button === 1) return;
+      this.film.release(); // the first touch goes back to the pose that is edited
+      e.stopImmediatePropagation();
+      e.preventDefault();
+    };
+    this.#box.addEventListener("pointerdown", goBack, { capture: true });
+    document.addEventListener("keydown", (e) => this.#keydown(e));
+    new ResizeObserver(() => this.fit()).observe(this.#box);
+    const dark = matchMedia("(prefers-color-scheme: dark)");
+    dark.addEventListener("change", () => this.report.draw());
+  }
+
+  /**
+   * Keys that are pressed elsewhere in the page are the pad's too.
+   * @param {KeyboardEvent} e
+   */
+  #keydown(e) {
+    const target = /** @type {HTMLElement} */ (e.target);
+    if (this.#box.contains(target) || e.key === "Tab") return;
+    const chosen = target.matches("input, select") && !undoOrRedo(e);
+    const pressed = target.matches("button") && /^(Enter| )$/.test(e.key);
+    if (chosen || pressed) return;
+    if (e.key !== " ") {
+      this.pad.keydown(e);
+      return;
+    }
+    e.preventDefault();
+    this.film.playOrPause();
+  }
+
+  /** @param {string} key */
+  #press(key) {
+    this.film.release();
+    this.pad.press(key);
+  }
+
+  #reset() {
+    this.film.release();
+    this.editing.replace([], identityOf(this.data.outline));
+  }
+
+  #keepPose() {
+    this.film.release();
+    const { pins, frame } = this.editing;
+    this.film.keep({ pins, frame });
+    this.report.tell(`Pose ${this.film.kept.length} is kept`);
+    this.#changed();
+  }
+
+  /** The certified map that is shown. */
+  get shown() {
+    return this.#moving ?? this.editing.frame;
+  }
+
+  fit() {
+    const room = roomOn(this.#box);
+    const points = this.shown.images ?? [];
+    Object.assign(this.view, room.size, fitted(points, room, this.data.margin));
+    this.report.draw();
+    this.redraw();
+  }
+
+  /** Draws in the next frame. */
+  redraw() {
+    this.#paintPins();
+    if (this.#due) return;
+    this.#due = requestAnimationFrame(() => {
+      this.#due = 0;
+      this.film.drawOne();
+      const { width, height, unit, x, y } = this.view;
+      this.stage.paint(this.shown, { width, height, unit, x, y }, this.#overlay.value);
+      document.documentElement.dataset.drawn = String(this.shown.id);
+    });
+  }
+
+  /** @param {LiveMap | null} frame */
+  #showMoving(frame) {
+    this.#moving = frame;
+    this.report.proved(this.shown);
+    this.redraw();
+  }
+
+  /** @param {LiveMap} frame */
+  #thumbnail(frame) {
+    const size = { width: THUMBNAIL, height: THUMBNAIL };
+    const room = { ...size, left: 0, top: 0, size };
+    const view = fitted(frame.images ?? [], room, this.data.margin);
+    this.stage.paint(frame, { ...size, ...view }, PLAIN);
+    return this.stage.canvas;
+  }
+
+  /** @param {Pen} pen */
+  #drawPins(pen) {
+    const { editing, pad, hand, view } = this;
+    if (this.#moving) return;
+    const cursor = pad.focused ? hand.cursorAt : null;
+    const { marks } = editing;
+    drawMarks(pen, view, marks, { hovered: pad.found?.mark, held: pad.held, cursor });
+    drawMissed(pen, view, marks, editing.missed, editing.refused);
+    if (pad.encloses && pad.path.length > 2) drawLasso(pen, view, pad.path);
+  }
+
+  #changed() {
+    const { editing, report } = this;
+    this.#undo.disabled = !editing.canUndo;
+    this.#redo.disabled = !editing.canRedo;
+    this.#remove.disabled = editing.selected.length === 0;
+    byId("hint").hidden = editing.pins.length > 0 || this.film.kept.length > 0;
+    report.plot(editing.frame);
+    report.proved(this.shown);
+    report.pins(editing);
+    this.redraw();
+  }
+
+  // Colours.
+
+  get #stops() {
+    return this.data.colors.length / 3;
+  }
+
+  /** @param {number} stop of the colour map */
+  #css(stop) {
+    const color = this.data.colors.slice(3 * stop, 3 * stop + 3);
+    return `rgb(${color.map((share) => Math.round(255 * share))})`;
+  }
+
+  /** @param {number} bound on sigma_2 */
+  #color(bound) {
+    return this.#css(Math.round((1 - Math.min(bound, 1)) * (this.#stops - 1)));
+  }
+
+  #showLegend() {
+    const { value } = this.#overlay;
+    const range = this.data.ranges[value];
+    const legend = byId("legend");
+    legend.hidden = !range;
+    if (range) legend.replaceChildren(`${OVERLAYS[value]} ${range[0]}`, make("i"), `${range[1]}`);
+  }
+}

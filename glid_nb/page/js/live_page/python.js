@@ -1,0 +1,62 @@
+// The pose as lines of Python, for somebody who goes on with the package.
+
+/** @import { SolverOptions } from "../live/types.js" */
+/** @import { Pin } from "./data.js" */
+
+/** @type {Record<string, string>} the classes of `glid_nb.energies`, by the energies' names */
+const ENERGIES = {
+  iso: "SymmetricDirichlet",
+  exp: "ExponentialSymmetricDirichlet",
+  amips: "AMIPS",
+  mips: "MIPS",
+  arap: "ARAP",
+};
+const WITH_S = ["exp", "amips"];
+const WEIGHT = 1e5; // the package's default
+
+/**
+ * @param {readonly Pin[]} pins
+ * @param {SolverOptions} options
+ * @param {string} picture the name of its file
+ */
+export function pythonCode(pins, { energy = "iso", s = 1, weight = WEIGHT }, picture) {
+  const lines = [
+    "import glid_nb as glid",
+    "",
+    `image = glid.read_image(${JSON.stringify(picture)})  # the picture of the page`,
+    "domain = glid.Domain.from_cage(glid.trace(image).cage)",
+    "pose = glid.Pose(",
+    `    handles=${listOf(pins.map(({ handle }) => listOf(handle.map(numberText))))},`,
+    `    targets=${listOf(pins.map(({ target }) => listOf(target.map(numberText))))},`,
+    ...optional("angles", pins, ({ angle }) => angle),
+    ...optional("scales", pins, ({ scale }) => scale),
+    ...optional("weights", pins, ({ weight: firm }) => (firm === 1 ? null : firm), "1.0"),
+    ")",
+  ];
+  const made = `glid.energies.${ENERGIES[energy]}(${WITH_S.includes(energy) ? s : ""})`;
+  const given = weight === WEIGHT ? "" : `, glid.Options(p2p_weight=${weight})`;
+  return `${[...lines, `result = glid.solve(domain, pose, ${made}${given})`].join("\n")}\n`;
+}
+
+/**
+ * @param {string} name
+ * @param {readonly Pin[]} pins
+ * @param {(pin: Pin) => number | null} value
+ * @param {string} none
+ */
+function optional(name, pins, value, none = "None") {
+  const values = pins.map(value);
+  if (values.every((one) => one === null)) return [];
+  const texts = values.map((one) => (one === null ? none : numberText(one)));
+  return [`    ${name}=${listOf(texts)},`];
+}
+
+/** @param {string[]} items */
+function listOf(items) {
+  return `[${items.join(", ")}]`;
+}
+
+/** @param {number} x */
+function numberText(x) {
+  return String(Number(x.toFixed(6)) + 0);
+}
