@@ -30,12 +30,17 @@ _ARGUMENTS: dict[Any, dict[str, Any]] = {  # argparse's keywords for each annota
 
 def add_solver_flags(parser: argparse.ArgumentParser) -> None:
     group = parser.add_argument_group("energy and solver")
+    add_energy_flags(group)
+    _add_flags(group, glid_nb.Options)
+
+
+def add_energy_flags(group: Any) -> None:
+    """Add ``--energy`` and ``--s`` to a parser or a group."""
     energies = "; ".join(f"{name}: {energy.label}" for name, energy in ENERGIES.items())
     names = f"{{{','.join(ENERGIES)}}}"
     group.add_argument("--energy", metavar=names, default="iso", help=energies)
     s = f"parameter of {_WITH_S}, above 0 (default 1)"
     group.add_argument("--s", type=float, metavar="S", help=s)
-    _add_flags(group, glid_nb.Options)
 
 
 def add_trace_flags(parser: argparse.ArgumentParser) -> None:

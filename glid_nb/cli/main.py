@@ -8,10 +8,10 @@ from collections.abc import Sequence
 from typing import Any, NoReturn
 
 import glid_nb
-from glid_nb.cli import animate, audit, demo, doctor, lab, render, samples, solve, trace
+from glid_nb.cli import animate, audit, demo, doctor, lab, page, render, samples, solve, trace
 from glid_nb.cli.output import BAD_INPUT, one_line
 
-COMMANDS = (demo, trace, solve, render, animate, audit, samples, lab, doctor)
+COMMANDS = (demo, trace, solve, render, animate, page, audit, samples, lab, doctor)
 
 
 class OneLineParser(argparse.ArgumentParser):

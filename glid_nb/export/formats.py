@@ -22,6 +22,7 @@ FORMATS = {
     ".obj": Format("Mesh and texture (OBJ)", (".mtl", "-texture.png")),
     ".glb": Format("Mesh and texture (glTF)"),
     ".svg": Format("Cage (SVG)"),
+    ".live.html": Format("Live page, to drag in any browser (HTML)"),
     ".html": Format("Page with the shape (HTML)"),
     ".py": Format("Python script", ("-source.png",)),
     ".proof.json": Format("Proof for glid-check (JSON)", (".map.json",)),

@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike
 
 from glid_nb._arguments import check_type
 from glid_nb._errors import InputError
-from glid_nb.energies import Energy, SymmetricDirichlet
+from glid_nb.energies import ENERGIES, CustomEnergy, Energy, SymmetricDirichlet
 from glid_nb.export.moving import check_picture
 from glid_nb.export.page import GRID_LINES, LONGEST_CHAIN, factored, packed, playing
 from glid_nb.figures.style import COLORS, rgb
@@ -27,9 +27,6 @@ from glid_nb.motion import Motion
 from glid_nb.page import ShaderMap, bundle, stylesheet, template, webgl2_shaders
 from glid_nb.pose import Pose
 from glid_nb.solvers.stiffness import stiff_nodes
-
-LIVE_ENERGIES = ("iso", "exp", "amips", "mips", "arap")
-"""Names of the energies that the solver in a page knows."""
 
 _VERTICES = 300  # of the mesh before the page divides its triangles
 _STEP = 2.5e-5  # rounding of the mesh, as a share of the shape's size
@@ -62,8 +59,8 @@ def live_page_html(
     """
     check_type("shown", shown, Domain | HarmonicMap | Motion, "pass a domain or a map", InputError)
     energy = SymmetricDirichlet() if energy is None else energy
-    if energy.name not in LIVE_ENERGIES:
-        known = ", ".join(LIVE_ENERGIES)
+    if energy.name not in ENERGIES or isinstance(energy, CustomEnergy):
+        known = ", ".join(ENERGIES)
         raise InputError(f"a live page has no energy {energy.name!r}; choose one of {known}")
     texture = as_rgba8(image)
     domain = _rounded(shown if isinstance(shown, Domain) else shown.domain)

@@ -262,11 +262,20 @@ class Editor(ClosingWidget, ipywidgets.VBox):
         return self.deformation.solve(timeout)
 
     def export(
-        self, path: str | Path, size: tuple[int, int] | None = None, view: View = "source"
+        self,
+        path: str | Path,
+        size: tuple[int, int] | None = None,
+        view: View = "source",
+        *,
+        live: bool = False,
     ) -> tuple[Path, ...]:
         """Export the pose as .png, .obj, .glb, .svg, .html, .py or .proof.json, or the session as
         .glid. The suffixes .gif, .apng, .mp4, .webm, .sheet.png, .zip and .motion.json export the
         motion.
+
+        With ``live=True``, or the suffix .live.html, a page has a solver of its own. Its reader
+        drags the pins in any browser, without Python and without a network
+        (`export.live_page_html`). With several poses it holds their motion.
 
         ``size`` and ``view`` of a picture are as in `glid_nb.render`. Returns the written files:
         ``path``, then additional files, such as ``-texture.png`` of a mesh, or ``.map.json`` of a
@@ -274,7 +283,7 @@ class Editor(ClosingWidget, ipywidgets.VBox):
         EditError if that is not possible, for example while the solver is paused. Raises an
         ExportError for another suffix, or if an additional file would replace another file.
         """
-        return exporting.export(self.model, path, size, view)
+        return exporting.export(self.model, path, size, view, live)
 
     def save(self, path: str | Path) -> None:
         """Write a session file. Its poses are solved first, or later when the file is opened."""

@@ -1,5 +1,6 @@
 """Exports of an editor. The file's suffix selects the format. Motions export in the background."""
 
+import re
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -16,7 +17,7 @@ from glid_nb.certificate.certify import proof_text
 from glid_nb.export.formats import FORMATS, MOTION_FORMATS, ExportError, file_names, suffix_of
 from glid_nb.imaging.read import png
 from glid_nb.imaging.render import View
-from glid_nb.motion import Motion
+from glid_nb.motion import Motion, unlike_turns
 from glid_nb.session.animation import Animation, motion_of
 from glid_nb.session.document_file import document_bytes
 from glid_nb.session.editor_model import EditorModel
@@ -63,12 +64,20 @@ def check_free(model: EditorModel, paths: Sequence[Path], owner: Path) -> None:
 
 
 def export(
-    model: EditorModel, path: str | Path, size: tuple[int, int] | None = None, view: View = "source"
+    model: EditorModel,
+    path: str | Path,
+    size: tuple[int, int] | None = None,
+    view: View = "source",
+    live: bool = False,
 ) -> tuple[Path, ...]:
     """Write `exported` files. They may replace files of an earlier export. Raises an
     `OccupiedError` if additional files would replace others."""
     path = Path(path)
-    if path.name.lower().endswith(tuple(MOTION_FORMATS.keys() - FORMATS.keys())):
+    if live:
+        if not path.name.lower().endswith(".html"):
+            raise ExportError(f"{path.name!r:.200}: the name of a live page must end in .html")
+        files = {path.name: live_page(model, path.name)}
+    elif path.name.lower().endswith(tuple(MOTION_FORMATS.keys() - FORMATS.keys())):
         motion = motion_of(model.deformation.solved_state())
         files = _motion_files(model, motion, path.name, **({"size": max(size)} if size else {}))
     else:
@@ -88,6 +97,8 @@ def exported(
     pose cannot be solved, so that a picture, a mesh or a proof would show another map.
     """
     deformation, suffix = model.deformation, suffix_of(path.name, FORMATS)
+    if suffix == ".live.html":
+        return {path.name: live_page(model, path.name)}
     if suffix in (".glid", ".py"):
         deformation.finish()
         state = deformation.state
@@ -119,6 +130,28 @@ def exported(
         case _:
             contents = [python_code(document, names[1]).encode(), png(image)]
     return dict(zip(names, contents, strict=True))
+
+
+def live_page(model: EditorModel, name: str) -> bytes:
+    """A page with a solver of its own, at the edited pose; with several poses, with their motion.
+
+    Raises an EditError if a pose cannot be solved, and an InputError for an energy of one's own.
+    """
+    state = model.deformation.solved_state()
+    current = state.current
+    shown, pose = state.map, state.pose
+    turns = [certificate_of(one.map) for one in state.poses]
+    if len(turns) > 1 and not any(unlike_turns(turns[0], one) for one in turns[1:]):
+        shown, pose = motion_of(state), [one.pose for one in state.poses]
+    page = to.live_page_html(
+        model.document.image,
+        shown,
+        pose,
+        current.energy,
+        current.options.p2p_weight,
+        title=re.sub(r"(\.live)?\.html$", "", name, flags=re.IGNORECASE),
+    )
+    return page.encode()
 
 
 def write(

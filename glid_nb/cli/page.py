@@ -1,0 +1,48 @@
+"""Make a live page of a picture: click to pin, drag, and nothing ever folds.
+
+The page is one HTML file, for any browser of 2023 or later, on phones too. It needs no Python and
+no network. The picture is traced as by `glid-nb trace`. The page proves every map that it shows.
+`--out -` is standard output.
+
+With --pose, a file of handles and targets, the page begins with these pins, and solves them itself.
+"""
+
+import argparse
+from pathlib import Path
+
+import glid_nb
+from glid_nb._errors import about
+from glid_nb.cli.flags import add_energy_flags, add_trace_flags, energy_of, trace_options_of
+from glid_nb.cli.many import destination
+from glid_nb.cli.output import STANDARD_OUTPUT, check_files, step, tell, write
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    add = parser.add_argument
+    add("image", type=Path, metavar="IMAGE", help="the picture's file")
+    out = "the file to write; - for standard output"
+    add("--out", type=destination, metavar="page.html", required=True, help=out)
+    add("--title", metavar="TEXT", help="the page's title (default: the picture's name)")
+    pose = "a file with handles and targets, which are pinned at first"
+    add("--pose", type=Path, metavar="pose.json", help=pose)
+    add_energy_flags(parser)
+    add_trace_flags(parser)
+
+
+def run(chosen: argparse.Namespace) -> None:
+    out = chosen.out.path
+    check_files([out], [chosen.image, chosen.pose, chosen.scribbles])
+    energy, options = energy_of(chosen), trace_options_of(chosen)
+    pose = None if chosen.pose is None else glid_nb.io.load_pose(chosen.pose)
+    image = glid_nb.read_image(chosen.image)
+    with about(chosen.image), step(f"tracing {chosen.image.name}"):
+        domain = glid_nb.Domain.from_cage(glid_nb.trace(image, options).cage)
+    if pose is not None:
+        with about(chosen.pose):
+            pose.check_inside(domain)
+    title = chosen.image.stem if chosen.title is None else chosen.title
+    with step("making the page"):
+        page = glid_nb.export.live_page_html(image, domain, pose, energy, title=title)
+    write(out, page)
+    size = "" if out is STANDARD_OUTPUT else f", {len(page.encode()) / 1000:.0f} kB"
+    tell(f"{out}: a live page{size}; open it in a browser", out)
