@@ -124,7 +124,8 @@ def _start(start: HarmonicMap | Motion) -> list[float]:
     identity = HarmonicMap.identity(map.domain)
     if np.array_equal(map.phi, identity.phi) and np.array_equal(map.psi, identity.psi):
         return []
-    return np.concatenate([map.phi.real, map.phi.imag, map.psi.real, map.psi.imag]).tolist()
+    parts = [part(one) for one in (map.phi, map.psi) for part in (np.real, np.imag)]
+    return np.concatenate(parts).tolist()
 
 
 def _pins(pose: Pose | None) -> list[dict[str, Any]]:

@@ -33,13 +33,13 @@ e shaders do not fit together.");return s}function St(i,t,e){let s=i.createShade
 throw new b(i.getShaderInfoLog(s)??"A shader does not compile.");return s}function Ie({source:i,heights:t}){
 let e=i.length/2,s=new Float32Array(3*e);for(let n=0;n<e;n++)s.set([i[2*n],i[2*n+1],t[n]],3*n);return s}
 function Ne({heights:i,triangles:t}){let e=([s,n,o])=>i[s]+i[n]+i[o];return[...t].sort((s,n)=>e(s)-e(
-n))}function Fe(i,t,e,s,n){let o=2/(e*i),r=2/(e*t);return[o,0,0,0,0,r,0,0,0,0,-1,0,-s*o,-n*r,0,1]}function Ce(i){return Uint8Array.from(atob(i),t=>t.charCodeAt(0)).buffer}async function T({bytes:i,step:t},e){
+n))}function Fe(i,t,e,s,n){let o=2/(e*i),r=2/(e*t);return[o,0,0,0,0,r,0,0,0,0,-1,0,-s*o,-n*r,0,1]}function Ce(i){return Uint8Array.from(atob(i),t=>t.charCodeAt(0)).buffer}async function S({bytes:i,step:t},e){
 let s=new Blob([Ce(i)]).stream().pipeThrough(new DecompressionStream("deflate")),n=new Uint8Array(await new Response(
 s).arrayBuffer()),o=n.length/4,r=new Int32Array(o);for(let a=0;a<o;a++){let c=n[a]|n[o+a]<<8|n[2*o+a]<<
 16|n[3*o+a]<<24,l=c>>>1^-(c&1);r[a]=l+2*(r[a-e]??0)-(r[a-2*e]??0)}return Float32Array.from(r,a=>t*a)}
-async function Ot({sizes:i,rows:t,shares:e},s){let n=await T(t,t.width),o=await T(e,i.length),r=new Float64Array(
+async function Ot({sizes:i,rows:t,shares:e},s){let n=await S(t,t.width),o=await S(e,i.length),r=new Float64Array(
 o.length/i.length*s);return o.forEach((a,h)=>{let c=h%i.length,l=s*Math.floor(h/i.length);for(let u=0;u<
-s;u++)r[l+u]+=a/i[c]*n[s*c+u]}),Float32Array.from(r)}async function Pt(i){let t=await T(i,3);return Array.
+s;u++)r[l+u]+=a/i[c]*n[s*c+u]}),Float32Array.from(r)}async function Pt(i){let t=await S(i,3);return Array.
 from({length:t.length/3},(e,s)=>{let[n,o,r]=t.subarray(3*s,3*s+3);return[n,n+o,n+r]})}function w([i,t],[e,s]){return Math.hypot(i-e,t-s)}var G=class{x=0;y=0;unit=1;width=0;height=0;constructor(t,{
 up:e=1,nearest:s,farthest:n}){this.changed=t,this.up=e,this.nearest=s,this.farthest=n}toWorld([t,e]){
 let s=this.x+(t-this.width/2)*this.unit,n=this.y-this.up*(e-this.height/2)*this.unit;return[s,n]}toScreen([
@@ -58,14 +58,14 @@ l])/2,(s[2*c+1]+s[2*l+1])/2),n.push((n[c]+n[l])/2),o.set(u,p),p},h=e.flatMap(([c
 a(c,l),a(l,u),a(u,c)];return[[c,d,v],[d,l,p],[v,p,u],[d,p,v]]});return{source:Float32Array.from(s),heights:Float32Array.
 from(n),triangles:h}}function ut(i,t){return t>0?ut(Be(i),t-1):i}function ft({source:i}){return Array.
 from({length:i.length/2},(t,e)=>[i[2*e],i[2*e+1]])}function Rt({source:i,heights:t,triangles:e},s,[n,
-o]){let r=-1/0,a=null;for(let[h,c,l]of e){let[u,d]=[s[2*h],s[2*h+1]],[p,v]=[s[2*c]-u,s[2*c+1]-d],[L,
-D]=[s[2*l]-u,s[2*l+1]-d],lt=p*D-v*L,A=((n-u)*D-(o-d)*L)/lt,g=(p*(o-d)-v*(n-u))/lt;if(!(A>=0&&g>=0&&A+
+o]){let r=-1/0,a=null;for(let[h,c,l]of e){let[u,d]=[s[2*h],s[2*h+1]],[p,v]=[s[2*c]-u,s[2*c+1]-d],[_,
+D]=[s[2*l]-u,s[2*l+1]-d],lt=p*D-v*_,A=((n-u)*D-(o-d)*_)/lt,g=(p*(o-d)-v*(n-u))/lt;if(!(A>=0&&g>=0&&A+
 g<=1))continue;let M=1-A-g,Tt=M*t[h]+A*t[c]+g*t[l];Tt<=r||(r=Tt,a=[M*i[2*h]+A*i[2*c]+g*i[2*l],M*i[2*
 h+1]+A*i[2*c+1]+g*i[2*l+1]])}return a}function H(i){let[t,e,s,n]=[1/0,1/0,-1/0,-1/0];for(let o=0;o<i.
 length;o+=2)t=Math.min(t,i[o]),s=Math.max(s,i[o]),e=Math.min(e,i[o+1]),n=Math.max(n,i[o+1]);return[t,
 e,s,n]}function K(i,t){return{handle:i,target:t,angle:null,scale:null,weight:1,name:""}}function y(i){return{
 handles:i.map(({handle:t})=>t),targets:i.map(({target:t})=>t),weights:i.map(({weight:t})=>t),angles:i.
-map(({angle:t})=>t),scales:i.map(({scale:t})=>t)}}function z(i,t,e){return i.map((s,n)=>t.includes(n)?
+map(({angle:t})=>t),scales:i.map(({scale:t})=>t)}}function j(i,t,e){return i.map((s,n)=>t.includes(n)?
 {...s,...e(s,n)}:s)}function _t(i,t){return i.filter((e,s)=>!t.includes(s))}function It(i){return Math.
 min(20,Math.max(.05,i))}function dt(i){return Math.atan2(Math.sin(i),Math.cos(i))}function Nt(i,t,e){
 return i?((t??(e>0?-1:i))+e+i)%i:-1}function Ft(i,t,e,s){let n=new Map(i.map(h=>[Lt(h),h])),o=new Map(
@@ -75,7 +75,7 @@ s(l.handle)))}return a}function Ct(i,t,e){let s=(n,o)=>n+e*(o-n);return i.map((n
 angle===null||r.angle===null?null:dt(r.angle-n.angle);return{...n,target:[s(n.target[0],r.target[0]),
 s(n.target[1],r.target[1])],weight:s(n.weight,r.weight),angle:n.angle===null||a===null?null:n.angle+
 e*a,scale:n.scale===null||r.scale===null?null:s(n.scale,r.scale)}})}function Lt({handle:i}){return i.
-join()}var De=.15,j=class{pins=[];selected=[];inGesture=!1;#t=new $;#s=0;#e=0;constructor(t,e,s){this.solving=
+join()}var De=.15,z=class{pins=[];selected=[];inGesture=!1;#t=new $;#s=0;#e=0;constructor(t,e,s){this.solving=
 t,this.mesh=e,this.frame=s,this.told=()=>{},t.onmap=n=>this.#u(n)}begin(t){this.#a({pins:t,selected:[],
 coefficients:this.frame.coefficients})}get now(){let{pins:t,selected:e,frame:s}=this;return{pins:t,selected:e,
 coefficients:s.coefficients}}get canUndo(){return this.#t.canUndo}get canRedo(){return this.#t.canRedo}get settled(){
@@ -91,10 +91,10 @@ return this.frame.pins.images.length===2*this.pins.length}sourceAt(t){return Rt(
 images??[],t)}select(t){this.selected=[...new Set(t)],this.told()}selectNext(t){let e=Nt(this.pins.length,
 this.selected.at(-1),t);e>=0&&this.select([e])}pin(t){let e=this.sourceAt(t);return e?(this.#r([...this.
 pins,K(e,t)],[this.pins.length]),!0):!1}remove(){this.selected.length&&this.#r(_t(this.pins,this.selected),
-[])}move(t){let e=(s,n)=>({target:t.get(n)??s.target});this.#r(z(this.pins,[...t.keys()],e),this.selected)}nudge([
-t,e]){let s=({target:[n,o]})=>({target:[n+t,o+e]});this.#r(z(this.pins,this.selected,s),this.selected)}turn(t){
+[])}move(t){let e=(s,n)=>({target:t.get(n)??s.target});this.#r(j(this.pins,[...t.keys()],e),this.selected)}nudge([
+t,e]){let s=({target:[n,o]})=>({target:[n+t,o+e]});this.#r(j(this.pins,this.selected,s),this.selected)}turn(t){
 let e=(s,n)=>{let{angle:o,scale:r}=t(n);return{...o===void 0?{}:{angle:o===null?null:dt(o)},...r===void 0?
-{}:{scale:r===null?null:It(r)}}};this.selected.length&&this.#r(z(this.pins,this.selected,e),this.selected)}beginGesture(){
+{}:{scale:r===null?null:It(r)}}};this.selected.length&&this.#r(j(this.pins,this.selected,e),this.selected)}beginGesture(){
 this.inGesture||(this.#t.note(this.now),this.inGesture=!0)}endGesture(){this.inGesture=!1}cancelGesture(){
 if(!this.inGesture)return;this.inGesture=!1;let t=this.#t.drop();t&&this.#a(t)}undo(){let t=this.#t.
 undo(this.now);t&&this.#a(t)}redo(){let t=this.#t.redo(this.now);t&&this.#a(t)}replace(t,e){this.#t.
@@ -110,30 +110,30 @@ ton");for(let[n,o]of Object.entries(t))n.startsWith("on")?s.addEventListener(n.s
 "2d");if(!t)throw new Error("this browser does not draw on canvases");return t}function Bt(i,t,e,s){let n=0;return e.addEventListener("abort",()=>cancelAnimationFrame(n)),()=>{n||
 (n=requestAnimationFrame(()=>{n=0,s(Ue(i,t))}))}}function Ue(i,{width:t,height:e}){let s=window.devicePixelRatio||
 1,n=Math.round(t*s),o=Math.round(e*s);(i.width!==n||i.height!==o)&&(i.width=n,i.height=o);let r=k(i);
-return r.setTransform(s,0,0,s,0,0),r.clearRect(0,0,t,e),r}function _(i,[t,e],s,n,o){i.beginPath(),i.
-arc(t,e,s,0,2*Math.PI),E(i,n,o)}function S(i,t,e,s,n,o=1){_(i,t,e,[]),i.fillStyle=s,i.fill(),n&&E(i,
-[[o,n]])}function O(i,t,e=!0){i.beginPath();for(let s of t)s.forEach(([n,o],r)=>{r?i.lineTo(n,o):i.moveTo(
+return r.setTransform(s,0,0,s,0,0),r.clearRect(0,0,t,e),r}function I(i,[t,e],s,n,o){i.beginPath(),i.
+arc(t,e,s,0,2*Math.PI),E(i,n,o)}function O(i,t,e,s,n,o=1){I(i,t,e,[]),i.fillStyle=s,i.fill(),n&&E(i,
+[[o,n]])}function P(i,t,e=!0){i.beginPath();for(let s of t)s.forEach(([n,o],r)=>{r?i.lineTo(n,o):i.moveTo(
 n,o)}),e&&i.closePath()}function X([i,t],[e,s]){return[[i,t],[e,t],[e,s],[i,s]]}function V(i,t,e,s="\
-evenodd"){O(i,t),i.fillStyle=e,i.fill(s)}function E(i,t,e=[]){i.setLineDash(e);for(let[s,n]of t)i.lineWidth=
-s,i.strokeStyle=n,i.stroke();i.setLineDash([])}function Dt(i,t){let e=null,s=1/0;for(let n of i){let o=n.d+(n.loss??0);n.d>t||o>=s||(e=n,s=o)}return e}var P=6,Ge=4,$e=42,Ut=14,Gt=[36,112];function pt(i,t,e){let s=t.selected.at(-1),[n,o]=t.ring;if(n===void 0||o===void 0||s===void 0||!t.targets[s])
+evenodd"){P(i,t),i.fillStyle=e,i.fill(s)}function E(i,t,e=[]){i.setLineDash(e);for(let[s,n]of t)i.lineWidth=
+s,i.strokeStyle=n,i.stroke();i.setLineDash([])}function Dt(i,t){let e=null,s=1/0;for(let n of i){let o=n.d+(n.loss??0);n.d>t||o>=s||(e=n,s=o)}return e}var R=6,Ge=4,$e=42,Ut=14,Gt=[36,112];function pt(i,t,e){let s=t.selected.at(-1),[n,o]=t.ring;if(n===void 0||o===void 0||s===void 0||!t.targets[s])
 return null;let r=i.toScreen(e?.get(s)??t.targets[s]),a=$e*Math.min(2.5,Math.max(.5,o)),h=r[0]+a*Math.
-cos(n),c=r[1]-a*Math.sin(n);return{centre:r,radius:a,knob:[h,c]}}function Kt(i,t,e,s){let n=pt(i,t);return n?w(e,n.knob)<=Math.max(P+Ge,s)?{part:"scale"}:Math.abs(w(
+cos(n),c=r[1]-a*Math.sin(n);return{centre:r,radius:a,knob:[h,c]}}function Kt(i,t,e,s){let n=pt(i,t);return n?w(e,n.knob)<=Math.max(R+Ge,s)?{part:"scale"}:Math.abs(w(
 e,n.centre)-n.radius)<=s?{part:"turn"}:null:null}function Y(i,t,e){return $t(i,!1,t,e)??$t(i,!0,t,e)}
 function $t(i,t,e,s){let o=(t?i.images:i.targets).map((r,a)=>{let h=i.hidden.includes(a)?s/3:0;return{
-mark:a,reached:t,d:w(r,e),loss:h}});return Dt(o,s)}function zt(i,t){return t.filter(e=>!He(i,e)).map(
+mark:a,reached:t,d:w(r,e),loss:h}});return Dt(o,s)}function jt(i,t){return t.filter(e=>!He(i,e)).map(
 e=>{let[s,n]=i.toScreen(e),o=Ht(n,i.height),r=o<Gt[1]?Gt[0]:0,a=Ht(s,i.width-r);return{at:[a,o],target:e,
 angle:Math.atan2(n-o,s-a)}})}function He(i,t){let[e,s]=i.toScreen(t);return e>=0&&s>=0&&e<=i.width&&s<=i.height}function Ht(i,t){
-return Math.min(t-Ut,Math.max(Ut,i))}var jt=7.5,Wt=3.5,Xt=12,Ke=2,I="rgba(255,255,255,0.85)",Yt="rgba(255,255,255,0.9)",ze="#2b2b2b",qt="\
-#00d5e0",Jt="#063f45",je="#067a82",Zt="#0072b2",mt="#d55e00",Vt="rgba(40,40,40,0.75)";function gt(i,t,e){i.lineCap="round",O(i,t,!1),E(i,e)}function Qt(i,t,e){V(i,[t.line(e)],"rgba(0,114,178,0.12)"),E(i,[[3,I],[1.4,Zt]],[5,3])}function te(i,t,e,{
+return Math.min(t-Ut,Math.max(Ut,i))}var zt=7.5,Wt=3.5,Xt=12,Ke=2,N="rgba(255,255,255,0.85)",Yt="rgba(255,255,255,0.9)",je="#2b2b2b",qt="\
+#00d5e0",Jt="#063f45",ze="#067a82",Zt="#0072b2",mt="#d55e00",Vt="rgba(40,40,40,0.75)";function gt(i,t,e){i.lineCap="round",P(i,t,!1),E(i,e)}function Qt(i,t,e){V(i,[t.line(e)],"rgba(0,114,178,0.12)"),E(i,[[3,N],[1.4,Zt]],[5,3])}function te(i,t,e,{
 hovered:s,held:n,cursor:o}){let r=t.line(e.targets.map((h,c)=>n.get(c)??h)),a=t.line(e.images);We(i,
-r,a),r.forEach((h,c)=>{e.selected.includes(c)?S(i,h,Xt,"rgba(0,114,178,0.28)",Zt,2):c===s&&S(i,h,Xt,
+r,a),r.forEach((h,c)=>{e.selected.includes(c)?O(i,h,Xt,"rgba(0,114,178,0.28)",Zt,2):c===s&&O(i,h,Xt,
 "rgba(0,114,178,0.14)"),Xe(i,h,e.hidden.includes(c))}),Ve(i,t,e,n),Ye(i,t,e),a.forEach((h,c)=>{e.hidden.
-includes(c)||(S(i,h,Wt+1,Yt),S(i,h,Wt,"#111"))}),o&&qe(i,t.toScreen(o))}function We(i,t,e){let n=t.map(
-(o,r)=>[e[r],o]).filter(([o,r])=>o&&w(o,r)>=Ke);gt(i,n,[[3.6,I],[1.6,ze]])}function Xe(i,t,e){if(!e){
-S(i,t,jt,qt,Jt,1.4);return}_(i,t,jt,[[3.4,I],[1.6,je]],[3.5,2.4])}function Ve(i,t,e,s){let n=pt(t,e,
-s);if(!n)return;let[,,o,r]=e.ring,{centre:a,radius:h,knob:c}=n,[l,u]=c,d=o?mt:Vt;_(i,a,h,[[4,I]]),_(
-i,a,h,[[2,d]],o?[]:[6,4]),gt(i,[[a,c]],[[3,I],[1.2,d]]);let p=X([l-P,u-P],[l+P,u+P]);V(i,[p],r?mt:"#\
-fff"),E(i,[[1.6,r?"#fff":Vt]])}function Ye(i,t,e){for(let{at:s,angle:n}of zt(t,e.targets)){let o=(r,a)=>[
+includes(c)||(O(i,h,Wt+1,Yt),O(i,h,Wt,"#111"))}),o&&qe(i,t.toScreen(o))}function We(i,t,e){let n=t.map(
+(o,r)=>[e[r],o]).filter(([o,r])=>o&&w(o,r)>=Ke);gt(i,n,[[3.6,N],[1.6,je]])}function Xe(i,t,e){if(!e){
+O(i,t,zt,qt,Jt,1.4);return}I(i,t,zt,[[3.4,N],[1.6,ze]],[3.5,2.4])}function Ve(i,t,e,s){let n=pt(t,e,
+s);if(!n)return;let[,,o,r]=e.ring,{centre:a,radius:h,knob:c}=n,[l,u]=c,d=o?mt:Vt;I(i,a,h,[[4,N]]),I(
+i,a,h,[[2,d]],o?[]:[6,4]),gt(i,[[a,c]],[[3,N],[1.2,d]]);let p=X([l-R,u-R],[l+R,u+R]);V(i,[p],r?mt:"#\
+fff"),E(i,[[1.6,r?"#fff":Vt]])}function Ye(i,t,e){for(let{at:s,angle:n}of jt(t,e.targets)){let o=(r,a)=>[
 s[0]+a*Math.cos(n+r),s[1]+a*Math.sin(n+r)];V(i,[[o(0,11),o(2.4,9),o(-2.4,9)]],qt),E(i,[[1.6,Jt]])}}function qe(i,[
 t,e]){let s=(n,o)=>[[t+4*n,e+4*o],[t+13*n,e+13*o]];gt(i,[s(1,0),s(-1,0),s(0,1),s(0,-1)],[[4,Yt],[1.6,
 mt]])}var Je=["pointerdown","pointermove","wheel","keydown","keyup","contextmenu"];function ee(i){for(let t of Je)
@@ -154,7 +154,7 @@ M3 8h10",open:"M2 12.5v-9h4l1.5 2H14v7z",play:"M5 3l8 5-8 5z",pause:"M5.5 3v10 M
 8 4.2a3.8 3.8 0 1 0 0 7.6 3.8 3.8 0 0 0 0-7.6z",onion:"M6.2 4a4 4 0 1 0 0 8 4 4 0 0 0 0-8z M9.8 4a4 \
 4 0 1 1 0 8",copy:"M5.5 5.5h8v8h-8z M3 10.5v-8h8",export:"M8 2v8 M4.8 6.8L8 10l3.2-3.2 M3 13.5h10",trash:"\
 M3 4.5h10 M6.5 4.5v-2h3v2 M4.5 4.5l.6 9h5.8l.6-9"};function es(i){return`<svg viewBox="0 0 16 16" ar\
-ia-hidden="true"><path d="${ts[i]}"/></svg>`}function N(i,t,e,s="glid-icon"){return f("button",{title:t,
+ia-hidden="true"><path d="${ts[i]}"/></svg>`}function T(i,t,e,s="glid-icon"){return f("button",{title:t,
 "aria-label":t,className:s,onclick:e,innerHTML:es(i)})}function q(i){if(!i.ctrlKey&&!i.metaKey)return null;let t=i.key.toLowerCase();return t==="z"?i.shiftKey?
 "redo":"undo":t==="y"?"redo":null}var ne=4,ss=600,ns=100,is=8,os=3,J=class{pointers=new Map;mode=null;grip=null;held=new Map;path=[];encloses=null;found=null;rests=null;#t=[
 0,0];#s=!1;#e=!1;#o=!1;#n;constructor(t,e,s,n){this.element=t,this.view=e,this.link=s,this.behaviour=
@@ -212,8 +212,8 @@ n-1023:-1022,a=o.toString(16).padStart(52/4,"0");return`${s}0x${n?1:0}.${a}p${r<
 coefficients:t,certificate:e,panels:s}){let n=t.length/4,o=(g,M)=>[t[g*n+M]+0,t[(g+1)*n+M]+0],r=Array.
 from({length:n},(g,M)=>M),{cage:a,holes:h,offset_cage:c,offset_holes:l,hole_points:u}=i,d={cage:a,holes:h,
 offset_cage:c,offset_holes:l,hole_points:u,phi:r.map(g=>o(0,g)),psi:r.map(g=>o(2,g))},{sigma2_lower:p,
-sigma1_upper:v,k_upper:L,windings:D}=e,A={format:"glid_nb-proof",version:1,...wt({...d,...{sigma2_lower:p,
-sigma1_upper:v,k_upper:L}}),windings:D,panels:s};return{map:JSON.stringify({format:"glid_nb-map",version:1,
+sigma1_upper:v,k_upper:_,windings:D}=e,A={format:"glid_nb-proof",version:1,...wt({...d,...{sigma2_lower:p,
+sigma1_upper:v,k_upper:_}}),windings:D,panels:s};return{map:JSON.stringify({format:"glid_nb-map",version:1,
 ...d}),proof:JSON.stringify(A)}}function wt(i){if(typeof i=="number")return as(i+0);if(Array.isArray(
 i))return i.map(wt);let t=Object.entries(i);return Object.fromEntries(t.map(([e,s])=>[e,wt(s)]))}var hs={iso:"SymmetricDirichlet",exp:"ExponentialSymmetricDirichlet",amips:"AMIPS",mips:"MIPS",arap:"\
 ARAP"},cs=["exp","amips"],re=1e5;function ae(i,{energy:t="iso",s:e=1,weight:s=re},n){let o=["import \
@@ -261,51 +261,50 @@ return r=>{let a=s.findIndex(([h,c])=>h===r[0]&&c===r[1]);return[o.images[2*a],o
 return i*i*(3-2*i)}var ge=1,we=100,ws=1/25,tt=class{kept=[];seen=!1;element=f("div",{className:"film",hidden:!0});#t=f(
 "div",{className:"poses",role:"group","aria-label":"Kept poses"});#s=f("button",{className:"play",title:"\
 Play or pause (Space)"});#e=f("input",{type:"range",step:String(ws),"aria-label":"Time, seconds"});#o=f(
-"i",{title:"Certified σ₂ at the knots"});#n=f("output",{className:"clock"});#r=f("button",{className:"\
-quiet",title:"Remove this pose"},"Remove pose");#a=new WeakMap;#i=null;#u=[];#h=0;#p=0;#m=null;#c=0;#l=null;#d=!1;#f=null;#v=!0;#g=null;#x=null;constructor(t,e){
+"i",{title:"Certified σ₂ at the knots"});#n=f("output",{className:"clock"});#r=T("trash","Remove \
+this pose",()=>this.#A());#a=new WeakMap;#i=null;#u=[];#h=0;#p=0;#m=null;#c=0;#l=null;#d=!1;#f=null;#v=!0;#g=null;#x=null;constructor(t,e){
 this.start=t,this.screen=e;let s=f("div",{className:"track"},this.#e,this.#o),n=f("div",{className:"\
-player"},this.#s,s,this.#n);this.player=n,this.element.append(this.#t,n,this.#r),this.#s.addEventListener(
+player"},this.#s,s,this.#n);this.player=n,this.element.append(this.#t,this.#r,n),this.#s.addEventListener(
 "click",()=>this.playOrPause()),this.#e.addEventListener("input",()=>this.#C(Number(this.#e.value))),
-this.#r.addEventListener("click",()=>this.#A()),this.#T()}#w(){return this.#l??=this.start(),this.#l}get playing(){
-return!!this.#m?.plays}drawOne(){this.#x?.drawOne()}async load(t,e){let s=await this.#w(),n=[];for(let[
-o,r]of t.keyframes.entries()){let{coefficients:a}=t.knots[t.times.indexOf(r)],h=e[o]??[],c=await s.map(
-{type:"place",pose:y(h),coefficients:a});n.push({pins:h,frame:c})}this.kept=n,this.#P(t),this.#E()}async keep(t){
-this.kept=[...this.kept,t],this.#E(),await this.#O()}release(){this.#k(null),this.#v=!0,this.#f=null,
-this.seen&&(this.seen=!1,this.screen.show(null),this.#M())}playOrPause(){let t=this.#i;t&&this.#k(this.
-playing?null:ue(t,this.#h,!0))}#E(){let t=this.#y,e=s=>this.kept[t.indexOf(s)];this.#x=new Z(t,s=>this.#b(
-s,e(s)),s=>this.screen.thumbnail(e(s).frame),()=>this.screen.redraw()),this.#t.replaceChildren(...this.#x.
-buttons),this.element.hidden=this.kept.length===0,this.player.hidden=this.kept.length<2,this.#M(),this.
-screen.redraw()}get#y(){return this.kept.map((t,e)=>this.#g?.[e]??e*ge)}#b(t,e){let s=this.#i;if(!s||
-!this.seen){this.#h=t,this.screen.take(e),this.#M();return}this.#k(fe(s,this.#h,t),()=>{this.release(),
-this.screen.take(e),this.#M()})}#A(){let t=this.#S;t<0||(this.release(),this.kept=this.kept.filter((e,s)=>s!==
-t),this.#g=null,this.#h=0,this.#E(),this.#O())}get#S(){return this.#y.findIndex(t=>Math.abs(t-this.#h)<
-.001)}async#O(){this.#p+=1;let t=this.#p;if(this.#g=null,this.#i=null,this.#T(),!(this.kept.length<2)){
-this.#n.textContent="finding the way…";try{let e=await this.#I(()=>t!==this.#p);if(t!==this.#p)return;
-let s=e.map((n,o)=>o*ge*(this.kept.length-1)/(e.length-1));this.#P({times:s,knots:e,keyframes:this.#y,
-repeat:"ping-pong"})}catch(e){if(t!==this.#p)return;this.#n.textContent="no way was found",this.screen.
-say(`The poses cannot be joined: ${e.message}`)}}}async#I(t){let{kept:e}=this,{coefficients:s,certificate:n}=e[0].
-frame,o=[{coefficients:s,sigma2:n.sigma2_lower}];for(let r=0;r+1<e.length&&!t();r++)o.push(...await this.#N(
-e[r],e[r+1],o[o.length-1].coefficients));return o}async#N(t,e,s){let n=this.#a.get(t);if(n?.to===e&&
-n.start===s)return n.knots;let o=await me(await this.#w(),t,e,s);return this.#a.set(t,{start:s,to:e,
-knots:o}),o}#P({times:t,knots:e,keyframes:s,repeat:n}){let o=e[0].coefficients.length,r=new Float64Array(
-o*e.length);for(let[a,{coefficients:h}]of e.entries())r.set(h,a*o);this.#i=new Q({times:t,repeat:n},
-r),this.#u=e,this.#g=s,this.#h=Math.min(Math.max(this.#h,this.#i.start),this.#i.end),this.#e.min=String(
-this.#i.start),this.#e.max=String(this.#i.end),this.#o.style.background=this.#F(this.#i),this.#L(),this.#T()}#F(t){
-return`linear-gradient(to right, ${Array.from({length:we},(s,n)=>{let o=t.start+(n+.5)/we*(t.end-t.start),
-{piece:r}=t.place(o),a=Math.min(this.#u[r].sigma2,this.#u[r+1].sigma2);return`${this.screen.color(a)}\
- ${n}% ${n+1}%`})})`}#C(t){this.#k(null),this.#R(t)}#R(t){let e=this.#i;e&&(this.#h=t===e.end?t:e.within(
-t),this.#f=this.#h,this.#v=!1,this.#L(),this.#d||this.#B(e))}async#B(t){this.#d=!0;try{let e=await this.#w();
-for(;this.#f!==null;){let s=t.at(this.#f).slice();this.#f=null;let n=await e.map({type:"place",pose:y(
-[]),coefficients:s});if(this.#v)break;this.seen=!0,this.screen.show(n)}}catch{this.screen.say("This \
-instant is not proved, so the frame before stays.")}finally{this.#d=!1}}#L(){let t=this.#i;t&&(this.#e.
-value=String(this.#h),this.#n.textContent=`${this.#h.toFixed(1)} / ${t.end.toFixed(1)} s`,this.#M())}#M(){
-let{repeat:t,last:e=0}=this.#i??{},s=t==="ping-pong"&&this.#h>e;this.#x?.mark(s?2*e-this.#h:this.#h),
-this.#r.hidden=this.#S<0}#k(t,e=()=>{}){cancelAnimationFrame(this.#c),this.#m=t&&{...t,began:performance.
-now()},t&&(this.#c=requestAnimationFrame(s=>this.#_(s,e))),this.#T()}#_(t,e){if(!this.#m)return;let{
-began:s,lasts:n,at:o}=this.#m,r=Math.min(Math.max(t-s,0),n);if(this.#R(o(r)),r<n){this.#c=requestAnimationFrame(
-a=>this.#_(a,e));return}this.#k(null),e()}#T(){let{playing:t}=this;this.#s.disabled=!this.#i,this.#e.
-disabled=!this.#i,this.#s.textContent=t?"❚❚":"▶",this.#s.setAttribute("aria-label",t?"Pause":"\
-Play")}};var ys={mouse:13,pen:16,touch:26},xs=/^(Arrow\w+|Delete|Backspace|Escape|Enter|[0fax,.<>+=-])$/i,bs=2,
+this.#T()}#w(){return this.#l??=this.start(),this.#l}get playing(){return!!this.#m?.plays}drawOne(){
+this.#x?.drawOne()}async load(t,e){let s=await this.#w(),n=[];for(let[o,r]of t.keyframes.entries()){
+let{coefficients:a}=t.knots[t.times.indexOf(r)],h=e[o]??[],c=await s.map({type:"place",pose:y(h),coefficients:a});
+n.push({pins:h,frame:c})}this.kept=n,this.#P(t),this.#E()}async keep(t){this.kept=[...this.kept,t],this.#E(),
+await this.#O()}release(){this.#k(null),this.#v=!0,this.#f=null,this.seen&&(this.seen=!1,this.screen.
+show(null),this.#M())}playOrPause(){let t=this.#i;t&&this.#k(this.playing?null:ue(t,this.#h,!0))}#E(){
+let t=this.#y,e=s=>this.kept[t.indexOf(s)];this.#x=new Z(t,s=>this.#b(s,e(s)),s=>this.screen.thumbnail(
+e(s).frame),()=>this.screen.redraw()),this.#t.replaceChildren(...this.#x.buttons),this.element.hidden=
+this.kept.length===0,this.player.hidden=this.kept.length<2,this.#M(),this.screen.redraw()}get#y(){return this.
+kept.map((t,e)=>this.#g?.[e]??e*ge)}#b(t,e){let s=this.#i;if(!s||!this.seen){this.#h=t,this.screen.take(
+e),this.#M();return}this.#k(fe(s,this.#h,t),()=>{this.release(),this.screen.take(e),this.#M()})}#A(){
+let t=this.#S;t<0||(this.release(),this.kept=this.kept.filter((e,s)=>s!==t),this.#g=null,this.#h=0,this.#E(),
+this.#O())}get#S(){return this.#y.findIndex(t=>Math.abs(t-this.#h)<.001)}async#O(){this.#p+=1;let t=this.#p;
+if(this.#g=null,this.#i=null,this.#T(),!(this.kept.length<2)){this.#n.textContent="finding the way…";
+try{let e=await this.#I(()=>t!==this.#p);if(t!==this.#p)return;let s=e.map((n,o)=>o*ge*(this.kept.length-
+1)/(e.length-1));this.#P({times:s,knots:e,keyframes:this.#y,repeat:"ping-pong"})}catch(e){if(t!==this.#p)
+return;this.#n.textContent="no way was found",this.screen.say(`The poses cannot be joined: ${e.message}`)}}}async#I(t){
+let{kept:e}=this,{coefficients:s,certificate:n}=e[0].frame,o=[{coefficients:s,sigma2:n.sigma2_lower}];
+for(let r=0;r+1<e.length&&!t();r++)o.push(...await this.#N(e[r],e[r+1],o[o.length-1].coefficients));
+return o}async#N(t,e,s){let n=this.#a.get(t);if(n?.to===e&&n.start===s)return n.knots;let o=await me(
+await this.#w(),t,e,s);return this.#a.set(t,{start:s,to:e,knots:o}),o}#P({times:t,knots:e,keyframes:s,
+repeat:n}){let o=e[0].coefficients.length,r=new Float64Array(o*e.length);for(let[a,{coefficients:h}]of e.
+entries())r.set(h,a*o);this.#i=new Q({times:t,repeat:n},r),this.#u=e,this.#g=s,this.#h=Math.min(Math.
+max(this.#h,this.#i.start),this.#i.end),this.#e.min=String(this.#i.start),this.#e.max=String(this.#i.
+end),this.#o.style.background=this.#F(this.#i),this.#L(),this.#T()}#F(t){return`linear-gradient(to r\
+ight, ${Array.from({length:we},(s,n)=>{let o=t.start+(n+.5)/we*(t.end-t.start),{piece:r}=t.place(o),
+a=Math.min(this.#u[r].sigma2,this.#u[r+1].sigma2);return`${this.screen.color(a)} ${n}% ${n+1}%`})})`}#C(t){
+this.#k(null),this.#R(t)}#R(t){let e=this.#i;e&&(this.#h=t===e.end?t:e.within(t),this.#f=this.#h,this.#v=
+!1,this.#L(),this.#d||this.#B(e))}async#B(t){this.#d=!0;try{let e=await this.#w();for(;this.#f!==null;){
+let s=t.at(this.#f).slice();this.#f=null;let n=await e.map({type:"place",pose:y([]),coefficients:s});
+if(this.#v)break;this.seen=!0,this.screen.show(n)}}catch{this.screen.say("This instant is not proved\
+, so the frame before stays.")}finally{this.#d=!1}}#L(){let t=this.#i;t&&(this.#e.value=String(this.#h),
+this.#n.textContent=`${this.#h.toFixed(1)} / ${t.end.toFixed(1)} s`,this.#M())}#M(){let{repeat:t,last:e=0}=this.#i??
+{},s=t==="ping-pong"&&this.#h>e;this.#x?.mark(s?2*e-this.#h:this.#h),this.#r.hidden=this.#S<0}#k(t,e=()=>{}){
+cancelAnimationFrame(this.#c),this.#m=t&&{...t,began:performance.now()},t&&(this.#c=requestAnimationFrame(
+s=>this.#_(s,e))),this.#T()}#_(t,e){if(!this.#m)return;let{began:s,lasts:n,at:o}=this.#m,r=Math.min(
+Math.max(t-s,0),n);if(this.#R(o(r)),r<n){this.#c=requestAnimationFrame(a=>this.#_(a,e));return}this.#k(
+null),e()}#T(){let{playing:t}=this;this.#s.disabled=!this.#i,this.#e.disabled=!this.#i,this.#s.textContent=
+t?"❚❚":"▶",this.#s.setAttribute("aria-label",t?"Pause":"Play")}};var ys={mouse:13,pen:16,touch:26},xs=/^(Arrow\w+|Delete|Backspace|Escape|Enter|[0fax,.<>+=-])$/i,bs=2,
 Es=5,vs=.1,As=.5,Ms=6,ks=30,ye=Math.PI/36,vt=1.05,xe={ArrowLeft:[-1,0],ArrowRight:[1,0],ArrowUp:[0,1],
 ArrowDown:[0,-1]},Ts={"<":[ye,1],">":[-ye,1],"+":[0,vt],"=":[0,vt],"-":[0,1/vt]},et=class{reach=ys;keys=xs;signal=new AbortController().
 signal;cursorAt=null;#t=null;constructor(t,e,s){this.editing=t,this.view=e,this.around=s,this.actions=
@@ -359,16 +358,16 @@ c-20-22:c+20;i.beginPath(),i.roundRect(l,u,r,22,22/2),i.fillStyle=Ss,i.fill(),i.
 o,l+8,u+22/2)}}function At(i){return(Math.floor(1e3*i)/1e3).toFixed(3)}function Mt(i){return(Math.ceil(1e3*i)/1e3).
 toFixed(3)}var ve=90,st=2;function Os(i,t,e,s){let[n,o]=s??[Math.min(...i),Math.max(...i)],r=Math.max(o-n,1e-12),
 a=(t-2*st)/(ve-1);return i.map((h,c)=>{let l=Math.min(Math.max((h-n)/r,0),1);return[t-st-(i.length-1-
-c)*a,e-st-l*(e-2*st)]})}var R=class{#t=[];constructor(t,e,s,n){this.range=s,this.words=n,this.value=
+c)*a,e-st-l*(e-2*st)]})}var L=class{#t=[];constructor(t,e,s,n){this.range=s,this.words=n,this.value=
 f("output",{}),this.canvas=f("canvas",{"aria-hidden":"true"});let o=f("dt",{},t);this.element=f("div",
 {className:"plot",title:e},o,this.value,this.canvas)}add(t){this.#t.push(t),this.#t.length>ve&&this.#t.
 shift(),this.value.textContent=this.words(t)}draw(){let{canvas:t}=this,{clientWidth:e,clientHeight:s}=t;
 if(!e||!s)return;let n=window.devicePixelRatio||1;t.width=Math.round(e*n),t.height=Math.round(s*n);let o=k(
 t);o.scale(n,n);let r=Os(this.#t,e,s,this.range),a=r.at(-1);if(!a)return;let h=getComputedStyle(t).color,
-[c]=r;O(o,[[...r,[a[0],s],[c[0],s]]]),o.globalAlpha=.12,o.fillStyle=h,o.fill(),o.globalAlpha=1,o.lineJoin=
-"round",O(o,[r],!1),E(o,[[1.5,h]]),o.beginPath(),o.arc(a[0],a[1],2,0,2*Math.PI),o.fillStyle=h,o.fill()}};var Ps=5e3,Rs=.02,nt=class{#t=new R("Certificate","The least stretch anywhere, as proved. The map fo\
-lds nowhere while this is above 0",[0,1+Rs],t=>`σ₂ ≥ ${At(t)}`);#s=new R("Energy","The distorti\
-on of the shape, and of the pins",null,t=>t.toPrecision(4));#e=new R("Step","Time of a certified ste\
+[c]=r;P(o,[[...r,[a[0],s],[c[0],s]]]),o.globalAlpha=.12,o.fillStyle=h,o.fill(),o.globalAlpha=1,o.lineJoin=
+"round",P(o,[r],!1),E(o,[[1.5,h]]),o.beginPath(),o.arc(a[0],a[1],2,0,2*Math.PI),o.fillStyle=h,o.fill()}};var Ps=5e3,Rs=.02,nt=class{#t=new L("Certificate","The least stretch anywhere, as proved. The map fo\
+lds nowhere while this is above 0",[0,1+Rs],t=>`σ₂ ≥ ${At(t)}`);#s=new L("Energy","The distorti\
+on of the shape, and of the pins",null,t=>t.toPrecision(4));#e=new L("Step","Time of a certified ste\
 p",null,t=>`${t.toFixed(1)} ms`);#o=-1;#n;constructor(){m("plots").append(this.#t.element,this.#s.element,
 this.#e.element)}plot({id:t,certificate:e,energy:s,steps:n,took:o}){t===this.#o&&!n||(this.#o=t,this.#t.
 add(e.sigma2_lower),this.#s.add(s),n&&this.#e.add(o/n),this.draw())}draw(){for(let t of[this.#t,this.#s,
@@ -399,8 +398,8 @@ function ke(i,t){let e=i.length/4,s=new Float64Array(4*e);for(let n=0;n<e;n++){l
 n],s[e+n]=i[2*n+1],s[2*e+n]=o?i[2*n]:i[2*(e+n)],s[3*e+n]=o?-i[2*n+1]:i[2*(e+n)+1]}return s}function ot(i){
 let e=[...i.offset_cage,...i.offset_holes.flat()].length+i.hole_points.length,s=new Float64Array(4*e);
 return i.offset_cage.forEach(([o,r],a)=>{s[a]=o,s[e+a]=r}),s}var Te={0:"Picture",1:"Grid",2:"Stretch σ₁",3:"Stretch σ₂",4:"Dilatation k"},Is="0",Se=56,rt=class{report=new nt;#t=m(
-"pad");#s=f("select",{id:"overlay","aria-label":"What is shown"});#e=N("undo","Undo (Ctrl+Z)",()=>this.#l(
-"undo"));#o=N("redo","Redo (Ctrl+Shift+Z)",()=>this.#l("redo"));#n=N("trash","Remove the selected pi\
+"pad");#s=f("select",{id:"overlay","aria-label":"What is shown"});#e=T("undo","Undo (Ctrl+Z)",()=>this.#l(
+"undo"));#o=T("redo","Redo (Ctrl+Shift+Z)",()=>this.#l("redo"));#n=T("trash","Remove the selected pi\
 ns (Delete)",()=>this.#l("Delete"));#r=se(be);#a=null;#i=0;#u;constructor(t,{stage:e,editing:s,view:n},o){
 this.data=t,this.stage=e,this.editing=s,this.view=n,this.film=new tt(o,{show:a=>this.#v(a),thumbnail:a=>this.#g(
 a),redraw:()=>this.redraw(),take:({pins:a,frame:h})=>s.replace(a,h.coefficients),say:a=>this.report.
@@ -409,7 +408,7 @@ redraw(),play:()=>this.film.playOrPause(),say:a=>this.report.say(a),help:this.#r
 this.#t,n,this.hand,this.hand);let r=f("canvas",{className:"paper"});this.#t.append(r),this.#u=Bt(r,
 n,this.hand.signal,a=>this.#x(a)),n.changed=()=>this.redraw(),s.told=()=>this.#w(),this.#h(),this.#m(),
 this.#w()}#h(){for(let[h,c]of Object.entries(Te))this.#s.append(new Option(c,h));let t=f("div",{id:"\
-menu",popover:"auto"},...this.#p());t.addEventListener("click",()=>t.hidePopover());let e=N("export",
+menu",popover:"auto"},...this.#p());t.addEventListener("click",()=>t.hidePopover());let e=T("export",
 "Copy, download, reset",void 0);e.popoverTargetElement=t;let s=[this.#e,this.#o,this.#n];m("tools").
 append(...s,this.#s,e,this.#r.button),document.body.append(t,this.#r.table);let n=f("b",{"aria-hidde\
 n":"true"},"+"),r=f("button",{className:"keep",title:"Keep this pose",onclick:()=>this.#f()});r.append(
@@ -419,30 +418,31 @@ n=(o,r)=>f("button",{onclick:r},o);return[n("Copy the pose as Python",async()=>s
 n("Download the picture",()=>{ce(t,this.stage,this.shown),this.redraw()}),n("Download the map and it\
 s proof",async()=>{this.film.release(),s.say(await le(t,e))}),n("Fit the window",()=>this.fit()),n("\
 Back to the undeformed shape",()=>this.#d())]}#m(){this.#s.addEventListener("change",()=>{this.#A(),
-this.redraw()});let t=s=>{!this.film.seen||s.button===1||(this.film.release(),s.stopImmediatePropagation(),
-s.preventDefault())};this.#t.addEventListener("pointerdown",t,{capture:!0}),document.addEventListener(
-"keydown",s=>this.#c(s)),new ResizeObserver(()=>this.fit()).observe(this.#t),matchMedia("(prefers-co\
-lor-scheme: dark)").addEventListener("change",()=>this.report.draw())}#c(t){let e=t.target;if(this.#t.
-contains(e)||t.key==="Tab")return;let s=e.matches("input, select")&&!q(t),n=e.matches("button")&&/^(Enter| )$/.
-test(t.key);if(!(s||n)){if(t.key!==" "){this.pad.keydown(t);return}t.preventDefault(),this.film.playOrPause()}}#l(t){
-this.film.release(),this.pad.press(t)}#d(){this.film.release(),this.editing.replace([],ot(this.data.
-outline))}#f(){this.film.release();let{pins:t,frame:e}=this.editing;this.film.keep({pins:t,frame:e}),
-this.report.tell(`Pose ${this.film.kept.length} is kept`),this.#w()}get shown(){return this.#a??this.
-editing.frame}fit(){let t=C(this.#t),e=this.shown.images??[];Object.assign(this.view,t.size,B(e,t,this.
-data.margin)),this.report.draw(),this.redraw()}redraw(){this.#u(),!this.#i&&(this.#i=requestAnimationFrame(
-()=>{this.#i=0,this.film.drawOne();let{width:t,height:e,unit:s,x:n,y:o}=this.view;this.stage.paint(this.
-shown,{width:t,height:e,unit:s,x:n,y:o},this.#s.value),document.documentElement.dataset.drawn=String(
-this.shown.id)}))}#v(t){this.#a=t,this.report.proved(this.shown),this.redraw()}#g(t){let e={width:Se,
-height:Se},s={...e,left:0,top:0,size:e},n=B(t.images??[],s,this.data.margin);return this.stage.paint(
-t,{...e,...n},Is),this.stage.canvas}#x(t){let{editing:e,pad:s,hand:n,view:o}=this;if(this.#a)return;
-let r=s.focused?n.cursorAt:null,{marks:a}=e;te(t,o,a,{hovered:s.found?.mark,held:s.held,cursor:r}),Ee(
-t,o,a,e.missed,e.refused),s.encloses&&s.path.length>2&&Qt(t,o,s.path)}#w(){let{editing:t,report:e}=this;
-this.#e.disabled=!t.canUndo,this.#o.disabled=!t.canRedo,this.#n.disabled=t.selected.length===0,m("hi\
-nt").hidden=t.pins.length>0||this.film.kept.length>0,e.plot(t.frame),e.proved(this.shown),e.pins(t),
-this.redraw()}get#E(){return this.data.colors.length/3}#y(t){return`rgb(${this.data.colors.slice(3*t,
-3*t+3).map(s=>Math.round(255*s))})`}#b(t){return this.#y(Math.round((1-Math.min(t,1))*(this.#E-1)))}#A(){
-let{value:t}=this.#s,e=this.data.ranges[t],s=m("legend");s.hidden=!e,e&&s.replaceChildren(`${Te[t]} ${e[0]}`,
-f("i"),`${e[1]}`)}};var at=class{#t;#s=0;#e=new Map;constructor(t,e=()=>{}){this.#t=t,this.onmap=e,t.onmessage=({data:s})=>this.#n(
+this.redraw()});let t=n=>{!this.film.seen||n.button===1||(this.film.release(),n.stopImmediatePropagation(),
+n.preventDefault())};this.#t.addEventListener("pointerdown",t,{capture:!0}),document.addEventListener(
+"keydown",n=>this.#c(n));let{dataset:e}=this.#t;document.addEventListener("keydown",()=>Object.assign(
+e,{keys:""}),!0),document.addEventListener("pointerdown",()=>delete e.keys,!0),new ResizeObserver(()=>this.
+fit()).observe(this.#t),matchMedia("(prefers-color-scheme: dark)").addEventListener("change",()=>this.
+report.draw())}#c(t){let e=t.target;if(this.#t.contains(e)||t.key==="Tab")return;let s=e.matches("in\
+put, select")&&!q(t),n=e.matches("button")&&/^(Enter| )$/.test(t.key);if(!(s||n)){if(t.key!==" "){this.
+pad.keydown(t);return}t.preventDefault(),this.film.playOrPause()}}#l(t){this.film.release(),this.pad.
+press(t)}#d(){this.film.release(),this.editing.replace([],ot(this.data.outline))}#f(){this.film.release();
+let{pins:t,frame:e}=this.editing;this.film.keep({pins:t,frame:e}),this.report.tell(`Pose ${this.film.
+kept.length} is kept`),this.#w()}get shown(){return this.#a??this.editing.frame}fit(){let t=C(this.#t),
+e=this.shown.images??[];Object.assign(this.view,t.size,B(e,t,this.data.margin)),this.report.draw(),this.
+redraw()}redraw(){this.#u(),!this.#i&&(this.#i=requestAnimationFrame(()=>{this.#i=0,this.film.drawOne();
+let{width:t,height:e,unit:s,x:n,y:o}=this.view;this.stage.paint(this.shown,{width:t,height:e,unit:s,
+x:n,y:o},this.#s.value),document.documentElement.dataset.drawn=String(this.shown.id)}))}#v(t){this.#a=
+t,this.report.proved(this.shown),this.redraw()}#g(t){let e={width:Se,height:Se},s={...e,left:0,top:0,
+size:e},n=B(t.images??[],s,this.data.margin);return this.stage.paint(t,{...e,...n},Is),this.stage.canvas}#x(t){
+let{editing:e,pad:s,hand:n,view:o}=this;if(this.#a)return;let r=s.focused?n.cursorAt:null,{marks:a}=e;
+te(t,o,a,{hovered:s.found?.mark,held:s.held,cursor:r}),Ee(t,o,a,e.missed,e.refused),s.encloses&&s.path.
+length>2&&Qt(t,o,s.path)}#w(){let{editing:t,report:e}=this;this.#e.disabled=!t.canUndo,this.#o.disabled=
+!t.canRedo,this.#n.disabled=t.selected.length===0,m("hint").hidden=t.pins.length>0||this.film.kept.length>
+0,e.plot(t.frame),e.proved(this.shown),e.pins(t),this.redraw()}get#E(){return this.data.colors.length/
+3}#y(t){return`rgb(${this.data.colors.slice(3*t,3*t+3).map(s=>Math.round(255*s))})`}#b(t){return this.#y(
+Math.round((1-Math.min(t,1))*(this.#E-1)))}#A(){let{value:t}=this.#s,e=this.data.ranges[t],s=m("lege\
+nd");s.hidden=!e,e&&s.replaceChildren(`${Te[t]} ${e[0]}`,f("i"),`${e[1]}`)}};var at=class{#t;#s=0;#e=new Map;constructor(t,e=()=>{}){this.#t=t,this.onmap=e,t.onmessage=({data:s})=>this.#n(
 s)}ask(t){let e=this.#o(t);return new Promise((s,n)=>this.#e.set(e,{resolve:s,reject:n}))}async map(t){
 let e=await this.ask(t);if(e.type!=="map")throw new Error(`the answer is no map but of type ${e.type}`);
 return e}drag(t){return this.#o({type:"drag",pose:t})}place(t,e){return this.#o({type:"place",pose:t,
@@ -465,8 +465,8 @@ Me(t);this.#n.draw({...e,overlay:s,coefficients:n,heights:null})}get points(){re
 "shader"?this.#e:this.mesh)}};var{data:x,worker:Cs}=Reflect.get(globalThis,"glidPage");async function Le(){let i=URL.createObjectURL(
 new Blob([Cs],{type:"text/javascript"})),t=new Worker(i);URL.revokeObjectURL(i);let e=new at(t),{outline:s,
 options:n,start:o,poses:r}=x;await e.ask({type:"shape",outline:s,options:n});let a=o.length?Float64Array.
-from(o):ot(s);return await e.map({type:"place",pose:y(r[0]),coefficients:a}),e}async function Bs(){let i=await T(
-x.source,2),t=await T(x.heights,1),e=await Pt(x.triangles);return{source:i,heights:t,triangles:e}}async function Ds(){
+from(o):ot(s);return await e.map({type:"place",pose:y(r[0]),coefficients:a}),e}async function Bs(){let i=await S(
+x.source,2),t=await S(x.heights,1),e=await Pt(x.triangles);return{source:i,heights:t,triangles:e}}async function Ds(){
 let i=W("source",HTMLImageElement);return await i.decode().catch(()=>{throw new b("The picture in th\
 is page is damaged.")}),i}function Us(i){let t=i.getContext("webgl2",{antialias:!0,premultipliedAlpha:!0,
 preserveDrawingBuffer:!0});if(!t)throw new b("This page needs WebGL 2 and a browser of 2023 or later\
@@ -475,7 +475,7 @@ i,t),a=x.outline.hole_points.length,h=e.map((c,l)=>({coefficients:ke(r.subarray(
 min(o[l-1]??1/0,o[l]??1/0)}));return{times:e,knots:h,keyframes:s,repeat:n}}async function $s(){let i=W(
 "picture",HTMLCanvasElement),t=Us(i),[e,s,n]=await Promise.all([Le(),Bs(),Ds()]),o=new G(()=>{},{nearest:1e-4,
 farthest:1});Object.assign(o,C(m("pad")).size),Object.assign(o,B(s.source,C(m("pad")),x.margin));let r=new ct(
-i,t,x,s,n),a=await r.choose(e,o),h=new j(e,s,a),c=new rt(x,{stage:r,editing:h,view:o},async()=>{let u=await Le();
+i,t,x,s,n),a=await r.choose(e,o),h=new z(e,s,a),c=new rt(x,{stage:r,editing:h,view:o},async()=>{let u=await Le();
 return await u.map({type:"points",points:r.points}),u});h.begin(x.poses[0]),x.motion&&await c.film.load(
 await Gs(x.motion),x.poses);let{dataset:l}=document.documentElement;l.mover=r.mover,l.frame=r.frameTime.
 toFixed(1),l.ready="true"}$s().catch(i=>{let t=m("problem");if(t.textContent=i.message,t.hidden=!1,!(i instanceof

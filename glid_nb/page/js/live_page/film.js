@@ -4,6 +4,7 @@ import { glideTo, playedFrom } from "../exported/course.js";
 import { Poses } from "../exported/poses.js";
 import { Motion } from "../motion/motion.js";
 import { make } from "../pad/dom.js";
+import { iconButton } from "../pad/icons.js";
 import { poseOf } from "./pins.js";
 import { wayBetween } from "./way.js";
 
@@ -50,7 +51,7 @@ export class Film {
   #slider = make("input", { type: "range", step: String(STEP), "aria-label": "Time, seconds" });
   #strip = make("i", { title: "Certified σ₂ at the knots" });
   #clock = make("output", { className: "clock" });
-  #remove = make("button", { className: "quiet", title: "Remove this pose" }, "Remove pose");
+  #remove = iconButton("trash", "Remove this pose", () => this.#removeCurrent());
 
   /** @type {WeakMap<Kept, { start: Float64Array, to: Kept, knots: Knot[] }>} */
   #ways = new WeakMap();
@@ -85,10 +86,9 @@ export class Film {
     const track = make("div", { className: "track" }, this.#slider, this.#strip);
     const player = make("div", { className: "player" }, this.#play, track, this.#clock);
     this.player = player;
-    this.element.append(this.#list, player, this.#remove);
+    this.element.append(this.#list, this.#remove, player);
     this.#play.addEventListener("click", () => this.playOrPause());
     this.#slider.addEventListener("input", () => this.#goTo(Number(this.#slider.value)));
-    this.#remove.addEventListener("click", () => this.#removeCurrent());
     this.#showPlaying();
   }
 

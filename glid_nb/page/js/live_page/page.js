@@ -139,6 +139,10 @@ export class LivePage {
     };
     this.#box.addEventListener("pointerdown", goBack, { capture: true });
     document.addEventListener("keydown", (e) => this.#keydown(e));
+    // Only those who use keys need to see where the focus is.
+    const { dataset } = this.#box;
+    document.addEventListener("keydown", () => Object.assign(dataset, { keys: "" }), true);
+    document.addEventListener("pointerdown", () => delete dataset.keys, true);
     new ResizeObserver(() => this.fit()).observe(this.#box);
     const dark = matchMedia("(prefers-color-scheme: dark)");
     dark.addEventListener("change", () => this.report.draw());
