@@ -4,7 +4,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { deflateSync } from "node:zlib";
 import { glideTo, playedFrom } from "../../glid_nb/page/js/exported/course.js";
-import { down, provedNow, up } from "../../glid_nb/page/js/exported/numbers.js";
+import { down, downSmall, provedNow, up } from "../../glid_nb/page/js/exported/numbers.js";
 import { inOrder, projectionMatrix } from "../../glid_nb/page/js/exported/renderer.js";
 import { cornersOf, restored, unpacked } from "../../glid_nb/page/js/exported/unpack.js";
 import { Motion } from "../../glid_nb/page/js/motion/motion.js";
@@ -125,6 +125,12 @@ test("a glide ends at its pose; in a loop it goes the shorter way round", () => 
 test("bounds are rounded to what is still a bound", () => {
   assert.equal(down(0.45678), "0.456");
   assert.equal(up(1.2341), "1.235");
+  assert.deepEqual([0.45678, 0.00238, 9.996e-5, 0].map(downSmall), [
+    "0.456",
+    "2.3e-3",
+    "9.9e-5",
+    "0.000",
+  ]);
   const motion = {
     times: [0, 1],
     keyframes: [0, 1],

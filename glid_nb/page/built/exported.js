@@ -32,10 +32,10 @@ const from=repeat==="ping-pong"&&time>last?2*last-time:time;const goal=repeat===
 to,motion.end-motion.start):to;const at=ms=>ms<GLIDE?from+eased(ms/GLIDE)*(goal-from):goal;return{plays:false,
 lasts:GLIDE,at}}function nearestTurn(from,to,span){const far=goal=>Math.abs(goal-from);const goals=[
 to,to+span,to-span];return goals.reduce((best,goal)=>far(goal)<far(best)?goal:best)}function eased(share){
-return share*share*(3-2*share)}function down(x){return(Math.floor(1e3*x)/1e3).toFixed(3)}function up(x){return(Math.ceil(1e3*x)/1e3).
-toFixed(3)}function provedNow({sigma1,sigma2,k,until},piece,time){const low=sigma2[piece];const high=sigma1[piece];
-const most=k[piece];if(low!==null&&high!==null&&most!==null){return`Now: σ₂ ≥ ${down(low)}, σ₁ \
-≤ ${up(high)}, k ≤ ${up(most)}`}return time<until?"Now: proved not to fold":"Now: not proved"}var SOON=.001;var Poses=class{buttons=[];#waiting=[];constructor(times,goTo,draw,drawNext){this.times=
+return share*share*(3-2*share)}function down(x){return(Math.floor(1e3*x)/1e3).toFixed(3)}function up(x){return(Math.ceil(1e3*x)/1e3).toFixed(3)}function provedNow({sigma1,sigma2,k,until},piece,time){
+const low=sigma2[piece];const high=sigma1[piece];const most=k[piece];if(low!==null&&high!==null&&most!==
+null){return`Now: σ₂ ≥ ${down(low)}, σ₁ ≤ ${up(high)}, k ≤ ${up(most)}`}return time<until?
+"Now: proved not to fold":"Now: not proved"}var SOON=.001;var Poses=class{buttons=[];#waiting=[];constructor(times,goTo,draw,drawNext){this.times=
 times;this.draw=draw;this.drawNext=drawNext;this.buttons=times.map((time,i)=>{const title=`Pose ${i+
 1}, at ${time.toFixed(2)} s`;const look={title,"aria-label":title,onclick:()=>goTo(time)};return make(
 "button",look,make("canvas"))});const seen=new IntersectionObserver(entries=>{if(!this.#waiting.length)

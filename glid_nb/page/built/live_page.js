@@ -1,6 +1,6 @@
 "use strict";(()=>{var b=class extends Error{},U=class{#t;#s;#e;#o;#n;#r;#a={};#i;constructor(t,e,s,n,o){this.canvas=t,
-this.ranges=s.ranges,this.#t=e,this.#s=_e(e,s.vertex,s.fragment),e.useProgram(this.#s),this.#e=Ie(n),
-this.#r=this.#d(e.ARRAY_BUFFER,this.#e),this.#l("position",3,0,0);let r=Ne(n).flat(),a=n.heights.length>
+this.ranges=s.ranges,this.#t=e,this.#s=Ne(e,s.vertex,s.fragment),e.useProgram(this.#s),this.#e=Fe(n),
+this.#r=this.#d(e.ARRAY_BUFFER,this.#e),this.#l("position",3,0,0);let r=Ce(n).flat(),a=n.heights.length>
 65535;this.#o=r.length,this.#n=a?e.UNSIGNED_INT:e.UNSIGNED_SHORT,this.#d(e.ELEMENT_ARRAY_BUFFER,new(a?
 Uint32Array:Uint16Array)(r)),this.#i=o.length?this.#p(o):this.#m();let[h,c,l,u]=s.frame;e.uniform4f(
 this.#c("frame"),h,c,l-h,u-c),e.uniform3fv(this.#c("colors"),s.colors),e.uniform1f(this.#c("grid_spa\
@@ -12,7 +12,7 @@ e.NONE),e.texImage2D(e.TEXTURE_2D,0,e.RGBA,e.RGBA,e.UNSIGNED_BYTE,t),e.generateM
 e.texParameteri(e.TEXTURE_2D,e.TEXTURE_MIN_FILTER,e.LINEAR_MIPMAP_LINEAR),e.texParameteri(e.TEXTURE_2D,
 e.TEXTURE_WRAP_S,e.CLAMP_TO_EDGE),e.texParameteri(e.TEXTURE_2D,e.TEXTURE_WRAP_T,e.CLAMP_TO_EDGE)}draw({
 width:t,height:e,unit:s,x:n,y:o,overlay:r,coefficients:a,heights:h}){let c=this.#t,l=window.devicePixelRatio||
-1;this.#u(Math.round(t*l),Math.round(e*l)),c.clear(c.COLOR_BUFFER_BIT|c.DEPTH_BUFFER_BIT);let u=Fe(t,
+1;this.#u(Math.round(t*l),Math.round(e*l)),c.clear(c.COLOR_BUFFER_BIT|c.DEPTH_BUFFER_BIT);let u=Be(t,
 e,s,n,o);c.uniformMatrix4fv(this.#c("projectionMatrix"),!1,u),c.uniform1f(this.#c("pixel"),s/l),c.uniform1f(
 this.#c("overlay"),Number(r)),c.uniform2fv(this.#c("color_range"),this.ranges[r]??[0,1]),h&&this.#h(
 h),this.#i(a),c.drawElements(c.TRIANGLES,this.#o,this.#n,0)}#u(t,e){let{canvas:s}=this;(s.width!==t||
@@ -25,16 +25,16 @@ let t=this.#t,e=t.createBuffer();return t.bindBuffer(t.ARRAY_BUFFER,e),this.#l("
 "derivatives",4,24,8),s=>this.#f(t.ARRAY_BUFFER,e,s)}#c(t){return this.#a[t]??=this.#t.getUniformLocation(
 this.#s,t),this.#a[t]}#l(t,e,s,n){let o=this.#t,r=o.getAttribLocation(this.#s,t);o.enableVertexAttribArray(
 r),o.vertexAttribPointer(r,e,o.FLOAT,!1,s,n)}#d(t,e){let s=this.#t.createBuffer();return this.#f(t,s,
-e),s}#f(t,e,s){this.#t.bindBuffer(t,e),this.#t.bufferData(t,s,this.#t.DYNAMIC_DRAW)}};function _e(i,t,e){
+e),s}#f(t,e,s){this.#t.bindBuffer(t,e),this.#t.bufferData(t,s,this.#t.DYNAMIC_DRAW)}};function Ne(i,t,e){
 let s=i.createProgram();if(i.attachShader(s,St(i,i.VERTEX_SHADER,t)),i.attachShader(s,St(i,i.FRAGMENT_SHADER,
 e)),i.linkProgram(s),!i.getProgramParameter(s,i.LINK_STATUS))throw new b(i.getProgramInfoLog(s)??"Th\
 e shaders do not fit together.");return s}function St(i,t,e){let s=i.createShader(t);if(!s)throw new b(
 "The graphics card was lost.");if(i.shaderSource(s,e),i.compileShader(s),!i.getShaderParameter(s,i.COMPILE_STATUS))
-throw new b(i.getShaderInfoLog(s)??"A shader does not compile.");return s}function Ie({source:i,heights:t}){
+throw new b(i.getShaderInfoLog(s)??"A shader does not compile.");return s}function Fe({source:i,heights:t}){
 let e=i.length/2,s=new Float32Array(3*e);for(let n=0;n<e;n++)s.set([i[2*n],i[2*n+1],t[n]],3*n);return s}
-function Ne({heights:i,triangles:t}){let e=([s,n,o])=>i[s]+i[n]+i[o];return[...t].sort((s,n)=>e(s)-e(
-n))}function Fe(i,t,e,s,n){let o=2/(e*i),r=2/(e*t);return[o,0,0,0,0,r,0,0,0,0,-1,0,-s*o,-n*r,0,1]}function Ce(i){return Uint8Array.from(atob(i),t=>t.charCodeAt(0)).buffer}async function S({bytes:i,step:t},e){
-let s=new Blob([Ce(i)]).stream().pipeThrough(new DecompressionStream("deflate")),n=new Uint8Array(await new Response(
+function Ce({heights:i,triangles:t}){let e=([s,n,o])=>i[s]+i[n]+i[o];return[...t].sort((s,n)=>e(s)-e(
+n))}function Be(i,t,e,s,n){let o=2/(e*i),r=2/(e*t);return[o,0,0,0,0,r,0,0,0,0,-1,0,-s*o,-n*r,0,1]}function De(i){return Uint8Array.from(atob(i),t=>t.charCodeAt(0)).buffer}async function S({bytes:i,step:t},e){
+let s=new Blob([De(i)]).stream().pipeThrough(new DecompressionStream("deflate")),n=new Uint8Array(await new Response(
 s).arrayBuffer()),o=n.length/4,r=new Int32Array(o);for(let a=0;a<o;a++){let c=n[a]|n[o+a]<<8|n[2*o+a]<<
 16|n[3*o+a]<<24,l=c>>>1^-(c&1);r[a]=l+2*(r[a-e]??0)-(r[a-2*e]??0)}return Float32Array.from(r,a=>t*a)}
 async function Ot({sizes:i,rows:t,shares:e},s){let n=await S(t,t.width),o=await S(e,i.length),r=new Float64Array(
@@ -52,11 +52,11 @@ let s=t.deltaMode===1?t.deltaY*33:t.deltaY;this.zoom(Math.exp(s*.0015*(t.ctrlKey
 let n=t.get(e)??s,o=[...t].find(([c])=>c!==e)?.[1],r=o?.5:1;if(t.set(e,s),this.pan(r*(s[0]-n[0]),r*(s[1]-
 n[1])),!o)return;let a=c=>Math.max(w(c,o),1),h=[(s[0]+o[0])/2,(s[1]+o[1])/2];this.zoom(a(n)/a(s),h)}};var $=class{#t=[];#s=[];get canUndo(){return this.#t.length>0}get canRedo(){return this.#s.length>0}note(t){
 this.#t.push(t),this.#s=[]}drop(){return this.#t.pop()}undo(t){let e=this.#t.pop();return e!==void 0&&
-this.#s.push(t),e}redo(t){let e=this.#s.pop();return e!==void 0&&this.#t.push(t),e}};function Be({source:i,heights:t,triangles:e}){let s=[...i],n=[...t],o=new Map,r=t.length,a=(c,l)=>{let u=Math.
+this.#s.push(t),e}redo(t){let e=this.#s.pop();return e!==void 0&&this.#t.push(t),e}};function Ue({source:i,heights:t,triangles:e}){let s=[...i],n=[...t],o=new Map,r=t.length,a=(c,l)=>{let u=Math.
 min(c,l)*r+Math.max(c,l),d=o.get(u);if(d!==void 0)return d;let p=n.length;return s.push((s[2*c]+s[2*
 l])/2,(s[2*c+1]+s[2*l+1])/2),n.push((n[c]+n[l])/2),o.set(u,p),p},h=e.flatMap(([c,l,u])=>{let[d,p,v]=[
 a(c,l),a(l,u),a(u,c)];return[[c,d,v],[d,l,p],[v,p,u],[d,p,v]]});return{source:Float32Array.from(s),heights:Float32Array.
-from(n),triangles:h}}function ut(i,t){return t>0?ut(Be(i),t-1):i}function ft({source:i}){return Array.
+from(n),triangles:h}}function ut(i,t){return t>0?ut(Ue(i),t-1):i}function ft({source:i}){return Array.
 from({length:i.length/2},(t,e)=>[i[2*e],i[2*e+1]])}function Rt({source:i,heights:t,triangles:e},s,[n,
 o]){let r=-1/0,a=null;for(let[h,c,l]of e){let[u,d]=[s[2*h],s[2*h+1]],[p,v]=[s[2*c]-u,s[2*c+1]-d],[_,
 D]=[s[2*l]-u,s[2*l+1]-d],lt=p*D-v*_,A=((n-u)*D-(o-d)*_)/lt,g=(p*(o-d)-v*(n-u))/lt;if(!(A>=0&&g>=0&&A+
@@ -75,7 +75,7 @@ s(l.handle)))}return a}function Ct(i,t,e){let s=(n,o)=>n+e*(o-n);return i.map((n
 angle===null||r.angle===null?null:dt(r.angle-n.angle);return{...n,target:[s(n.target[0],r.target[0]),
 s(n.target[1],r.target[1])],weight:s(n.weight,r.weight),angle:n.angle===null||a===null?null:n.angle+
 e*a,scale:n.scale===null||r.scale===null?null:s(n.scale,r.scale)}})}function Lt({handle:i}){return i.
-join()}var De=.15,z=class{pins=[];selected=[];inGesture=!1;#t=new $;#s=0;#e=0;constructor(t,e,s){this.solving=
+join()}var Ge=.15,z=class{pins=[];selected=[];inGesture=!1;#t=new $;#s=0;#e=0;constructor(t,e,s){this.solving=
 t,this.mesh=e,this.frame=s,this.told=()=>{},t.onmap=n=>this.#u(n)}begin(t){this.#a({pins:t,selected:[],
 coefficients:this.frame.coefficients})}get now(){let{pins:t,selected:e,frame:s}=this;return{pins:t,selected:e,
 coefficients:s.coefficients}}get canUndo(){return this.#t.canUndo}get canRedo(){return this.#t.canRedo}get settled(){
@@ -83,7 +83,7 @@ return this.frame.settled&&this.frame.id>=this.#e}get marks(){let t=this.pins.ma
 pins.map((s,n)=>this.imageOf(n));return{targets:t,images:e,selected:[...this.selected],hidden:[],ring:this.#o()}}imageOf(t){
 let{images:e}=this.frame.pins;return this.#n?[e[2*t],e[2*t+1]]:this.pins[t].target}get missed(){return this.
 settled?[...this.pins.keys()].filter(t=>{let[e,s]=this.imageOf(t),[n,o]=this.pins[t].target;return Math.
-hypot(e-n,s-o)>De}):[]}get refused(){return this.frame.outcome==="refused"}#o(){let t=this.selected.
+hypot(e-n,s-o)>Ge}):[]}get refused(){return this.frame.outcome==="refused"}#o(){let t=this.selected.
 at(-1);if(t===void 0)return[];let{angle:e,scale:s}=this.turnOf(t),n=this.pins[t];return[e,s,n.angle!==
 null,n.scale!==null]}turnOf(t){let{samples:e}=this.frame.pins,s=e.length/4,[n,o]=this.#n?[e[t],e[s+t]]:
 [1,0],{angle:r,scale:a}=this.pins[t];return{angle:r??Math.atan2(o,n),scale:a??Math.hypot(n,o)}}get#n(){
@@ -108,41 +108,41 @@ t))throw new Error(`the page has no ${i}`);return e}function f(i,t={},...e){let 
 ton");for(let[n,o]of Object.entries(t))n.startsWith("on")?s.addEventListener(n.slice(2),o):n in s&&n!==
 "list"?Reflect.set(s,n,o):s.setAttribute(n,o);return s.append(...e),s}function k(i){let t=i.getContext(
 "2d");if(!t)throw new Error("this browser does not draw on canvases");return t}function Bt(i,t,e,s){let n=0;return e.addEventListener("abort",()=>cancelAnimationFrame(n)),()=>{n||
-(n=requestAnimationFrame(()=>{n=0,s(Ue(i,t))}))}}function Ue(i,{width:t,height:e}){let s=window.devicePixelRatio||
+(n=requestAnimationFrame(()=>{n=0,s($e(i,t))}))}}function $e(i,{width:t,height:e}){let s=window.devicePixelRatio||
 1,n=Math.round(t*s),o=Math.round(e*s);(i.width!==n||i.height!==o)&&(i.width=n,i.height=o);let r=k(i);
 return r.setTransform(s,0,0,s,0,0),r.clearRect(0,0,t,e),r}function I(i,[t,e],s,n,o){i.beginPath(),i.
 arc(t,e,s,0,2*Math.PI),E(i,n,o)}function O(i,t,e,s,n,o=1){I(i,t,e,[]),i.fillStyle=s,i.fill(),n&&E(i,
 [[o,n]])}function P(i,t,e=!0){i.beginPath();for(let s of t)s.forEach(([n,o],r)=>{r?i.lineTo(n,o):i.moveTo(
 n,o)}),e&&i.closePath()}function X([i,t],[e,s]){return[[i,t],[e,t],[e,s],[i,s]]}function V(i,t,e,s="\
 evenodd"){P(i,t),i.fillStyle=e,i.fill(s)}function E(i,t,e=[]){i.setLineDash(e);for(let[s,n]of t)i.lineWidth=
-s,i.strokeStyle=n,i.stroke();i.setLineDash([])}function Dt(i,t){let e=null,s=1/0;for(let n of i){let o=n.d+(n.loss??0);n.d>t||o>=s||(e=n,s=o)}return e}var R=6,Ge=4,$e=42,Ut=14,Gt=[36,112];function pt(i,t,e){let s=t.selected.at(-1),[n,o]=t.ring;if(n===void 0||o===void 0||s===void 0||!t.targets[s])
-return null;let r=i.toScreen(e?.get(s)??t.targets[s]),a=$e*Math.min(2.5,Math.max(.5,o)),h=r[0]+a*Math.
-cos(n),c=r[1]-a*Math.sin(n);return{centre:r,radius:a,knob:[h,c]}}function Kt(i,t,e,s){let n=pt(i,t);return n?w(e,n.knob)<=Math.max(R+Ge,s)?{part:"scale"}:Math.abs(w(
+s,i.strokeStyle=n,i.stroke();i.setLineDash([])}function Dt(i,t){let e=null,s=1/0;for(let n of i){let o=n.d+(n.loss??0);n.d>t||o>=s||(e=n,s=o)}return e}var R=6,He=4,Ke=42,Ut=14,Gt=[36,112];function pt(i,t,e){let s=t.selected.at(-1),[n,o]=t.ring;if(n===void 0||o===void 0||s===void 0||!t.targets[s])
+return null;let r=i.toScreen(e?.get(s)??t.targets[s]),a=Ke*Math.min(2.5,Math.max(.5,o)),h=r[0]+a*Math.
+cos(n),c=r[1]-a*Math.sin(n);return{centre:r,radius:a,knob:[h,c]}}function Kt(i,t,e,s){let n=pt(i,t);return n?w(e,n.knob)<=Math.max(R+He,s)?{part:"scale"}:Math.abs(w(
 e,n.centre)-n.radius)<=s?{part:"turn"}:null:null}function Y(i,t,e){return $t(i,!1,t,e)??$t(i,!0,t,e)}
 function $t(i,t,e,s){let o=(t?i.images:i.targets).map((r,a)=>{let h=i.hidden.includes(a)?s/3:0;return{
-mark:a,reached:t,d:w(r,e),loss:h}});return Dt(o,s)}function jt(i,t){return t.filter(e=>!He(i,e)).map(
+mark:a,reached:t,d:w(r,e),loss:h}});return Dt(o,s)}function jt(i,t){return t.filter(e=>!je(i,e)).map(
 e=>{let[s,n]=i.toScreen(e),o=Ht(n,i.height),r=o<Gt[1]?Gt[0]:0,a=Ht(s,i.width-r);return{at:[a,o],target:e,
-angle:Math.atan2(n-o,s-a)}})}function He(i,t){let[e,s]=i.toScreen(t);return e>=0&&s>=0&&e<=i.width&&s<=i.height}function Ht(i,t){
-return Math.min(t-Ut,Math.max(Ut,i))}var zt=7.5,Wt=3.5,Xt=12,Ke=2,N="rgba(255,255,255,0.85)",Yt="rgba(255,255,255,0.9)",je="#2b2b2b",qt="\
-#00d5e0",Jt="#063f45",ze="#067a82",Zt="#0072b2",mt="#d55e00",Vt="rgba(40,40,40,0.75)";function gt(i,t,e){i.lineCap="round",P(i,t,!1),E(i,e)}function Qt(i,t,e){V(i,[t.line(e)],"rgba(0,114,178,0.12)"),E(i,[[3,N],[1.4,Zt]],[5,3])}function te(i,t,e,{
-hovered:s,held:n,cursor:o}){let r=t.line(e.targets.map((h,c)=>n.get(c)??h)),a=t.line(e.images);We(i,
+angle:Math.atan2(n-o,s-a)}})}function je(i,t){let[e,s]=i.toScreen(t);return e>=0&&s>=0&&e<=i.width&&s<=i.height}function Ht(i,t){
+return Math.min(t-Ut,Math.max(Ut,i))}var zt=7.5,Wt=3.5,Xt=12,ze=2,N="rgba(255,255,255,0.85)",Yt="rgba(255,255,255,0.9)",We="#2b2b2b",qt="\
+#00d5e0",Jt="#063f45",Xe="#067a82",Zt="#0072b2",mt="#d55e00",Vt="rgba(40,40,40,0.75)";function gt(i,t,e){i.lineCap="round",P(i,t,!1),E(i,e)}function Qt(i,t,e){V(i,[t.line(e)],"rgba(0,114,178,0.12)"),E(i,[[3,N],[1.4,Zt]],[5,3])}function te(i,t,e,{
+hovered:s,held:n,cursor:o}){let r=t.line(e.targets.map((h,c)=>n.get(c)??h)),a=t.line(e.images);Ve(i,
 r,a),r.forEach((h,c)=>{e.selected.includes(c)?O(i,h,Xt,"rgba(0,114,178,0.28)",Zt,2):c===s&&O(i,h,Xt,
-"rgba(0,114,178,0.14)"),Xe(i,h,e.hidden.includes(c))}),Ve(i,t,e,n),Ye(i,t,e),a.forEach((h,c)=>{e.hidden.
-includes(c)||(O(i,h,Wt+1,Yt),O(i,h,Wt,"#111"))}),o&&qe(i,t.toScreen(o))}function We(i,t,e){let n=t.map(
-(o,r)=>[e[r],o]).filter(([o,r])=>o&&w(o,r)>=Ke);gt(i,n,[[3.6,N],[1.6,je]])}function Xe(i,t,e){if(!e){
-O(i,t,zt,qt,Jt,1.4);return}I(i,t,zt,[[3.4,N],[1.6,ze]],[3.5,2.4])}function Ve(i,t,e,s){let n=pt(t,e,
+"rgba(0,114,178,0.14)"),Ye(i,h,e.hidden.includes(c))}),qe(i,t,e,n),Je(i,t,e),a.forEach((h,c)=>{e.hidden.
+includes(c)||(O(i,h,Wt+1,Yt),O(i,h,Wt,"#111"))}),o&&Ze(i,t.toScreen(o))}function Ve(i,t,e){let n=t.map(
+(o,r)=>[e[r],o]).filter(([o,r])=>o&&w(o,r)>=ze);gt(i,n,[[3.6,N],[1.6,We]])}function Ye(i,t,e){if(!e){
+O(i,t,zt,qt,Jt,1.4);return}I(i,t,zt,[[3.4,N],[1.6,Xe]],[3.5,2.4])}function qe(i,t,e,s){let n=pt(t,e,
 s);if(!n)return;let[,,o,r]=e.ring,{centre:a,radius:h,knob:c}=n,[l,u]=c,d=o?mt:Vt;I(i,a,h,[[4,N]]),I(
 i,a,h,[[2,d]],o?[]:[6,4]),gt(i,[[a,c]],[[3,N],[1.2,d]]);let p=X([l-R,u-R],[l+R,u+R]);V(i,[p],r?mt:"#\
-fff"),E(i,[[1.6,r?"#fff":Vt]])}function Ye(i,t,e){for(let{at:s,angle:n}of jt(t,e.targets)){let o=(r,a)=>[
-s[0]+a*Math.cos(n+r),s[1]+a*Math.sin(n+r)];V(i,[[o(0,11),o(2.4,9),o(-2.4,9)]],qt),E(i,[[1.6,Jt]])}}function qe(i,[
+fff"),E(i,[[1.6,r?"#fff":Vt]])}function Je(i,t,e){for(let{at:s,angle:n}of jt(t,e.targets)){let o=(r,a)=>[
+s[0]+a*Math.cos(n+r),s[1]+a*Math.sin(n+r)];V(i,[[o(0,11),o(2.4,9),o(-2.4,9)]],qt),E(i,[[1.6,Jt]])}}function Ze(i,[
 t,e]){let s=(n,o)=>[[t+4*n,e+4*o],[t+13*n,e+13*o]];gt(i,[s(1,0),s(-1,0),s(0,1),s(0,-1)],[[4,Yt],[1.6,
-mt]])}var Je=["pointerdown","pointermove","wheel","keydown","keyup","contextmenu"];function ee(i){for(let t of Je)
+mt]])}var Qe=["pointerdown","pointermove","wheel","keydown","keyup","contextmenu"];function ee(i){for(let t of Qe)
 i.addEventListener(t,e=>e.stopPropagation());return i}function se(i){let t=ee(f("div",{className:"gl\
-id-help",popover:"auto",autofocus:!0,tabIndex:-1},...i.map(Ze)));t.addEventListener("click",()=>t.hidePopover());
+id-help",popover:"auto",autofocus:!0,tabIndex:-1},...i.map(ts)));t.addEventListener("click",()=>t.hidePopover());
 let e="Keys and gestures (?)",n=ee(f("button",{...{className:"glid-help-button",title:e,"aria-label":e},
-popoverTargetElement:t},"?"));return{table:t,button:n,toggle:()=>{t.togglePopover()}}}function Ze([i,
-t]){return f("section",{},f("h4",{},i),f("table",{},...t.map(Qe)))}function Qe([i,t]){return f("tr",
-{},f("th",{},i),f("td",{},t))}var ts={edit:"M3 2l9.5 5.2-4 1.2 2.4 4.3-1.8 1-2.4-4.3L3 12z",foreground:"M13.5 2.5l-6 6 M6.7 9.2c-1\
+popoverTargetElement:t},"?"));return{table:t,button:n,toggle:()=>{t.togglePopover()}}}function ts([i,
+t]){return f("section",{},f("h4",{},i),f("table",{},...t.map(es)))}function es([i,t]){return f("tr",
+{},f("th",{},i),f("td",{},t))}var ss={edit:"M3 2l9.5 5.2-4 1.2 2.4 4.3-1.8 1-2.4-4.3L3 12z",foreground:"M13.5 2.5l-6 6 M6.7 9.2c-1\
 .6-.5-3 .6-3.1 2.1-.1 1-.7 1.7-1.6 2 2.2.9 5.6.4 5.9-2.2 .1-.8-.4-1.6-1.2-1.9z M9.5 12.5h5 M12 10v5",
 background:"M13.5 2.5l-6 6 M6.7 9.2c-1.6-.5-3 .6-3.1 2.1-.1 1-.7 1.7-1.6 2 2.2.9 5.6.4 5.9-2.2 .1-.8\
 -.4-1.6-1.2-1.9z M9.5 12.5h5",color:"M9 4l3 3 M10 3.2l1-1a1.6 1.6 0 0 1 2.8 2.2l-1.1 1.1 M9.6 5.2L3.\
@@ -153,10 +153,10 @@ background:"M13.5 2.5l-6 6 M6.7 9.2c-1.6-.5-3 .6-3.1 2.1-.1 1-.7 1.7-1.6 2 2.2.9
 M3 8h10",open:"M2 12.5v-9h4l1.5 2H14v7z",play:"M5 3l8 5-8 5z",pause:"M5.5 3v10 M10.5 3v10",record:"M\
 8 4.2a3.8 3.8 0 1 0 0 7.6 3.8 3.8 0 0 0 0-7.6z",onion:"M6.2 4a4 4 0 1 0 0 8 4 4 0 0 0 0-8z M9.8 4a4 \
 4 0 1 1 0 8",copy:"M5.5 5.5h8v8h-8z M3 10.5v-8h8",export:"M8 2v8 M4.8 6.8L8 10l3.2-3.2 M3 13.5h10",trash:"\
-M3 4.5h10 M6.5 4.5v-2h3v2 M4.5 4.5l.6 9h5.8l.6-9"};function es(i){return`<svg viewBox="0 0 16 16" ar\
-ia-hidden="true"><path d="${ts[i]}"/></svg>`}function T(i,t,e,s="glid-icon"){return f("button",{title:t,
-"aria-label":t,className:s,onclick:e,innerHTML:es(i)})}function q(i){if(!i.ctrlKey&&!i.metaKey)return null;let t=i.key.toLowerCase();return t==="z"?i.shiftKey?
-"redo":"undo":t==="y"?"redo":null}var ne=4,ss=600,ns=100,is=8,os=3,J=class{pointers=new Map;mode=null;grip=null;held=new Map;path=[];encloses=null;found=null;rests=null;#t=[
+M3 4.5h10 M6.5 4.5v-2h3v2 M4.5 4.5l.6 9h5.8l.6-9"};function ns(i){return`<svg viewBox="0 0 16 16" ar\
+ia-hidden="true"><path d="${ss[i]}"/></svg>`}function T(i,t,e,s="glid-icon"){return f("button",{title:t,
+"aria-label":t,className:s,onclick:e,innerHTML:ns(i)})}function q(i){if(!i.ctrlKey&&!i.metaKey)return null;let t=i.key.toLowerCase();return t==="z"?i.shiftKey?
+"redo":"undo":t==="y"?"redo":null}var ne=4,is=600,os=100,rs=8,as=3,J=class{pointers=new Map;mode=null;grip=null;held=new Map;path=[];encloses=null;found=null;rests=null;#t=[
 0,0];#s=!1;#e=!1;#o=!1;#n;constructor(t,e,s,n){this.element=t,this.view=e,this.link=s,this.behaviour=
 n,t.tabIndex=0,s.signal.addEventListener("abort",()=>clearTimeout(this.#n)),t.addEventListener("poin\
 terdown",o=>this.#u(o)),t.addEventListener("pointermove",o=>this.#d(o)),t.addEventListener("pointeru\
@@ -183,30 +183,30 @@ let s=this.pointers.size===2;s&&this.#l(t),this.#t=e,this.mode=s||t.button===1||
 pointerType),o=e.button===0;o&&!e.shiftKey&&n?.mark!==void 0&&(this.grip={from:this.view.toWorld(t),
 points:s.held(n)}),this.#s=o&&!!s.pans?.(n),this.encloses=o&&!s.painting?s.encloses?.(n,e):null,this.
 path=o?[this.view.toWorld(t)]:[],this.send("down",t,e,{part:n?.part}),e.pointerType==="touch"&&s.menu&&
-!s.painting&&(this.#n=setTimeout(()=>this.#p(e,t),ss)),s.changed()}#p(t,e){this.#n=setTimeout(()=>{this.#l(
-t),this.mode=null,this.#m(e,"touch")},ns)}#m(t,e){this.behaviour.menu?.(t,this.#i(t,e))}#c(t){t.preventDefault(),
+!s.painting&&(this.#n=setTimeout(()=>this.#p(e,t),is)),s.changed()}#p(t,e){this.#n=setTimeout(()=>{this.#l(
+t),this.mode=null,this.#m(e,"touch")},os)}#m(t,e){this.behaviour.menu?.(t,this.#i(t,e))}#c(t){t.preventDefault(),
 t.stopPropagation();let e=t instanceof PointerEvent&&t.pointerType==="touch";t.button===2&&!e&&this.#m(
 this.place(t),"mouse")}#l(t){this.mode==="hand"&&this.send("cancel",this.#t,t),this.#w()}#d(t){let e=this.
 place(t),s=t.pointerType==="touch";if(!this.pointers.has(t.pointerId)){s||this.hover(e);return}s||(this.
-rests=e);let n=w(e,this.#t);if(n>is&&clearTimeout(this.#n),this.mode==="hand"&&this.#s&&n>ne&&(this.#l(
+rests=e);let n=w(e,this.#t);if(n>rs&&clearTimeout(this.#n),this.mode==="hand"&&this.#s&&n>ne&&(this.#l(
 t),this.mode="pan",this.#b()),this.mode==="pan"){this.view.follow(this.pointers,t.pointerId,e);return}
 this.pointers.set(t.pointerId,e),this.mode==="hand"&&this.#f(e,t,n)}#f(t,e,s){let n=this.view.toWorld(
 t);if(this.#v(t,n,s),!this.encloses&&!this.behaviour.painting&&this.send("move",t,e,{replaces:`move ${e.
 pointerId}`}),this.grip){let o=n[0]-this.grip.from[0],r=n[1]-this.grip.from[1];for(let[a,[h,c]]of this.
 grip.points)this.held.set(a,[h+o,c+r])}this.behaviour.changed()}#v(t,e,s){if(this.encloses==="box"){
 let[o]=this.path;this.path=s>ne?X(o,e):[o];return}let n=this.path.at(-1);n&&w(t,this.view.toScreen(n))>=
-os&&this.path.push(e)}#g(t,e){if(!this.pointers.has(t.pointerId))return;let s=this.place(t);if(this.
+as&&this.path.push(e)}#g(t,e){if(!this.pointers.has(t.pointerId))return;let s=this.place(t);if(this.
 pointers.delete(t.pointerId),this.mode==="hand"){let{path:n}=this;this.send(e,s,t,{path:n,encloses:!!this.
 encloses}).then(()=>{this.grip||this.held.clear(),this.path===n&&(this.path=[]),this.behaviour.changed()})}
 this.#x(),this.pointers.size||(this.mode=null),this.#b()}#x(){clearTimeout(this.#n),this.grip=null,this.
 behaviour.changed()}#w(){this.#x(),this.held.clear(),this.path=[]}#E(t){this.behaviour.wheelNeedsFocus&&
 !this.focused&&!t.ctrlKey||(t.stopPropagation(),this.view.wheel(t,this.place(t)))}#y(t){this.#e=t,this.#b()}#b(){
 this.element.style.cursor=this.#A()}#A(){return this.mode==="pan"||this.grip?"grabbing":this.#e?"gra\
-b":this.behaviour.cursor(this.found)}};async function ie(i){try{return await navigator.clipboard.writeText(i),!0}catch{return rs(i)}}function rs(i){
+b":this.behaviour.cursor(this.found)}};async function ie(i){try{return await navigator.clipboard.writeText(i),!0}catch{return hs(i)}}function hs(i){
 let t=document.activeElement,e=document.createElement("textarea");e.value=i,e.setAttribute("readonly",
 ""),Object.assign(e.style,{position:"fixed",top:"0",left:"0",opacity:"0"}),document.body.append(e),e.
 select();try{return document.execCommand("copy")}catch{return!1}finally{e.remove(),t instanceof HTMLElement&&
-t.focus({preventScroll:!0})}}function as(i){let t=new DataView(new ArrayBuffer(8));t.setFloat64(0,i);let e=t.getBigUint64(0),s=e>>
+t.focus({preventScroll:!0})}}function cs(i){let t=new DataView(new ArrayBuffer(8));t.setFloat64(0,i);let e=t.getBigUint64(0),s=e>>
 63n?"-":"",n=Number(e>>BigInt(52)&0x7ffn),o=e&(1n<<BigInt(52))-1n;if(!n&&!o)return`${s}0x0.0p+0`;let r=n?
 n-1023:-1022,a=o.toString(16).padStart(52/4,"0");return`${s}0x${n?1:0}.${a}p${r<0?"":"+"}${r}`}function oe(i,{
 coefficients:t,certificate:e,panels:s}){let n=t.length/4,o=(g,M)=>[t[g*n+M]+0,t[(g+1)*n+M]+0],r=Array.
@@ -214,37 +214,37 @@ from({length:n},(g,M)=>M),{cage:a,holes:h,offset_cage:c,offset_holes:l,hole_poin
 offset_cage:c,offset_holes:l,hole_points:u,phi:r.map(g=>o(0,g)),psi:r.map(g=>o(2,g))},{sigma2_lower:p,
 sigma1_upper:v,k_upper:_,windings:D}=e,A={format:"glid_nb-proof",version:1,...wt({...d,...{sigma2_lower:p,
 sigma1_upper:v,k_upper:_}}),windings:D,panels:s};return{map:JSON.stringify({format:"glid_nb-map",version:1,
-...d}),proof:JSON.stringify(A)}}function wt(i){if(typeof i=="number")return as(i+0);if(Array.isArray(
-i))return i.map(wt);let t=Object.entries(i);return Object.fromEntries(t.map(([e,s])=>[e,wt(s)]))}var hs={iso:"SymmetricDirichlet",exp:"ExponentialSymmetricDirichlet",amips:"AMIPS",mips:"MIPS",arap:"\
-ARAP"},cs=["exp","amips"],re=1e5;function ae(i,{energy:t="iso",s:e=1,weight:s=re},n){let o=["import \
+...d}),proof:JSON.stringify(A)}}function wt(i){if(typeof i=="number")return cs(i+0);if(Array.isArray(
+i))return i.map(wt);let t=Object.entries(i);return Object.fromEntries(t.map(([e,s])=>[e,wt(s)]))}var ls={iso:"SymmetricDirichlet",exp:"ExponentialSymmetricDirichlet",amips:"AMIPS",mips:"MIPS",arap:"\
+ARAP"},us=["exp","amips"],re=1e5;function ae(i,{energy:t="iso",s:e=1,weight:s=re},n){let o=["import \
 glid_nb as glid","",`image = glid.read_image(${JSON.stringify(n)})  # the picture of the page`,"doma\
 in = glid.Domain.from_cage(glid.trace(image).cage)","pose = glid.Pose(",`    handles=${F(i.map(({handle:h})=>F(
 h.map(xt))))},`,`    targets=${F(i.map(({target:h})=>F(h.map(xt))))},`,...yt("angles",i,({angle:h})=>h),
 ...yt("scales",i,({scale:h})=>h),...yt("weights",i,({weight:h})=>h===1?null:h,"1.0"),")"],r=`glid.en\
-ergies.${hs[t]}(${cs.includes(t)?e:""})`,a=s===re?"":`, glid.Options(p2p_weight=${s})`;return`${[...o,
+ergies.${ls[t]}(${us.includes(t)?e:""})`,a=s===re?"":`, glid.Options(p2p_weight=${s})`;return`${[...o,
 `result = glid.solve(domain, pose, ${r}${a})`].join(`
 `)}
 `}function yt(i,t,e,s="None"){let n=t.map(e);if(n.every(r=>r===null))return[];let o=n.map(r=>r===null?
 s:xt(r));return[`    ${i}=${F(o)},`]}function F(i){return`[${i.join(", ")}]`}function xt(i){return String(
-Number(i.toFixed(6))+0)}var ls=4096,us=6e4,fs="0";function Et({title:i}){return i.replace(/[^\w-]+/g,"-")||"picture"}async function he(i,{
+Number(i.toFixed(6))+0)}var fs=4096,ds=6e4,ps="0";function Et({title:i}){return i.replace(/[^\w-]+/g,"-")||"picture"}async function he(i,{
 pins:t}){let e=ae(t,i.options,`${Et(i)}.png`);return await ie(e)?"The lines are in the clipboard.":"\
 The browser did not allow copying."}function ce(i,t,e){let[s,n,o,r]=H(e.images??[]),a=i.size[0]/(i.frame[2]-
-i.frame[0]),h=ls/Math.max(o-s,r-n),c=Math.min(a,h)/(window.devicePixelRatio||1),l=Math.ceil((o-s)*c),
-u=Math.ceil((r-n)*c),d={x:(s+o)/2,y:(n+r)/2};t.paint(e,{width:l,height:u,unit:1/c,...d},fs),t.canvas.
+i.frame[0]),h=fs/Math.max(o-s,r-n),c=Math.min(a,h)/(window.devicePixelRatio||1),l=Math.ceil((o-s)*c),
+u=Math.ceil((r-n)*c),d={x:(s+o)/2,y:(n+r)/2};t.paint(e,{width:l,height:u,unit:1/c,...d},ps),t.canvas.
 toBlob(p=>p&&bt(`${Et(i)}-posed.png`,p))}async function le(i,{solving:t}){let e=await t.ask({type:"c\
 laim"});if(e.type!=="claim")throw new Error("the worker did not answer with a claim");let{map:s,proof:n}=oe(
 i.outline,e.claim),o=Et(i);return bt(`${o}.map.json`,new Blob([s])),bt(`${o}.proof.json`,new Blob([n])),
 `Check them: glid-check ${o}.map.json ${o}.proof.json`}function bt(i,t){let e=URL.createObjectURL(t);
-f("a",{href:e,download:i}).click(),setTimeout(()=>URL.revokeObjectURL(e),us)}function ue(i,t,e){let{start:s,end:n}=i,o=n-s,r=(!e&&t>=n?s:t)-s,a=e?1/0:1e3*(o-r);return{plays:!0,lasts:a,
+f("a",{href:e,download:i}).click(),setTimeout(()=>URL.revokeObjectURL(e),ds)}function ue(i,t,e){let{start:s,end:n}=i,o=n-s,r=(!e&&t>=n?s:t)-s,a=e?1/0:1e3*(o-r);return{plays:!0,lasts:a,
 at:c=>c===a?n:s+(r+c/1e3)%o}}function fe(i,t,e){let{last:s,repeat:n}=i,o=n==="ping-pong"&&t>s?2*s-t:
-t,r=n==="loop"?ds(o,e,i.end-i.start):e;return{plays:!1,lasts:600,at:h=>h<600?o+ps(h/600)*(r-o):r}}function ds(i,t,e){
-let s=o=>Math.abs(o-i);return[t,t+e,t-e].reduce((o,r)=>s(r)<s(o)?r:o)}function ps(i){return i*i*(3-2*
-i)}var ms=.001,Z=class{buttons=[];#t=[];constructor(t,e,s,n){this.times=t,this.draw=s,this.drawNext=n,this.
+t,r=n==="loop"?ms(o,e,i.end-i.start):e;return{plays:!1,lasts:600,at:h=>h<600?o+gs(h/600)*(r-o):r}}function ms(i,t,e){
+let s=o=>Math.abs(o-i);return[t,t+e,t-e].reduce((o,r)=>s(r)<s(o)?r:o)}function gs(i){return i*i*(3-2*
+i)}var ws=.001,Z=class{buttons=[];#t=[];constructor(t,e,s,n){this.times=t,this.draw=s,this.drawNext=n,this.
 buttons=t.map((r,a)=>{let h=`Pose ${a+1}, at ${r.toFixed(2)} s`;return f("button",{title:h,"aria-lab\
 el":h,onclick:()=>e(r)},f("canvas"))});let o=new IntersectionObserver(r=>{this.#t.length||requestAnimationFrame(
 ()=>this.#s());for(let{isIntersecting:a,target:h}of r)a&&(this.#t.push(this.buttons.indexOf(h)),o.unobserve(
 h))});for(let r of this.buttons)o.observe(r)}mark(t){this.buttons.forEach((e,s)=>{e.setAttribute("ar\
-ia-current",String(Math.abs(this.times[s]-t)<ms))})}drawOne(){let t=this.#t.shift();if(t===void 0)return;
+ia-current",String(Math.abs(this.times[s]-t)<ws))})}drawOne(){let t=this.#t.shift();if(t===void 0)return;
 let e=this.draw(this.times[t]),s=this.buttons[t].firstChild;s.width=e.width,s.height=e.height,k(s).drawImage(
 e,0,0)}#s(){this.#t.length&&(this.drawNext(),requestAnimationFrame(()=>this.#s()))}};var Q=class{constructor({times:t,repeat:e},s){this.times=t,this.repeat=e,this.floats=s,this.mixed=s.
 slice(0,s.length/t.length),this.start=t[0],this.last=t[t.length-1],this.end=e==="ping-pong"?2*this.last-
@@ -254,13 +254,13 @@ s?2*s-n:n,r=e.findIndex((c,l)=>l>0&&o<c),a=r<0?e.length-1:r,h=a-1;return{piece:h
 e[h])}}at(t){let{piece:e,share:s}=this.place(t),{floats:n,mixed:o}=this,r=e*o.length,a=r+o.length;for(let h=0;h<
 o.length;h++)o[h]=(1-s)*n[r+h]+s*n[a+h];return o}};var de=12;async function me(i,t,e,s){let n=[...t.pins,...e.pins],o=await pe(i,n,s),r=await pe(i,n,e.
 frame.coefficients),[a,h]=Ft(t.pins,e.pins,o,r);await i.map({type:"place",pose:y(a),coefficients:s});
-let c=[];for(let l=1;l<=de;l++){let u=Ct(a,h,gs(l/de)),{coefficients:d,certificate:p}=await i.map({type:"\
+let c=[];for(let l=1;l<=de;l++){let u=Ct(a,h,ys(l/de)),{coefficients:d,certificate:p}=await i.map({type:"\
 drag",pose:y(u)});c.push({coefficients:d,sigma2:p.sigma2_lower})}return c}async function pe(i,t,e){let s=t.
 map(({handle:r})=>r),n={handles:s,targets:s},{pins:o}=await i.map({type:"place",pose:n,coefficients:e});
-return r=>{let a=s.findIndex(([h,c])=>h===r[0]&&c===r[1]);return[o.images[2*a],o.images[2*a+1]]}}function gs(i){
-return i*i*(3-2*i)}var ge=1,we=100,ws=1/25,tt=class{kept=[];seen=!1;element=f("div",{className:"film",hidden:!0});#t=f(
+return r=>{let a=s.findIndex(([h,c])=>h===r[0]&&c===r[1]);return[o.images[2*a],o.images[2*a+1]]}}function ys(i){
+return i*i*(3-2*i)}var ge=1,we=100,xs=1/25,tt=class{kept=[];seen=!1;element=f("div",{className:"film",hidden:!0});#t=f(
 "div",{className:"poses",role:"group","aria-label":"Kept poses"});#s=f("button",{className:"play",title:"\
-Play or pause (Space)"});#e=f("input",{type:"range",step:String(ws),"aria-label":"Time, seconds"});#o=f(
+Play or pause (Space)"});#e=f("input",{type:"range",step:String(xs),"aria-label":"Time, seconds"});#o=f(
 "i",{title:"Certified σ₂ at the knots"});#n=f("output",{className:"clock"});#r=T("trash","Remove \
 this pose",()=>this.#A());#a=new WeakMap;#i=null;#u=[];#h=0;#p=0;#m=null;#c=0;#l=null;#d=!1;#f=null;#v=!0;#g=null;#x=null;constructor(t,e){
 this.start=t,this.screen=e;let s=f("div",{className:"track"},this.#e,this.#o),n=f("div",{className:"\
@@ -304,9 +304,9 @@ cancelAnimationFrame(this.#c),this.#m=t&&{...t,began:performance.now()},t&&(this
 s=>this.#_(s,e))),this.#T()}#_(t,e){if(!this.#m)return;let{began:s,lasts:n,at:o}=this.#m,r=Math.min(
 Math.max(t-s,0),n);if(this.#R(o(r)),r<n){this.#c=requestAnimationFrame(a=>this.#_(a,e));return}this.#k(
 null),e()}#T(){let{playing:t}=this;this.#s.disabled=!this.#i,this.#e.disabled=!this.#i,this.#s.textContent=
-t?"❚❚":"▶",this.#s.setAttribute("aria-label",t?"Pause":"Play")}};var ys={mouse:13,pen:16,touch:26},xs=/^(Arrow\w+|Delete|Backspace|Escape|Enter|[0fax,.<>+=-])$/i,bs=2,
-Es=5,vs=.1,As=.5,Ms=6,ks=30,ye=Math.PI/36,vt=1.05,xe={ArrowLeft:[-1,0],ArrowRight:[1,0],ArrowUp:[0,1],
-ArrowDown:[0,-1]},Ts={"<":[ye,1],">":[-ye,1],"+":[0,vt],"=":[0,vt],"-":[0,1/vt]},et=class{reach=ys;keys=xs;signal=new AbortController().
+t?"❚❚":"▶",this.#s.setAttribute("aria-label",t?"Pause":"Play")}};var bs={mouse:13,pen:16,touch:26},Es=/^(Arrow\w+|Delete|Backspace|Escape|Enter|[0fax,.<>+=-])$/i,vs=2,
+As=5,Ms=.1,ks=.5,Ts=6,Ss=30,ye=Math.PI/36,vt=1.05,xe={ArrowLeft:[-1,0],ArrowRight:[1,0],ArrowUp:[0,1],
+ArrowDown:[0,-1]},Os={"<":[ye,1],">":[-ye,1],"+":[0,vt],"=":[0,vt],"-":[0,1/vt]},et=class{reach=bs;keys=Es;signal=new AbortController().
 signal;cursorAt=null;#t=null;constructor(t,e,s){this.editing=t,this.view=e,this.around=s,this.actions=
 {"?":s.help}}changed(){this.around.redraw()}tapped(){this.around.play()}find(t,e){let{marks:s}=this.
 editing,n=()=>Kt(this.view,s,this.view.toScreen(t),e/this.view.unit/2);return Y(s,t,e)??n()}held({mark:t}){
@@ -318,32 +318,32 @@ ove"&&this.#o(e),t.type==="up"&&this.#r(e),t.type==="cancel"&&this.#i(),t.type==
 t.y],n=Y(e.marks,s,t.reach)?.mark,o={start:s,onShape:!1,targets:new Map,part:"",turns:new Map,dragging:!1};
 if(n!==void 0){let r=Number(n);if(t.shift)return this.#e(r);e.selected.includes(r)||e.select([r]),o.
 targets=new Map(e.selected.map(a=>[a,e.pins[a].target]))}else t.part?(o.part=t.part,o.turns=new Map(
-e.selected.map(r=>[r,e.turnOf(r)]))):o.onShape=!t.shift&&e.sourceAt(s)!==null;this.#t=o}#e(t){let{selected:e}=this.
-editing,s=e.filter(n=>n!==t);this.editing.select(e.includes(t)?s:[...e,t])}#o(t){let{editing:e}=this,
-s=this.#t;if(!s)return;let n=[t.x,t.y],o=s.part||s.targets.size?bs:Es;if(!s.dragging&&w(n,s.start)<=
-o*t.unit||!s.part&&!s.targets.size&&!s.onShape)return;if(s.dragging||e.beginGesture(),s.dragging=!0,
-s.part){this.#n(s,n);return}s.targets.size||(e.pin(s.start),s.targets=new Map([[e.pins.length-1,s.start]]));
-let[r,a]=[n[0]-s.start[0],n[1]-s.start[1]],h=[...s.targets].map(([c,[l,u]])=>[c,[l+r,u+a]]);e.move(new Map(
-h))}#n(t,e){let{editing:s}=this,n=s.selected.at(-1);if(n===void 0)return;let[o,r]=s.pins[n].target,a=[
-t.start[0]-o,t.start[1]-r],h=[e[0]-o,e[1]-r],c=Math.atan2(h[1],h[0])-Math.atan2(a[1],a[0]),l=Math.hypot(
-h[0],h[1])/Math.max(Math.hypot(a[0],a[1]),1e-9);s.turn(u=>{let{angle:d,scale:p}=t.turns.get(u)??{angle:0,
-scale:1};return t.part==="turn"?{angle:d+c}:{scale:p*l}})}#r({path:t=[],encloses:e}){let{editing:s}=this,
-n=this.#t;if(this.#t=null,e&&t.length>2){this.#a(t);return}n&&(n.dragging?s.endGesture():n.onShape?this.#u(
-n.start):!n.targets.size&&!n.part&&s.select([]))}#a(t){let[e,s]=[t.map(([h])=>h),t.map(([,h])=>h)],n=(h,c)=>h>=
-Math.min(...c)&&h<=Math.max(...c),{pins:o,selected:r}=this.editing,a=[...o.keys()].filter(h=>{let[c,
-l]=o[h].target;return n(c,e)&&n(l,s)});this.editing.select([...r,...a])}#i(){this.#t=null,this.editing.
-cancelGesture()}#u(t){this.editing.pin(t)||this.around.say("There is no shape here. Choose a place o\
-n it.")}#h(t,e){let{editing:s,around:n}=this,o={undo:()=>s.undo(),redo:()=>s.redo(),Delete:()=>s.remove(),
-Backspace:()=>s.remove(),Escape:()=>this.#m(),Enter:()=>this.#d(e),0:n.reset,f:n.fit,a:()=>s.select(
-[...s.pins.keys()]),x:()=>s.turn(()=>({angle:null,scale:null})),",":()=>this.#c(-1),".":()=>this.#c(
-1)},r=Ts[t];xe[t]?this.#l(xe[t],e):r?this.#p(r):(o[t]??o[t.toLowerCase()])?.(),n.redraw()}#p([t,e]){
-let{editing:s}=this;s.turn(n=>{let{angle:o,scale:r}=s.turnOf(n);return t?{angle:o+t}:{scale:r*e}})}#m(){
-if(this.editing.inGesture){this.#i();return}this.editing.select([]),this.cursorAt=null}#c(t){this.editing.
-selectNext(t),this.cursorAt=null}#l([t,e],{x:s,y:n,unit:o,shift:r}){let{editing:a}=this;if(a.selected.
-length&&!this.cursorAt){let u=r?As:vs;a.nudge([u*t,u*e]);return}let h=(r?ks:Ms)*o,[c,l]=this.cursorAt??
-[s,n];this.cursorAt=[c+h*t,l+h*e]}#d({x:t,y:e,reach:s}){let n=this.cursorAt;if(!n){this.cursorAt=[t,
-e];return}let o=Y(this.editing.marks,n,s)?.mark;this.cursorAt=null,o===void 0?this.#u(n):this.editing.
-select([Number(o)])}};var be=[["Pins",[["Click or tap the shape","pin a point"],["Drag a pin, or the shape","move it there\
+e.selected.map(r=>[r,e.turnOf(r)])),o.onShape=t.part==="turn"&&e.sourceAt(s)!==null):o.onShape=!t.shift&&
+e.sourceAt(s)!==null;this.#t=o}#e(t){let{selected:e}=this.editing,s=e.filter(n=>n!==t);this.editing.
+select(e.includes(t)?s:[...e,t])}#o(t){let{editing:e}=this,s=this.#t;if(!s)return;let n=[t.x,t.y],o=s.
+part||s.targets.size?vs:As;if(!s.dragging&&w(n,s.start)<=o*t.unit||!s.part&&!s.targets.size&&!s.onShape)
+return;if(s.dragging||e.beginGesture(),s.dragging=!0,s.part){this.#n(s,n);return}s.targets.size||(e.
+pin(s.start),s.targets=new Map([[e.pins.length-1,s.start]]));let[r,a]=[n[0]-s.start[0],n[1]-s.start[1]],
+h=[...s.targets].map(([c,[l,u]])=>[c,[l+r,u+a]]);e.move(new Map(h))}#n(t,e){let{editing:s}=this,n=s.
+selected.at(-1);if(n===void 0)return;let[o,r]=s.pins[n].target,a=[t.start[0]-o,t.start[1]-r],h=[e[0]-
+o,e[1]-r],c=Math.atan2(h[1],h[0])-Math.atan2(a[1],a[0]),l=Math.hypot(h[0],h[1])/Math.max(Math.hypot(
+a[0],a[1]),1e-9);s.turn(u=>{let{angle:d,scale:p}=t.turns.get(u)??{angle:0,scale:1};return t.part==="\
+turn"?{angle:d+c}:{scale:p*l}})}#r({path:t=[],encloses:e}){let{editing:s}=this,n=this.#t;if(this.#t=
+null,e&&t.length>2){this.#a(t);return}n&&(n.dragging?s.endGesture():n.onShape?this.#u(n.start):!n.targets.
+size&&!n.part&&s.select([]))}#a(t){let[e,s]=[t.map(([h])=>h),t.map(([,h])=>h)],n=(h,c)=>h>=Math.min(
+...c)&&h<=Math.max(...c),{pins:o,selected:r}=this.editing,a=[...o.keys()].filter(h=>{let[c,l]=o[h].target;
+return n(c,e)&&n(l,s)});this.editing.select([...r,...a])}#i(){this.#t=null,this.editing.cancelGesture()}#u(t){
+this.editing.pin(t)||this.around.say("There is no shape here. Choose a place on it.")}#h(t,e){let{editing:s,
+around:n}=this,o={undo:()=>s.undo(),redo:()=>s.redo(),Delete:()=>s.remove(),Backspace:()=>s.remove(),
+Escape:()=>this.#m(),Enter:()=>this.#d(e),0:n.reset,f:n.fit,a:()=>s.select([...s.pins.keys()]),x:()=>s.
+turn(()=>({angle:null,scale:null})),",":()=>this.#c(-1),".":()=>this.#c(1)},r=Os[t];xe[t]?this.#l(xe[t],
+e):r?this.#p(r):(o[t]??o[t.toLowerCase()])?.(),n.redraw()}#p([t,e]){let{editing:s}=this;s.turn(n=>{let{
+angle:o,scale:r}=s.turnOf(n);return t?{angle:o+t}:{scale:r*e}})}#m(){if(this.editing.inGesture){this.#i();
+return}this.editing.select([]),this.cursorAt=null}#c(t){this.editing.selectNext(t),this.cursorAt=null}#l([
+t,e],{x:s,y:n,unit:o,shift:r}){let{editing:a}=this;if(a.selected.length&&!this.cursorAt){let u=r?ks:
+Ms;a.nudge([u*t,u*e]);return}let h=(r?Ss:Ts)*o,[c,l]=this.cursorAt??[s,n];this.cursorAt=[c+h*t,l+h*e]}#d({
+x:t,y:e,reach:s}){let n=this.cursorAt;if(!n){this.cursorAt=[t,e];return}let o=Y(this.editing.marks,n,
+s)?.mark;this.cursorAt=null,o===void 0?this.#u(n):this.editing.select([Number(o)])}};var be=[["Pins",[["Click or tap the shape","pin a point"],["Drag a pin, or the shape","move it there\
 ; the shape follows, and never folds"],["Drag the ring, its knob","turn the shape at the pin, scale \
 it there"],["< >, + -, X","turn, scale; free both again"],["Delete","remove the selected pins"],["Ar\
 row keys","nudge selected pins, with Shift farther; else move a cursor"],["Enter","show the cursor; \
@@ -351,53 +351,54 @@ pin or select there"],[", .","select the pin before, the next pin"],["Shift-clic
 "select several pins, those in a box, all"],["Esc","cancel a drag; select nothing"]]],["View and pos\
 es",[["Wheel, two fingers","zoom, move the view"],["Drag beside the shape","move the view"],["F","fi\
 t the window"],["Space","play the kept poses, pause"],["Ctrl+Z, Ctrl+Shift+Z","undo, redo"],["0","ba\
-ck to the undeformed shape"]]]];var Ss="#9a3b00";function Ee(i,t,e,s,n){let o=n?"would fold: the shape stays here":"as far as the sh\
+ck to the undeformed shape"]]]];var Ps="#9a3b00";function Ee(i,t,e,s,n){let o=n?"would fold: the shape stays here":"as far as the sh\
 ape goes";i.font="600 12px system-ui, sans-serif",i.textBaseline="middle";let r=i.measureText(o).width+
 16;for(let a of s){let[h,c]=t.toScreen(e.targets[a]),l=Math.min(Math.max(h-r/2,4),t.width-r-4),u=c>62?
-c-20-22:c+20;i.beginPath(),i.roundRect(l,u,r,22,22/2),i.fillStyle=Ss,i.fill(),i.fillStyle="#fff",i.fillText(
-o,l+8,u+22/2)}}function At(i){return(Math.floor(1e3*i)/1e3).toFixed(3)}function Mt(i){return(Math.ceil(1e3*i)/1e3).
-toFixed(3)}var ve=90,st=2;function Os(i,t,e,s){let[n,o]=s??[Math.min(...i),Math.max(...i)],r=Math.max(o-n,1e-12),
+c-20-22:c+20;i.beginPath(),i.roundRect(l,u,r,22,22/2),i.fillStyle=Ps,i.fill(),i.fillStyle="#fff",i.fillText(
+o,l+8,u+22/2)}}function Rs(i){return(Math.floor(1e3*i)/1e3).toFixed(3)}function At(i){if(!(i>0)||i>=.01)return Rs(i);
+let t=Math.floor(Math.log10(i));return`${Math.floor(.999999*i/10**(t-1))/10}e${t}`}function Mt(i){return(Math.
+ceil(1e3*i)/1e3).toFixed(3)}var ve=90,st=2;function Ls(i,t,e,s){let[n,o]=s??[Math.min(...i),Math.max(...i)],r=Math.max(o-n,1e-12),
 a=(t-2*st)/(ve-1);return i.map((h,c)=>{let l=Math.min(Math.max((h-n)/r,0),1);return[t-st-(i.length-1-
 c)*a,e-st-l*(e-2*st)]})}var L=class{#t=[];constructor(t,e,s,n){this.range=s,this.words=n,this.value=
 f("output",{}),this.canvas=f("canvas",{"aria-hidden":"true"});let o=f("dt",{},t);this.element=f("div",
 {className:"plot",title:e},o,this.value,this.canvas)}add(t){this.#t.push(t),this.#t.length>ve&&this.#t.
 shift(),this.value.textContent=this.words(t)}draw(){let{canvas:t}=this,{clientWidth:e,clientHeight:s}=t;
 if(!e||!s)return;let n=window.devicePixelRatio||1;t.width=Math.round(e*n),t.height=Math.round(s*n);let o=k(
-t);o.scale(n,n);let r=Os(this.#t,e,s,this.range),a=r.at(-1);if(!a)return;let h=getComputedStyle(t).color,
+t);o.scale(n,n);let r=Ls(this.#t,e,s,this.range),a=r.at(-1);if(!a)return;let h=getComputedStyle(t).color,
 [c]=r;P(o,[[...r,[a[0],s],[c[0],s]]]),o.globalAlpha=.12,o.fillStyle=h,o.fill(),o.globalAlpha=1,o.lineJoin=
-"round",P(o,[r],!1),E(o,[[1.5,h]]),o.beginPath(),o.arc(a[0],a[1],2,0,2*Math.PI),o.fillStyle=h,o.fill()}};var Ps=5e3,Rs=.02,nt=class{#t=new L("Certificate","The least stretch anywhere, as proved. The map fo\
-lds nowhere while this is above 0",[0,1+Rs],t=>`σ₂ ≥ ${At(t)}`);#s=new L("Energy","The distorti\
+"round",P(o,[r],!1),E(o,[[1.5,h]]),o.beginPath(),o.arc(a[0],a[1],2,0,2*Math.PI),o.fillStyle=h,o.fill()}};var _s=5e3,Is=.02,nt=class{#t=new L("Certificate","The least stretch anywhere, as proved. The map fo\
+lds nowhere while this is above 0",[0,1+Is],t=>`σ₂ ≥ ${At(t)}`);#s=new L("Energy","The distorti\
 on of the shape, and of the pins",null,t=>t.toPrecision(4));#e=new L("Step","Time of a certified ste\
 p",null,t=>`${t.toFixed(1)} ms`);#o=-1;#n;constructor(){m("plots").append(this.#t.element,this.#s.element,
 this.#e.element)}plot({id:t,certificate:e,energy:s,steps:n,took:o}){t===this.#o&&!n||(this.#o=t,this.#t.
 add(e.sigma2_lower),this.#s.add(s),n&&this.#e.add(o/n),this.draw())}draw(){for(let t of[this.#t,this.#s,
 this.#e])t.draw()}proved({certificate:{sigma2_lower:t,sigma1_upper:e,k_upper:s}}){let n=`σ₂ ≥ ${At(
 t)}, σ₁ ≤ ${Mt(e)}, k ≤ ${Mt(s)}`;m("proved").title=`Proved in this page for the map that is \
-shown: ${n}`,m("bound").textContent=n}pins(t){let e=Ls(t);e&&this.tell(e)}tell(t){let e=m("status");
+shown: ${n}`,m("bound").textContent=n}pins(t){let e=Ns(t);e&&this.tell(e)}tell(t){let e=m("status");
 e.textContent!==t&&(e.textContent=t)}say(t){let e=m("notice");e.textContent=t,e.hidden=!1,clearTimeout(
-this.#n),this.#n=setTimeout(()=>{e.hidden=!0},Ps)}};function Ls({pins:i,selected:t,missed:e,inGesture:s}){
-if(e.length&&!s)return`The shape cannot follow pin ${e.map(h=>h+1).join(", ")} without folding`;let n=t.
-at(-1);if(n===void 0)return"";let[o,r]=i[n].target;return`Pin ${n+1} of ${i.length}, at ${o.toFixed(
-1)}, ${r.toFixed(1)}`}var Ae=80;function C(i){let t=i.getBoundingClientRect(),e=m("free").getBoundingClientRect();return{left:e.
-left-t.left,top:e.top-t.top,width:Math.max(e.width,Ae),height:Math.max(e.height,Ae),size:{width:t.width,
+this.#n),this.#n=setTimeout(()=>{e.hidden=!0},_s)}};function Ns({pins:i,selected:t,missed:e,inGesture:s}){
+if(e.length&&!s)return`The shape does not reach pin ${e.map(h=>h+1).join(", ")}`;let n=t.at(-1);if(n===
+void 0)return"";let[o,r]=i[n].target;return`Pin ${n+1} of ${i.length}, at ${Ae(o)}, ${Ae(r)}`}function Ae(i){
+return(Math.round(10*i)/10+0).toFixed(1)}var Me=80;function C(i){let t=i.getBoundingClientRect(),e=m("free").getBoundingClientRect();return{left:e.
+left-t.left,top:e.top-t.top,width:Math.max(e.width,Me),height:Math.max(e.height,Me),size:{width:t.width,
 height:t.height}}}function B(i,t,e){let[s,n,o,r]=H(i),a=(o-s)/t.width,h=(r-n)/t.height,c=Math.max(a,
 h)/(1-2*e),l=(s+o)/2+c*(t.size.width/2-t.left-t.width/2),u=(n+r)/2-c*(t.size.height/2-t.top-t.height/
 2);return{unit:c,x:l,y:u}}var it=class{#t;#s;#e;#o;constructor(t,{chain:e,shaderHoles:s}){let n=[t.offset_cage,...t.offset_holes];
-this.#s=t,this.#o={chain:e,holes:s},this.#t=_s(n.map(o=>o.length)),this.#e=n.flat(),this.cage=this.#n()}#n(){
+this.#s=t,this.#o={chain:e,holes:s},this.#t=Fs(n.map(o=>o.length)),this.#e=n.flat(),this.cage=this.#n()}#n(){
 let t=new Float32Array(4*this.#o.chain),e=this.#e[this.#e.length-1];for(let s=0;s<this.#o.chain;s++){
 let n=this.#t[s],[o,r]=n?this.#e[n.vertex]:e,a=n&&!n.first?this.#r(s):[0,0];t.set([o,r,...a],4*s)}return t}#r(t){
 let[e,s]=this.#e[this.#t[t].vertex],[n,o]=this.#e[this.#t[t-1].vertex],[r,a]=[e-n,s-o],h=r*r+a*a;return[
 r/h,-a/h]}of(t){let{chain:e,holes:s}=this.#o,n=t.length/4,o=new Float32Array(4*(e+s));for(let[h,{vertex:c}]of this.#t.
 entries())for(let l=0;l<4;l++)o[4*h+l]=t[l*n+c];let r=1e3*Math.max(...this.#e.map(([h,c])=>Math.hypot(
 h,c))),a=this.#s.hole_points;for(let h=0;h<s;h++){let c=this.#e.length+h,l=h<a.length?[...a[h],t[c],
-t[n+c]]:[r];o.set(l,4*(e+h))}return o}};function _s(i){let t=[],e=0;for(let s of i){t.push({vertex:e+
-s-1,first:!0});for(let n=0;n<s;n++)t.push({vertex:e+n,first:!1});e+=s}return t}function Me({images:i,
+t[n+c]]:[r];o.set(l,4*(e+h))}return o}};function Fs(i){let t=[],e=0;for(let s of i){t.push({vertex:e+
+s-1,first:!0});for(let n=0;n<s;n++)t.push({vertex:e+n,first:!1});e+=s}return t}function ke({images:i,
 samples:t}){if(!i||!t)throw new Error("the map was not evaluated at the mesh");let e=i.length/2,s=new Float32Array(
 6*e);for(let n=0;n<e;n++){s[6*n]=i[2*n],s[6*n+1]=i[2*n+1];for(let o=0;o<4;o++)s[6*n+2+o]=t[o*e+n]}return s}
-function ke(i,t){let e=i.length/4,s=new Float64Array(4*e);for(let n=0;n<e;n++){let o=n>=e-t;s[n]=i[2*
+function Te(i,t){let e=i.length/4,s=new Float64Array(4*e);for(let n=0;n<e;n++){let o=n>=e-t;s[n]=i[2*
 n],s[e+n]=i[2*n+1],s[2*e+n]=o?i[2*n]:i[2*(e+n)],s[3*e+n]=o?-i[2*n+1]:i[2*(e+n)+1]}return s}function ot(i){
 let e=[...i.offset_cage,...i.offset_holes.flat()].length+i.hole_points.length,s=new Float64Array(4*e);
-return i.offset_cage.forEach(([o,r],a)=>{s[a]=o,s[e+a]=r}),s}var Te={0:"Picture",1:"Grid",2:"Stretch σ₁",3:"Stretch σ₂",4:"Dilatation k"},Is="0",Se=56,rt=class{report=new nt;#t=m(
+return i.offset_cage.forEach(([o,r],a)=>{s[a]=o,s[e+a]=r}),s}var Se={0:"Picture",1:"Grid",2:"Stretch σ₁",3:"Stretch σ₂",4:"Dilatation k"},Cs="0",Oe=56,rt=class{report=new nt;#t=m(
 "pad");#s=f("select",{id:"overlay","aria-label":"What is shown"});#e=T("undo","Undo (Ctrl+Z)",()=>this.#l(
 "undo"));#o=T("redo","Redo (Ctrl+Shift+Z)",()=>this.#l("redo"));#n=T("trash","Remove the selected pi\
 ns (Delete)",()=>this.#l("Delete"));#r=se(be);#a=null;#i=0;#u;constructor(t,{stage:e,editing:s,view:n},o){
@@ -407,7 +408,7 @@ say(a),color:a=>this.#b(a)}),this.hand=new et(s,n,{fit:()=>this.fit(),reset:()=>
 redraw(),play:()=>this.film.playOrPause(),say:a=>this.report.say(a),help:this.#r.toggle}),this.pad=new J(
 this.#t,n,this.hand,this.hand);let r=f("canvas",{className:"paper"});this.#t.append(r),this.#u=Bt(r,
 n,this.hand.signal,a=>this.#x(a)),n.changed=()=>this.redraw(),s.told=()=>this.#w(),this.#h(),this.#m(),
-this.#w()}#h(){for(let[h,c]of Object.entries(Te))this.#s.append(new Option(c,h));let t=f("div",{id:"\
+this.#w()}#h(){for(let[h,c]of Object.entries(Se))this.#s.append(new Option(c,h));let t=f("div",{id:"\
 menu",popover:"auto"},...this.#p());t.addEventListener("click",()=>t.hidePopover());let e=T("export",
 "Copy, download, reset",void 0);e.popoverTargetElement=t;let s=[this.#e,this.#o,this.#n];m("tools").
 append(...s,this.#s,e,this.#r.button),document.body.append(t,this.#r.table);let n=f("b",{"aria-hidde\
@@ -433,50 +434,51 @@ e=this.shown.images??[];Object.assign(this.view,t.size,B(e,t,this.data.margin)),
 redraw()}redraw(){this.#u(),!this.#i&&(this.#i=requestAnimationFrame(()=>{this.#i=0,this.film.drawOne();
 let{width:t,height:e,unit:s,x:n,y:o}=this.view;this.stage.paint(this.shown,{width:t,height:e,unit:s,
 x:n,y:o},this.#s.value),document.documentElement.dataset.drawn=String(this.shown.id)}))}#v(t){this.#a=
-t,this.report.proved(this.shown),this.redraw()}#g(t){let e={width:Se,height:Se},s={...e,left:0,top:0,
-size:e},n=B(t.images??[],s,this.data.margin);return this.stage.paint(t,{...e,...n},Is),this.stage.canvas}#x(t){
+t,this.report.proved(this.shown),this.redraw()}#g(t){let e={width:Oe,height:Oe},s={...e,left:0,top:0,
+size:e},n=B(t.images??[],s,this.data.margin);return this.stage.paint(t,{...e,...n},Cs),this.stage.canvas}#x(t){
 let{editing:e,pad:s,hand:n,view:o}=this;if(this.#a)return;let r=s.focused?n.cursorAt:null,{marks:a}=e;
 te(t,o,a,{hovered:s.found?.mark,held:s.held,cursor:r}),Ee(t,o,a,e.missed,e.refused),s.encloses&&s.path.
 length>2&&Qt(t,o,s.path)}#w(){let{editing:t,report:e}=this;this.#e.disabled=!t.canUndo,this.#o.disabled=
 !t.canRedo,this.#n.disabled=t.selected.length===0,m("hint").hidden=t.pins.length>0||this.film.kept.length>
-0,e.plot(t.frame),e.proved(this.shown),e.pins(t),this.redraw()}get#E(){return this.data.colors.length/
-3}#y(t){return`rgb(${this.data.colors.slice(3*t,3*t+3).map(s=>Math.round(255*s))})`}#b(t){return this.#y(
-Math.round((1-Math.min(t,1))*(this.#E-1)))}#A(){let{value:t}=this.#s,e=this.data.ranges[t],s=m("lege\
-nd");s.hidden=!e,e&&s.replaceChildren(`${Te[t]} ${e[0]}`,f("i"),`${e[1]}`)}};var at=class{#t;#s=0;#e=new Map;constructor(t,e=()=>{}){this.#t=t,this.onmap=e,t.onmessage=({data:s})=>this.#n(
+0,e.plot(t.frame),e.proved(this.shown),e.pins(t),document.documentElement.dataset.settled=String(t.settled),
+this.redraw()}get#E(){return this.data.colors.length/3}#y(t){return`rgb(${this.data.colors.slice(3*t,
+3*t+3).map(s=>Math.round(255*s))})`}#b(t){return this.#y(Math.round((1-Math.min(t,1))*(this.#E-1)))}#A(){
+let{value:t}=this.#s,e=this.data.ranges[t],s=m("legend");s.hidden=!e,e&&s.replaceChildren(`${Se[t]} ${e[0]}`,
+f("i"),`${e[1]}`)}};var at=class{#t;#s=0;#e=new Map;constructor(t,e=()=>{}){this.#t=t,this.onmap=e,t.onmessage=({data:s})=>this.#n(
 s)}ask(t){let e=this.#o(t);return new Promise((s,n)=>this.#e.set(e,{resolve:s,reject:n}))}async map(t){
 let e=await this.ask(t);if(e.type!=="map")throw new Error(`the answer is no map but of type ${e.type}`);
 return e}drag(t){return this.#o({type:"drag",pose:t})}place(t,e){return this.#o({type:"place",pose:t,
 coefficients:e})}#o(t){return this.#s+=1,this.#t.postMessage({...t,id:this.#s}),this.#s}#n(t){let e=this.#e.
 get(t.id);t.type==="map"&&this.onmap(t),!(t.type==="map"&&!t.settled)&&(this.#e.delete(t.id),t.type===
-"failed"?e?.reject(new Error(t.message)):e?.resolve(t))}};function Oe(i){let t=i.toSorted((e,s)=>e-s);return t[Math.floor(t.length/2)]}function Pe(i){return i<=
-4}function kt(i){return i<=8}function Re(i,t,e){return t+e<i?"module":"shader"}var ht=1,Ns=2,Fs=5,ct=class{mover="shader";frameTime=0;#t;#s;#e;#o;#n;constructor(t,e,s,n,o){this.canvas=
+"failed"?e?.reject(new Error(t.message)):e?.resolve(t))}};function Pe(i){let t=i.toSorted((e,s)=>e-s);return t[Math.floor(t.length/2)]}function Re(i){return i<=
+4}function kt(i){return i<=8}function Le(i,t,e){return t+e<i?"module":"shader"}var ht=1,Bs=2,Ds=5,ct=class{mover="shader";frameTime=0;#t;#s;#e;#o;#n;constructor(t,e,s,n,o){this.canvas=
 t,this.#t=e,this.#s=s,this.#e=n,this.#o=new it(s.outline,s),this.mover=s.vertex?"shader":"module",this.
 mesh=n,this.#n=this.#r(ht),this.#n.setPicture(o)}#r(t){let{vertex:e,painting:s,fragment:n,frame:o,colors:r,
 grid:a,ranges:h}=this.#s,c=this.mover==="shader",l={vertex:c?e:s,fragment:n,frame:o,colors:r,grid:a,
 ranges:h},u=ut(this.#e,t),d=c?this.#o.cage:new Float32Array;return this.mesh=u,new U(this.canvas,this.#t,
 l,u,d)}async choose(t,e){let s=o=>t.map({type:"points",points:ft(o)}),n=await s(this.#e);if(this.mover===
-"shader"){let o=this.#i(n,e);if(Pe(o)&&this.#a(n,e),kt(o))return n;this.mover="module",this.#n=this.#r(
-ht),n=await s(this.mesh);let r=this.#i(n,e);return Re(o,r,n.evaluated)==="module"?n:(this.mover="sha\
-der",this.#n=this.#r(ht),s(this.#e))}return s(this.mesh)}#a(t,e){this.#n=this.#r(Ns),!kt(this.#i(t,e))&&
-(this.#n=this.#r(ht))}#i(t,e){let s=this.#t,n=new Uint8Array(4),o=Array.from({length:Fs},()=>{let r=performance.
+"shader"){let o=this.#i(n,e);if(Re(o)&&this.#a(n,e),kt(o))return n;this.mover="module",this.#n=this.#r(
+ht),n=await s(this.mesh);let r=this.#i(n,e);return Le(o,r,n.evaluated)==="module"?n:(this.mover="sha\
+der",this.#n=this.#r(ht),s(this.#e))}return s(this.mesh)}#a(t,e){this.#n=this.#r(Bs),!kt(this.#i(t,e))&&
+(this.#n=this.#r(ht))}#i(t,e){let s=this.#t,n=new Uint8Array(4),o=Array.from({length:Ds},()=>{let r=performance.
 now();return this.paint(t,e,"0"),s.readPixels(0,0,1,1,s.RGBA,s.UNSIGNED_BYTE,n),performance.now()-r});
-return this.frameTime=Oe(o),this.frameTime}paint(t,e,s){let n=this.mover==="shader"?this.#o.of(t.coefficients):
-Me(t);this.#n.draw({...e,overlay:s,coefficients:n,heights:null})}get points(){return ft(this.mover===
-"shader"?this.#e:this.mesh)}};var{data:x,worker:Cs}=Reflect.get(globalThis,"glidPage");async function Le(){let i=URL.createObjectURL(
-new Blob([Cs],{type:"text/javascript"})),t=new Worker(i);URL.revokeObjectURL(i);let e=new at(t),{outline:s,
+return this.frameTime=Pe(o),this.frameTime}paint(t,e,s){let n=this.mover==="shader"?this.#o.of(t.coefficients):
+ke(t);this.#n.draw({...e,overlay:s,coefficients:n,heights:null})}get points(){return ft(this.mover===
+"shader"?this.#e:this.mesh)}};var Ie=Reflect.get(globalThis,"glidPage"),{data:x,worker:Us}=Ie;async function _e(){let i=URL.createObjectURL(
+new Blob([Us],{type:"text/javascript"})),t=new Worker(i);URL.revokeObjectURL(i);let e=new at(t),{outline:s,
 options:n,start:o,poses:r}=x;await e.ask({type:"shape",outline:s,options:n});let a=o.length?Float64Array.
-from(o):ot(s);return await e.map({type:"place",pose:y(r[0]),coefficients:a}),e}async function Bs(){let i=await S(
-x.source,2),t=await S(x.heights,1),e=await Pt(x.triangles);return{source:i,heights:t,triangles:e}}async function Ds(){
+from(o):ot(s);return await e.map({type:"place",pose:y(r[0]),coefficients:a}),e}async function Gs(){let i=await S(
+x.source,2),t=await S(x.heights,1),e=await Pt(x.triangles);return{source:i,heights:t,triangles:e}}async function $s(){
 let i=W("source",HTMLImageElement);return await i.decode().catch(()=>{throw new b("The picture in th\
-is page is damaged.")}),i}function Us(i){let t=i.getContext("webgl2",{antialias:!0,premultipliedAlpha:!0,
+is page is damaged.")}),i}function Hs(i){let t=i.getContext("webgl2",{antialias:!0,premultipliedAlpha:!0,
 preserveDrawingBuffer:!0});if(!t)throw new b("This page needs WebGL 2 and a browser of 2023 or later\
-.");return t}async function Gs({coefficients:i,width:t,times:e,keyframes:s,repeat:n,sigma2:o}){let r=await Ot(
-i,t),a=x.outline.hole_points.length,h=e.map((c,l)=>({coefficients:ke(r.subarray(l*t,(l+1)*t),a),sigma2:Math.
-min(o[l-1]??1/0,o[l]??1/0)}));return{times:e,knots:h,keyframes:s,repeat:n}}async function $s(){let i=W(
-"picture",HTMLCanvasElement),t=Us(i),[e,s,n]=await Promise.all([Le(),Bs(),Ds()]),o=new G(()=>{},{nearest:1e-4,
+.");return t}async function Ks({coefficients:i,width:t,times:e,keyframes:s,repeat:n,sigma2:o}){let r=await Ot(
+i,t),a=x.outline.hole_points.length,h=e.map((c,l)=>({coefficients:Te(r.subarray(l*t,(l+1)*t),a),sigma2:Math.
+min(o[l-1]??1/0,o[l]??1/0)}));return{times:e,knots:h,keyframes:s,repeat:n}}async function js(){let i=W(
+"picture",HTMLCanvasElement),t=Hs(i),[e,s,n]=await Promise.all([_e(),Gs(),$s()]),o=new G(()=>{},{nearest:1e-4,
 farthest:1});Object.assign(o,C(m("pad")).size),Object.assign(o,B(s.source,C(m("pad")),x.margin));let r=new ct(
-i,t,x,s,n),a=await r.choose(e,o),h=new z(e,s,a),c=new rt(x,{stage:r,editing:h,view:o},async()=>{let u=await Le();
+i,t,x,s,n),a=await r.choose(e,o),h=new z(e,s,a),c=new rt(x,{stage:r,editing:h,view:o},async()=>{let u=await _e();
 return await u.map({type:"points",points:r.points}),u});h.begin(x.poses[0]),x.motion&&await c.film.load(
-await Gs(x.motion),x.poses);let{dataset:l}=document.documentElement;l.mover=r.mover,l.frame=r.frameTime.
-toFixed(1),l.ready="true"}$s().catch(i=>{let t=m("problem");if(t.textContent=i.message,t.hidden=!1,!(i instanceof
-b))throw i});})();
+await Ks(x.motion),x.poses),Ie.view=o;let{dataset:l}=document.documentElement;l.mover=r.mover,l.frame=
+r.frameTime.toFixed(1),l.ready="true"}js().catch(i=>{let t=m("problem");if(t.textContent=i.message,t.
+hidden=!1,!(i instanceof b))throw i});})();

@@ -101,6 +101,46 @@ test("another energy keeps the map", () => {
   assert.ok(asMap(after).energy > asMap(before).energy);
 });
 
+test("another map is taken up if it can be proved, and the pins are evaluated there", () => {
+  const { outline, pose } = golden("bar");
+  const { worker, answers, run } = startedWorker();
+  worker.receive({ type: "shape", id: 1, outline });
+  worker.receive({ type: "solve", id: 2, pose });
+  run();
+  const solved = asMap(answers[1]);
+  const identity = new Shape(outline).identity();
+  worker.receive({ type: "place", id: 3, pose, coefficients: identity });
+  worker.receive({ type: "place", id: 4, pose, coefficients: identity.map((x) => -x * 0) });
+  worker.receive({ type: "drag", id: 5, pose });
+  run();
+  const placed = asMap(answers[2]);
+  assert.deepEqual(placed.coefficients, identity);
+  const [x, y] = pose.handles[0];
+  const gap = Math.hypot(placed.pins.images[0] - x, placed.pins.images[1] - y);
+  assert.ok(gap < 1e-9);
+  assert.equal(answers[3].type, "failed");
+  const last = asMap(answers.at(-1));
+  assert.ok(last.settled && Math.abs(last.energy / solved.energy - 1) < 1e-4);
+});
+
+test("what a proof claims has panels that tile every edge", () => {
+  const { outline, pose } = golden("teapot");
+  const { worker, answers, run } = startedWorker();
+  worker.receive({ type: "shape", id: 1, outline });
+  worker.receive({ type: "claim", id: 2 });
+  run();
+  const [ready, answer] = answers;
+  assert.ok(ready.type === "ready" && answer.type === "claim");
+  const { panels, certificate } = answer.claim;
+  assert.ok(certificate.certified && pose.handles.length > 0);
+  assert.equal(panels.flat().length, ready.panels);
+  for (const own of panels) {
+    const ends = own.map(([k, d]) => (k + 1) / 2 ** d);
+    const starts = own.map(([k, d]) => k / 2 ** d);
+    assert.deepEqual([...starts, 1], [0, ...ends]);
+  }
+});
+
 test("a request that fails says so, and the worker goes on", () => {
   const { outline, pose } = golden("bar");
   const { worker, answers, run } = startedWorker();

@@ -7,6 +7,18 @@ export function down(x) {
   return (Math.floor(1000 * x) / 1000).toFixed(3);
 }
 
+/**
+ * A positive number, of which something is seen however small it is.
+ *
+ * @param {number} x
+ */
+export function downSmall(x) {
+  if (!(x > 0) || x >= 0.01) return down(x);
+  const power = Math.floor(Math.log10(x));
+  const digits = Math.floor((0.999999 * x) / 10 ** (power - 1)) / 10;
+  return `${digits}e${power}`;
+}
+
 /** @param {number} x */
 export function up(x) {
   return (Math.ceil(1000 * x) / 1000).toFixed(3);

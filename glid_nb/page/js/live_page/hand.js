@@ -169,6 +169,8 @@ export class Hand {
     } else if (at.part) {
       press.part = at.part;
       press.turns = new Map(editing.selected.map((i) => [i, editing.turnOf(i)]));
+      // A click on the ring's line without a turn pins the point below it.
+      press.onShape = at.part === "turn" && editing.sourceAt(start) !== null;
     } else {
       press.onShape = !at.shift && editing.sourceAt(start) !== null;
     }

@@ -15,10 +15,13 @@ import { coefficientsOf, identityOf } from "./wire.js";
 /** @import { LiveData } from "./data.js" */
 /** @import { Port } from "./solving.js" */
 
-/** What the first script of html/live_page.html has unpacked. */
-const { data, worker } = /** @type {{ data: LiveData, worker: string }} */ (
-  Reflect.get(globalThis, "glidPage")
-);
+/**
+ * What the first script of html/live_page.html has unpacked. The page adds its view, so that other
+ * scripts and tests can tell where a point is on the screen.
+ * @typedef {{ data: LiveData, worker: string, view?: View }} Unpacked
+ */
+const unpackedPage = /** @type {Unpacked} */ (Reflect.get(globalThis, "glidPage"));
+const { data, worker } = unpackedPage;
 
 /** A worker that has the shape, at the map to begin with. */
 async function startedSolver() {
@@ -95,6 +98,7 @@ async function open() {
   });
   editing.begin(data.poses[0]);
   if (data.motion) await page.film.load(await unpackedReel(data.motion), data.poses);
+  unpackedPage.view = view;
   const { dataset } = document.documentElement;
   dataset.mover = stage.mover;
   dataset.frame = stage.frameTime.toFixed(1);

@@ -247,6 +247,7 @@ export class LivePage {
     report.plot(editing.frame);
     report.proved(this.shown);
     report.pins(editing);
+    document.documentElement.dataset.settled = String(editing.settled);
     this.redraw();
   }
 

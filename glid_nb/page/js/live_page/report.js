@@ -1,6 +1,6 @@
 // What the page says of the map that is shown: bounds, plots, notices, and words for screen readers.
 
-import { down, up } from "../exported/numbers.js";
+import { downSmall, up } from "../exported/numbers.js";
 import { byId } from "./elements.js";
 import { Plot } from "./plots.js";
 
@@ -15,7 +15,7 @@ export class Report {
     "Certificate",
     "The least stretch anywhere, as proved. The map folds nowhere while this is above 0",
     [0, 1 + BESIDE],
-    (x) => `σ₂ ≥ ${down(x)}`,
+    (x) => `σ₂ ≥ ${downSmall(x)}`,
   );
   #energy = new Plot("Energy", "The distortion of the shape, and of the pins", null, (x) =>
     x.toPrecision(4),
@@ -45,7 +45,7 @@ export class Report {
 
   /** @param {LiveMap} map that is shown */
   proved({ certificate: { sigma2_lower, sigma1_upper, k_upper } }) {
-    const bounds = `σ₂ ≥ ${down(sigma2_lower)}, σ₁ ≤ ${up(sigma1_upper)}, k ≤ ${up(k_upper)}`;
+    const bounds = `σ₂ ≥ ${downSmall(sigma2_lower)}, σ₁ ≤ ${up(sigma1_upper)}, k ≤ ${up(k_upper)}`;
     byId("proved").title = `Proved in this page for the map that is shown: ${bounds}`;
     byId("bound").textContent = bounds;
   }
@@ -87,10 +87,15 @@ export class Report {
 export function spokenOf({ pins, selected, missed, inGesture }) {
   if (missed.length && !inGesture) {
     const numbers = missed.map((i) => i + 1).join(", ");
-    return `The shape cannot follow pin ${numbers} without folding`;
+    return `The shape does not reach pin ${numbers}`;
   }
   const last = selected.at(-1);
   if (last === undefined) return "";
   const [x, y] = pins[last].target;
-  return `Pin ${last + 1} of ${pins.length}, at ${x.toFixed(1)}, ${y.toFixed(1)}`;
+  return `Pin ${last + 1} of ${pins.length}, at ${tenths(x)}, ${tenths(y)}`;
+}
+
+/** @param {number} x */
+function tenths(x) {
+  return (Math.round(10 * x) / 10 + 0).toFixed(1); // no -0.0
 }
