@@ -1,7 +1,7 @@
-"use strict";(()=>{var b=class extends Error{},U=class{#t;#s;#e;#o;#n;#r;#a={};#i;constructor(t,e,s,n,o){this.canvas=t,
+"use strict";(()=>{var b=class extends Error{},U=class{#t;#s;#e;#o;#n;#r;#h={};#i;constructor(t,e,s,n,o){this.canvas=t,
 this.ranges=s.ranges,this.#t=e,this.#s=Ne(e,s.vertex,s.fragment),e.useProgram(this.#s),this.#e=Fe(n),
-this.#r=this.#d(e.ARRAY_BUFFER,this.#e),this.#l("position",3,0,0);let r=Ce(n).flat(),a=n.heights.length>
-65535;this.#o=r.length,this.#n=a?e.UNSIGNED_INT:e.UNSIGNED_SHORT,this.#d(e.ELEMENT_ARRAY_BUFFER,new(a?
+this.#r=this.#f(e.ARRAY_BUFFER,this.#e),this.#d("position",3,0,0);let r=Ce(n).flat(),a=n.heights.length>
+65535;this.#o=r.length,this.#n=a?e.UNSIGNED_INT:e.UNSIGNED_SHORT,this.#f(e.ELEMENT_ARRAY_BUFFER,new(a?
 Uint32Array:Uint16Array)(r)),this.#i=o.length?this.#p(o):this.#m();let[h,c,l,u]=s.frame;e.uniform4f(
 this.#c("frame"),h,c,l-h,u-c),e.uniform3fv(this.#c("colors"),s.colors),e.uniform1f(this.#c("grid_spa\
 cing"),s.grid),e.enable(e.DEPTH_TEST),e.depthFunc(e.LEQUAL),e.enable(e.BLEND),e.blendFunc(e.ONE,e.ONE_MINUS_SRC_ALPHA)}setPicture(t){
@@ -12,20 +12,20 @@ e.NONE),e.texImage2D(e.TEXTURE_2D,0,e.RGBA,e.RGBA,e.UNSIGNED_BYTE,t),e.generateM
 e.texParameteri(e.TEXTURE_2D,e.TEXTURE_MIN_FILTER,e.LINEAR_MIPMAP_LINEAR),e.texParameteri(e.TEXTURE_2D,
 e.TEXTURE_WRAP_S,e.CLAMP_TO_EDGE),e.texParameteri(e.TEXTURE_2D,e.TEXTURE_WRAP_T,e.CLAMP_TO_EDGE)}draw({
 width:t,height:e,unit:s,x:n,y:o,overlay:r,coefficients:a,heights:h}){let c=this.#t,l=window.devicePixelRatio||
-1;this.#u(Math.round(t*l),Math.round(e*l)),c.clear(c.COLOR_BUFFER_BIT|c.DEPTH_BUFFER_BIT);let u=Be(t,
+1;this.#l(Math.round(t*l),Math.round(e*l)),c.clear(c.COLOR_BUFFER_BIT|c.DEPTH_BUFFER_BIT);let u=Be(t,
 e,s,n,o);c.uniformMatrix4fv(this.#c("projectionMatrix"),!1,u),c.uniform1f(this.#c("pixel"),s/l),c.uniform1f(
-this.#c("overlay"),Number(r)),c.uniform2fv(this.#c("color_range"),this.ranges[r]??[0,1]),h&&this.#h(
-h),this.#i(a),c.drawElements(c.TRIANGLES,this.#o,this.#n,0)}#u(t,e){let{canvas:s}=this;(s.width!==t||
-s.height!==e)&&(s.width=t,s.height=e),this.#t.viewport(0,0,t,e)}#h(t){t.forEach((e,s)=>{this.#e[3*s+
-2]=e}),this.#f(this.#t.ARRAY_BUFFER,this.#r,this.#e)}#p(t){let e=this.#t,[,s,n]=["cage","coefficient\
+this.#c("overlay"),Number(r)),c.uniform2fv(this.#c("color_range"),this.ranges[r]??[0,1]),h&&this.#a(
+h),this.#i(a),c.drawElements(c.TRIANGLES,this.#o,this.#n,0)}#l(t,e){let{canvas:s}=this;(s.width!==t||
+s.height!==e)&&(s.width=t,s.height=e),this.#t.viewport(0,0,t,e)}#a(t){t.forEach((e,s)=>{this.#e[3*s+
+2]=e}),this.#u(this.#t.ARRAY_BUFFER,this.#r,this.#e)}#p(t){let e=this.#t,[,s,n]=["cage","coefficient\
 s","holes"].map((o,r)=>{let a=e.getUniformBlockIndex(this.#s,`${o}_block`);e.uniformBlockBinding(this.#s,
-a,r);let h=this.#d(e.UNIFORM_BUFFER,t);return e.bindBufferBase(e.UNIFORM_BUFFER,r,h),h});return o=>{
-this.#f(e.UNIFORM_BUFFER,s,o.subarray(0,t.length)),this.#f(e.UNIFORM_BUFFER,n,o.subarray(t.length))}}#m(){
-let t=this.#t,e=t.createBuffer();return t.bindBuffer(t.ARRAY_BUFFER,e),this.#l("image",2,24,0),this.#l(
-"derivatives",4,24,8),s=>this.#f(t.ARRAY_BUFFER,e,s)}#c(t){return this.#a[t]??=this.#t.getUniformLocation(
-this.#s,t),this.#a[t]}#l(t,e,s,n){let o=this.#t,r=o.getAttribLocation(this.#s,t);o.enableVertexAttribArray(
-r),o.vertexAttribPointer(r,e,o.FLOAT,!1,s,n)}#d(t,e){let s=this.#t.createBuffer();return this.#f(t,s,
-e),s}#f(t,e,s){this.#t.bindBuffer(t,e),this.#t.bufferData(t,s,this.#t.DYNAMIC_DRAW)}};function Ne(i,t,e){
+a,r);let h=this.#f(e.UNIFORM_BUFFER,t);return e.bindBufferBase(e.UNIFORM_BUFFER,r,h),h});return o=>{
+this.#u(e.UNIFORM_BUFFER,s,o.subarray(0,t.length)),this.#u(e.UNIFORM_BUFFER,n,o.subarray(t.length))}}#m(){
+let t=this.#t,e=t.createBuffer();return t.bindBuffer(t.ARRAY_BUFFER,e),this.#d("image",2,24,0),this.#d(
+"derivatives",4,24,8),s=>this.#u(t.ARRAY_BUFFER,e,s)}#c(t){return this.#h[t]??=this.#t.getUniformLocation(
+this.#s,t),this.#h[t]}#d(t,e,s,n){let o=this.#t,r=o.getAttribLocation(this.#s,t);o.enableVertexAttribArray(
+r),o.vertexAttribPointer(r,e,o.FLOAT,!1,s,n)}#f(t,e){let s=this.#t.createBuffer();return this.#u(t,s,
+e),s}#u(t,e,s){this.#t.bindBuffer(t,e),this.#t.bufferData(t,s,this.#t.DYNAMIC_DRAW)}};function Ne(i,t,e){
 let s=i.createProgram();if(i.attachShader(s,St(i,i.VERTEX_SHADER,t)),i.attachShader(s,St(i,i.FRAGMENT_SHADER,
 e)),i.linkProgram(s),!i.getProgramParameter(s,i.LINK_STATUS))throw new b(i.getProgramInfoLog(s)??"Th\
 e shaders do not fit together.");return s}function St(i,t,e){let s=i.createShader(t);if(!s)throw new b(
@@ -76,7 +76,7 @@ angle===null||r.angle===null?null:dt(r.angle-n.angle);return{...n,target:[s(n.ta
 s(n.target[1],r.target[1])],weight:s(n.weight,r.weight),angle:n.angle===null||a===null?null:n.angle+
 e*a,scale:n.scale===null||r.scale===null?null:s(n.scale,r.scale)}})}function Lt({handle:i}){return i.
 join()}var Ge=.15,z=class{pins=[];selected=[];inGesture=!1;#t=new $;#s=0;#e=0;constructor(t,e,s){this.solving=
-t,this.mesh=e,this.frame=s,this.told=()=>{},t.onmap=n=>this.#u(n)}begin(t){this.#a({pins:t,selected:[],
+t,this.mesh=e,this.frame=s,this.told=()=>{},t.onmap=n=>this.#l(n)}begin(t){this.#h({pins:t,selected:[],
 coefficients:this.frame.coefficients})}get now(){let{pins:t,selected:e,frame:s}=this;return{pins:t,selected:e,
 coefficients:s.coefficients}}get canUndo(){return this.#t.canUndo}get canRedo(){return this.#t.canRedo}get settled(){
 return this.frame.settled&&this.frame.id>=this.#e}get marks(){let t=this.pins.map(({target:s})=>s),e=this.
@@ -96,13 +96,13 @@ t,e]){let s=({target:[n,o]})=>({target:[n+t,o+e]});this.#r(j(this.pins,this.sele
 let e=(s,n)=>{let{angle:o,scale:r}=t(n);return{...o===void 0?{}:{angle:o===null?null:dt(o)},...r===void 0?
 {}:{scale:r===null?null:It(r)}}};this.selected.length&&this.#r(j(this.pins,this.selected,e),this.selected)}beginGesture(){
 this.inGesture||(this.#t.note(this.now),this.inGesture=!0)}endGesture(){this.inGesture=!1}cancelGesture(){
-if(!this.inGesture)return;this.inGesture=!1;let t=this.#t.drop();t&&this.#a(t)}undo(){let t=this.#t.
-undo(this.now);t&&this.#a(t)}redo(){let t=this.#t.redo(this.now);t&&this.#a(t)}replace(t,e){this.#t.
-note(this.now),this.#a({pins:t,selected:[],coefficients:e})}#r(t,e){this.inGesture||this.#t.note(this.
+if(!this.inGesture)return;this.inGesture=!1;let t=this.#t.drop();t&&this.#h(t)}undo(){let t=this.#t.
+undo(this.now);t&&this.#h(t)}redo(){let t=this.#t.redo(this.now);t&&this.#h(t)}replace(t,e){this.#t.
+note(this.now),this.#h({pins:t,selected:[],coefficients:e})}#r(t,e){this.inGesture||this.#t.note(this.
 now);let s=t.length<this.pins.length;this.pins=t,this.selected=e,t.length?this.#e=this.solving.drag(
-y(t)):this.#i(this.frame.coefficients),s&&(this.#s=this.#e),this.told()}#a({pins:t,selected:e,coefficients:s}){
+y(t)):this.#i(this.frame.coefficients),s&&(this.#s=this.#e),this.told()}#h({pins:t,selected:e,coefficients:s}){
 this.pins=t,this.selected=e.filter(n=>n<t.length),this.#i(s),t.length&&(this.#e=this.solving.drag(y(
-t))),this.told()}#i(t){let e=this.solving.place(y(this.pins),t);this.#e=e,this.#s=e}#u(t){t.id<this.#s||
+t))),this.told()}#i(t){let e=this.solving.place(y(this.pins),t);this.#e=e,this.#s=e}#l(t){t.id<this.#s||
 !t.certificate.certified||(this.frame=t,this.told())}};function m(i){return W(i,HTMLElement)}function W(i,t){let e=document.getElementById(i);if(!(e instanceof
 t))throw new Error(`the page has no ${i}`);return e}function f(i,t={},...e){let s=document.createElement(i);s instanceof HTMLButtonElement&&(s.type="but\
 ton");for(let[n,o]of Object.entries(t))n.startsWith("on")?s.addEventListener(n.slice(2),o):n in s&&n!==
@@ -159,48 +159,48 @@ ia-hidden="true"><path d="${ss[i]}"/></svg>`}function T(i,t,e,s="glid-icon"){ret
 "redo":"undo":t==="y"?"redo":null}var ne=4,is=600,os=100,rs=8,as=3,J=class{pointers=new Map;mode=null;grip=null;held=new Map;path=[];encloses=null;found=null;rests=null;#t=[
 0,0];#s=!1;#e=!1;#o=!1;#n;constructor(t,e,s,n){this.element=t,this.view=e,this.link=s,this.behaviour=
 n,t.tabIndex=0,s.signal.addEventListener("abort",()=>clearTimeout(this.#n)),t.addEventListener("poin\
-terdown",o=>this.#u(o)),t.addEventListener("pointermove",o=>this.#d(o)),t.addEventListener("pointeru\
+terdown",o=>this.#l(o)),t.addEventListener("pointermove",o=>this.#f(o)),t.addEventListener("pointeru\
 p",o=>this.#g(o,"up")),t.addEventListener("pointercancel",o=>this.#g(o,"cancel")),t.addEventListener(
 "lostpointercapture",o=>this.#g(o,"cancel")),t.addEventListener("pointerleave",()=>this.hover(null)),
-t.addEventListener("wheel",o=>this.#E(o),{passive:!1}),t.addEventListener("contextmenu",o=>this.#c(o)),
+t.addEventListener("wheel",o=>this.#v(o),{passive:!1}),t.addEventListener("contextmenu",o=>this.#c(o)),
 t.addEventListener("keydown",o=>this.keydown(o)),t.addEventListener("keyup",o=>this.#r(o)),t.addEventListener(
-"focus",()=>n.changed()),t.addEventListener("blur",()=>{this.#y(!1),n.changed()})}get focused(){return this.
+"focus",()=>n.changed()),t.addEventListener("blur",()=>{this.#w(!1),n.changed()})}get focused(){return this.
 element.matches(":focus")}place(t){let e=this.element.getBoundingClientRect();return[t.clientX-e.left,
 t.clientY-e.top]}send(t,e,s={},n={}){let[o,r]=this.view.toWorld(e),{unit:a}=this.view;return this.link.
-put({type:t,x:o,y:r,unit:a,reach:this.#a(s.pointerType)*a,button:s.button??0,shift:!!s.shiftKey,time:s.
+put({type:t,x:o,y:r,unit:a,reach:this.#h(s.pointerType)*a,button:s.button??0,shift:!!s.shiftKey,time:s.
 timeStamp??performance.now(),...n})}press(t,e){this.send("key",[this.view.width/2,this.view.height/2],
-e,{key:t})}hover(t=this.rests){this.rests=t,this.mode===null&&(this.found=t&&this.#i(t,"mouse"),this.#b(),
+e,{key:t})}hover(t=this.rests){this.rests=t,this.mode===null&&(this.found=t&&this.#i(t,"mouse"),this.#y(),
 this.behaviour.changed())}keydown(t){let e=t.ctrlKey||t.metaKey,s=e?void 0:this.behaviour.actions[t.
 key.toLowerCase()],n=q(t);!n&&!s&&t.key!==" "&&(t.altKey||!this.behaviour.keys.test(t.key)||e&&t.key!==
-"a")||(t.preventDefault(),t.stopPropagation(),t.key===" "?(t.repeat||(this.#o=!0),this.#y(!0)):s?s():
-((t.key==="Escape"||n)&&this.#w(),this.press(n??t.key,t)))}#r(t){t.key===" "&&(this.#y(!1),this.#o&&
-this.behaviour.tapped?.())}#a(t){return this.behaviour.reach[t??"mouse"]??this.behaviour.reach.mouse}#i(t,e){
-return this.behaviour.find(this.view.toWorld(t),this.#a(e)*this.view.unit)}#u(t){if(this.pointers.has(
+"a")||(t.preventDefault(),t.stopPropagation(),t.key===" "?(t.repeat||(this.#o=!0),this.#w(!0)):s?s():
+((t.key==="Escape"||n)&&this.#b(),this.press(n??t.key,t)))}#r(t){t.key===" "&&(this.#w(!1),this.#o&&
+this.behaviour.tapped?.())}#h(t){return this.behaviour.reach[t??"mouse"]??this.behaviour.reach.mouse}#i(t,e){
+return this.behaviour.find(this.view.toWorld(t),this.#h(e)*this.view.unit)}#l(t){if(this.pointers.has(
 t.pointerId)||this.pointers.size>1)return;t.preventDefault(),this.element.focus({preventScroll:!0}),
 this.#o=!1;let e=this.place(t);this.pointers.set(t.pointerId,e),this.element.setPointerCapture(t.pointerId);
-let s=this.pointers.size===2;s&&this.#l(t),this.#t=e,this.mode=s||t.button===1||t.button===0&&this.#e?
-"pan":"hand",this.mode==="hand"&&this.#h(e,t),this.#b()}#h(t,e){let{behaviour:s}=this,n=this.#i(t,e.
+let s=this.pointers.size===2;s&&this.#d(t),this.#t=e,this.mode=s||t.button===1||t.button===0&&this.#e?
+"pan":"hand",this.mode==="hand"&&this.#a(e,t),this.#y()}#a(t,e){let{behaviour:s}=this,n=this.#i(t,e.
 pointerType),o=e.button===0;o&&!e.shiftKey&&n?.mark!==void 0&&(this.grip={from:this.view.toWorld(t),
 points:s.held(n)}),this.#s=o&&!!s.pans?.(n),this.encloses=o&&!s.painting?s.encloses?.(n,e):null,this.
 path=o?[this.view.toWorld(t)]:[],this.send("down",t,e,{part:n?.part}),e.pointerType==="touch"&&s.menu&&
-!s.painting&&(this.#n=setTimeout(()=>this.#p(e,t),is)),s.changed()}#p(t,e){this.#n=setTimeout(()=>{this.#l(
+!s.painting&&(this.#n=setTimeout(()=>this.#p(e,t),is)),s.changed()}#p(t,e){this.#n=setTimeout(()=>{this.#d(
 t),this.mode=null,this.#m(e,"touch")},os)}#m(t,e){this.behaviour.menu?.(t,this.#i(t,e))}#c(t){t.preventDefault(),
 t.stopPropagation();let e=t instanceof PointerEvent&&t.pointerType==="touch";t.button===2&&!e&&this.#m(
-this.place(t),"mouse")}#l(t){this.mode==="hand"&&this.send("cancel",this.#t,t),this.#w()}#d(t){let e=this.
+this.place(t),"mouse")}#d(t){this.mode==="hand"&&this.send("cancel",this.#t,t),this.#b()}#f(t){let e=this.
 place(t),s=t.pointerType==="touch";if(!this.pointers.has(t.pointerId)){s||this.hover(e);return}s||(this.
-rests=e);let n=w(e,this.#t);if(n>rs&&clearTimeout(this.#n),this.mode==="hand"&&this.#s&&n>ne&&(this.#l(
-t),this.mode="pan",this.#b()),this.mode==="pan"){this.view.follow(this.pointers,t.pointerId,e);return}
-this.pointers.set(t.pointerId,e),this.mode==="hand"&&this.#f(e,t,n)}#f(t,e,s){let n=this.view.toWorld(
-t);if(this.#v(t,n,s),!this.encloses&&!this.behaviour.painting&&this.send("move",t,e,{replaces:`move ${e.
+rests=e);let n=w(e,this.#t);if(n>rs&&clearTimeout(this.#n),this.mode==="hand"&&this.#s&&n>ne&&(this.#d(
+t),this.mode="pan",this.#y()),this.mode==="pan"){this.view.follow(this.pointers,t.pointerId,e);return}
+this.pointers.set(t.pointerId,e),this.mode==="hand"&&this.#u(e,t,n)}#u(t,e,s){let n=this.view.toWorld(
+t);if(this.#E(t,n,s),!this.encloses&&!this.behaviour.painting&&this.send("move",t,e,{replaces:`move ${e.
 pointerId}`}),this.grip){let o=n[0]-this.grip.from[0],r=n[1]-this.grip.from[1];for(let[a,[h,c]]of this.
-grip.points)this.held.set(a,[h+o,c+r])}this.behaviour.changed()}#v(t,e,s){if(this.encloses==="box"){
+grip.points)this.held.set(a,[h+o,c+r])}this.behaviour.changed()}#E(t,e,s){if(this.encloses==="box"){
 let[o]=this.path;this.path=s>ne?X(o,e):[o];return}let n=this.path.at(-1);n&&w(t,this.view.toScreen(n))>=
 as&&this.path.push(e)}#g(t,e){if(!this.pointers.has(t.pointerId))return;let s=this.place(t);if(this.
 pointers.delete(t.pointerId),this.mode==="hand"){let{path:n}=this;this.send(e,s,t,{path:n,encloses:!!this.
 encloses}).then(()=>{this.grip||this.held.clear(),this.path===n&&(this.path=[]),this.behaviour.changed()})}
-this.#x(),this.pointers.size||(this.mode=null),this.#b()}#x(){clearTimeout(this.#n),this.grip=null,this.
-behaviour.changed()}#w(){this.#x(),this.held.clear(),this.path=[]}#E(t){this.behaviour.wheelNeedsFocus&&
-!this.focused&&!t.ctrlKey||(t.stopPropagation(),this.view.wheel(t,this.place(t)))}#y(t){this.#e=t,this.#b()}#b(){
+this.#x(),this.pointers.size||(this.mode=null),this.#y()}#x(){clearTimeout(this.#n),this.grip=null,this.
+behaviour.changed()}#b(){this.#x(),this.held.clear(),this.path=[]}#v(t){this.behaviour.wheelNeedsFocus&&
+!this.focused&&!t.ctrlKey||(t.stopPropagation(),this.view.wheel(t,this.place(t)))}#w(t){this.#e=t,this.#y()}#y(){
 this.element.style.cursor=this.#A()}#A(){return this.mode==="pan"||this.grip?"grabbing":this.#e?"gra\
 b":this.behaviour.cursor(this.found)}};async function ie(i){try{return await navigator.clipboard.writeText(i),!0}catch{return hs(i)}}function hs(i){
 let t=document.activeElement,e=document.createElement("textarea");e.value=i,e.setAttribute("readonly",
@@ -262,48 +262,48 @@ return i*i*(3-2*i)}var ge=1,we=100,xs=1/25,tt=class{kept=[];seen=!1;element=f("d
 "div",{className:"poses",role:"group","aria-label":"Kept poses"});#s=f("button",{className:"play",title:"\
 Play or pause (Space)"});#e=f("input",{type:"range",step:String(xs),"aria-label":"Time, seconds"});#o=f(
 "i",{title:"Certified σ₂ at the knots"});#n=f("output",{className:"clock"});#r=T("trash","Remove \
-this pose",()=>this.#A());#a=new WeakMap;#i=null;#u=[];#h=0;#p=0;#m=null;#c=0;#l=null;#d=!1;#f=null;#v=!0;#g=null;#x=null;constructor(t,e){
+this pose",()=>this.#A());#h=new WeakMap;#i=null;#l=[];#a=0;#p=0;#m=null;#c=0;#d=null;#f=!1;#u=null;#E=!0;#g=null;#x=null;constructor(t,e){
 this.start=t,this.screen=e;let s=f("div",{className:"track"},this.#e,this.#o),n=f("div",{className:"\
 player"},this.#s,s,this.#n);this.player=n,this.element.append(this.#t,this.#r,n),this.#s.addEventListener(
 "click",()=>this.playOrPause()),this.#e.addEventListener("input",()=>this.#C(Number(this.#e.value))),
-this.#T()}#w(){return this.#l??=this.start(),this.#l}get playing(){return!!this.#m?.plays}drawOne(){
-this.#x?.drawOne()}async load(t,e){let s=await this.#w(),n=[];for(let[o,r]of t.keyframes.entries()){
+this.#S()}#b(){return this.#d??=this.start(),this.#d}get playing(){return!!this.#m?.plays}drawOne(){
+this.#x?.drawOne()}async load(t,e){let s=await this.#b(),n=[];for(let[o,r]of t.keyframes.entries()){
 let{coefficients:a}=t.knots[t.times.indexOf(r)],h=e[o]??[],c=await s.map({type:"place",pose:y(h),coefficients:a});
-n.push({pins:h,frame:c})}this.kept=n,this.#P(t),this.#E()}async keep(t){this.kept=[...this.kept,t],this.#E(),
-await this.#O()}release(){this.#k(null),this.#v=!0,this.#f=null,this.seen&&(this.seen=!1,this.screen.
-show(null),this.#M())}playOrPause(){let t=this.#i;t&&this.#k(this.playing?null:ue(t,this.#h,!0))}#E(){
-let t=this.#y,e=s=>this.kept[t.indexOf(s)];this.#x=new Z(t,s=>this.#b(s,e(s)),s=>this.screen.thumbnail(
+n.push({pins:h,frame:c})}this.kept=n,this.#P(t),this.#v()}async keep(t){this.kept=[...this.kept,t],this.#v(),
+await this.#O()}release(){this.#k(null),this.#E=!0,this.#u=null,this.seen&&(this.seen=!1,this.screen.
+show(null),this.#M())}playOrPause(){let t=this.#i;t&&this.#k(this.playing?null:ue(t,this.#a,!0))}#v(){
+let t=this.#w,e=s=>this.kept[t.indexOf(s)];this.#x=new Z(t,s=>this.#y(s,e(s)),s=>this.screen.thumbnail(
 e(s).frame),()=>this.screen.redraw()),this.#t.replaceChildren(...this.#x.buttons),this.element.hidden=
-this.kept.length===0,this.player.hidden=this.kept.length<2,this.#M(),this.screen.redraw()}get#y(){return this.
-kept.map((t,e)=>this.#g?.[e]??e*ge)}#b(t,e){let s=this.#i;if(!s||!this.seen){this.#h=t,this.screen.take(
-e),this.#M();return}this.#k(fe(s,this.#h,t),()=>{this.release(),this.screen.take(e),this.#M()})}#A(){
-let t=this.#S;t<0||(this.release(),this.kept=this.kept.filter((e,s)=>s!==t),this.#g=null,this.#h=0,this.#E(),
-this.#O())}get#S(){return this.#y.findIndex(t=>Math.abs(t-this.#h)<.001)}async#O(){this.#p+=1;let t=this.#p;
-if(this.#g=null,this.#i=null,this.#T(),!(this.kept.length<2)){this.#n.textContent="finding the way…";
+this.kept.length===0,this.player.hidden=this.kept.length<2,this.#M(),this.screen.redraw()}get#w(){return this.
+kept.map((t,e)=>this.#g?.[e]??e*ge)}#y(t,e){let s=this.#i;if(!s||!this.seen){this.#a=t,this.screen.take(
+e),this.#M();return}this.#k(fe(s,this.#a,t),()=>{this.release(),this.screen.take(e),this.#M()})}#A(){
+let t=this.#T;t<0||(this.release(),this.kept=this.kept.filter((e,s)=>s!==t),this.#g=null,this.#a=0,this.#v(),
+this.#O())}get#T(){return this.#w.findIndex(t=>Math.abs(t-this.#a)<.001)}async#O(){this.#p+=1;let t=this.#p;
+if(this.#g=null,this.#i=null,this.#S(),!(this.kept.length<2)){this.#n.textContent="finding the way…";
 try{let e=await this.#I(()=>t!==this.#p);if(t!==this.#p)return;let s=e.map((n,o)=>o*ge*(this.kept.length-
-1)/(e.length-1));this.#P({times:s,knots:e,keyframes:this.#y,repeat:"ping-pong"})}catch(e){if(t!==this.#p)
+1)/(e.length-1));this.#P({times:s,knots:e,keyframes:this.#w,repeat:"ping-pong"})}catch(e){if(t!==this.#p)
 return;this.#n.textContent="no way was found",this.screen.say(`The poses cannot be joined: ${e.message}`)}}}async#I(t){
 let{kept:e}=this,{coefficients:s,certificate:n}=e[0].frame,o=[{coefficients:s,sigma2:n.sigma2_lower}];
 for(let r=0;r+1<e.length&&!t();r++)o.push(...await this.#N(e[r],e[r+1],o[o.length-1].coefficients));
-return o}async#N(t,e,s){let n=this.#a.get(t);if(n?.to===e&&n.start===s)return n.knots;let o=await me(
-await this.#w(),t,e,s);return this.#a.set(t,{start:s,to:e,knots:o}),o}#P({times:t,knots:e,keyframes:s,
+return o}async#N(t,e,s){let n=this.#h.get(t);if(n?.to===e&&n.start===s)return n.knots;let o=await me(
+await this.#b(),t,e,s);return this.#h.set(t,{start:s,to:e,knots:o}),o}#P({times:t,knots:e,keyframes:s,
 repeat:n}){let o=e[0].coefficients.length,r=new Float64Array(o*e.length);for(let[a,{coefficients:h}]of e.
-entries())r.set(h,a*o);this.#i=new Q({times:t,repeat:n},r),this.#u=e,this.#g=s,this.#h=Math.min(Math.
-max(this.#h,this.#i.start),this.#i.end),this.#e.min=String(this.#i.start),this.#e.max=String(this.#i.
-end),this.#o.style.background=this.#F(this.#i),this.#L(),this.#T()}#F(t){return`linear-gradient(to r\
+entries())r.set(h,a*o);this.#i=new Q({times:t,repeat:n},r),this.#l=e,this.#g=s,this.#a=Math.min(Math.
+max(this.#a,this.#i.start),this.#i.end),this.#e.min=String(this.#i.start),this.#e.max=String(this.#i.
+end),this.#o.style.background=this.#F(this.#i),this.#L(),this.#S()}#F(t){return`linear-gradient(to r\
 ight, ${Array.from({length:we},(s,n)=>{let o=t.start+(n+.5)/we*(t.end-t.start),{piece:r}=t.place(o),
-a=Math.min(this.#u[r].sigma2,this.#u[r+1].sigma2);return`${this.screen.color(a)} ${n}% ${n+1}%`})})`}#C(t){
-this.#k(null),this.#R(t)}#R(t){let e=this.#i;e&&(this.#h=t===e.end?t:e.within(t),this.#f=this.#h,this.#v=
-!1,this.#L(),this.#d||this.#B(e))}async#B(t){this.#d=!0;try{let e=await this.#w();for(;this.#f!==null;){
-let s=t.at(this.#f).slice();this.#f=null;let n=await e.map({type:"place",pose:y([]),coefficients:s});
-if(this.#v)break;this.seen=!0,this.screen.show(n)}}catch{this.screen.say("This instant is not proved\
-, so the frame before stays.")}finally{this.#d=!1}}#L(){let t=this.#i;t&&(this.#e.value=String(this.#h),
-this.#n.textContent=`${this.#h.toFixed(1)} / ${t.end.toFixed(1)} s`,this.#M())}#M(){let{repeat:t,last:e=0}=this.#i??
-{},s=t==="ping-pong"&&this.#h>e;this.#x?.mark(s?2*e-this.#h:this.#h),this.#r.hidden=this.#S<0}#k(t,e=()=>{}){
+a=Math.min(this.#l[r].sigma2,this.#l[r+1].sigma2);return`${this.screen.color(a)} ${n}% ${n+1}%`})})`}#C(t){
+this.#k(null),this.#R(t)}#R(t){let e=this.#i;e&&(this.#a=t===e.end?t:e.within(t),this.#u=this.#a,this.#E=
+!1,this.#L(),this.#f||this.#B(e))}async#B(t){this.#f=!0;try{let e=await this.#b();for(;this.#u!==null;){
+let s=t.at(this.#u).slice();this.#u=null;let n=await e.map({type:"place",pose:y([]),coefficients:s});
+if(this.#E)break;this.seen=!0,this.screen.show(n)}}catch{this.screen.say("This instant is not proved\
+, so the frame before stays.")}finally{this.#f=!1}}#L(){let t=this.#i;t&&(this.#e.value=String(this.#a),
+this.#n.textContent=`${this.#a.toFixed(1)} / ${t.end.toFixed(1)} s`,this.#M())}#M(){let{repeat:t,last:e=0}=this.#i??
+{},s=t==="ping-pong"&&this.#a>e;this.#x?.mark(s?2*e-this.#a:this.#a),this.#r.hidden=this.#T<0}#k(t,e=()=>{}){
 cancelAnimationFrame(this.#c),this.#m=t&&{...t,began:performance.now()},t&&(this.#c=requestAnimationFrame(
-s=>this.#_(s,e))),this.#T()}#_(t,e){if(!this.#m)return;let{began:s,lasts:n,at:o}=this.#m,r=Math.min(
+s=>this.#_(s,e))),this.#S()}#_(t,e){if(!this.#m)return;let{began:s,lasts:n,at:o}=this.#m,r=Math.min(
 Math.max(t-s,0),n);if(this.#R(o(r)),r<n){this.#c=requestAnimationFrame(a=>this.#_(a,e));return}this.#k(
-null),e()}#T(){let{playing:t}=this;this.#s.disabled=!this.#i,this.#e.disabled=!this.#i,this.#s.textContent=
+null),e()}#S(){let{playing:t}=this;this.#s.disabled=!this.#i,this.#e.disabled=!this.#i,this.#s.textContent=
 t?"❚❚":"▶",this.#s.setAttribute("aria-label",t?"Pause":"Play")}};var bs={mouse:13,pen:16,touch:26},Es=/^(Arrow\w+|Delete|Backspace|Escape|Enter|[0fax,.<>+=-])$/i,vs=2,
 As=5,Ms=.1,ks=.5,Ts=6,Ss=30,ye=Math.PI/36,vt=1.05,xe={ArrowLeft:[-1,0],ArrowRight:[1,0],ArrowUp:[0,1],
 ArrowDown:[0,-1]},Os={"<":[ye,1],">":[-ye,1],"+":[0,vt],"=":[0,vt],"-":[0,1/vt]},et=class{reach=bs;keys=Es;signal=new AbortController().
@@ -313,7 +313,7 @@ editing,n=()=>Kt(this.view,s,this.view.toScreen(t),e/this.view.unit/2);return Y(
 let{pins:e,selected:s}=this.editing,n=Number(t),o=s.includes(n)?s:[n];return new Map(o.map(r=>[r,e[r].
 target]))}encloses(t,e){return e.shiftKey?"box":null}cursor(t){return t?"grab":"crosshair"}pans(t){return!t&&
 this.#t!==null&&!this.#t.onShape}async put(t){let e=t;return t.type==="down"&&this.#s(e),t.type==="m\
-ove"&&this.#o(e),t.type==="up"&&this.#r(e),t.type==="cancel"&&this.#i(),t.type==="key"&&this.#h(e.key??
+ove"&&this.#o(e),t.type==="up"&&this.#r(e),t.type==="cancel"&&this.#i(),t.type==="key"&&this.#a(e.key??
 "",e),null}#s(t){let{editing:e}=this;if(this.#i(),this.cursorAt=null,t.button!==0)return;let s=[t.x,
 t.y],n=Y(e.marks,s,t.reach)?.mark,o={start:s,onShape:!1,targets:new Map,part:"",turns:new Map,dragging:!1};
 if(n!==void 0){let r=Number(n);if(t.shift)return this.#e(r);e.selected.includes(r)||e.select([r]),o.
@@ -329,21 +329,21 @@ selected.at(-1);if(n===void 0)return;let[o,r]=s.pins[n].target,a=[t.start[0]-o,t
 o,e[1]-r],c=Math.atan2(h[1],h[0])-Math.atan2(a[1],a[0]),l=Math.hypot(h[0],h[1])/Math.max(Math.hypot(
 a[0],a[1]),1e-9);s.turn(u=>{let{angle:d,scale:p}=t.turns.get(u)??{angle:0,scale:1};return t.part==="\
 turn"?{angle:d+c}:{scale:p*l}})}#r({path:t=[],encloses:e}){let{editing:s}=this,n=this.#t;if(this.#t=
-null,e&&t.length>2){this.#a(t);return}n&&(n.dragging?s.endGesture():n.onShape?this.#u(n.start):!n.targets.
-size&&!n.part&&s.select([]))}#a(t){let[e,s]=[t.map(([h])=>h),t.map(([,h])=>h)],n=(h,c)=>h>=Math.min(
+null,e&&t.length>2){this.#h(t);return}n&&(n.dragging?s.endGesture():n.onShape?this.#l(n.start):!n.targets.
+size&&!n.part&&s.select([]))}#h(t){let[e,s]=[t.map(([h])=>h),t.map(([,h])=>h)],n=(h,c)=>h>=Math.min(
 ...c)&&h<=Math.max(...c),{pins:o,selected:r}=this.editing,a=[...o.keys()].filter(h=>{let[c,l]=o[h].target;
-return n(c,e)&&n(l,s)});this.editing.select([...r,...a])}#i(){this.#t=null,this.editing.cancelGesture()}#u(t){
-this.editing.pin(t)||this.around.say("There is no shape here. Choose a place on it.")}#h(t,e){let{editing:s,
+return n(c,e)&&n(l,s)});this.editing.select([...r,...a])}#i(){this.#t=null,this.editing.cancelGesture()}#l(t){
+this.editing.pin(t)||this.around.say("There is no shape here. Choose a place on it.")}#a(t,e){let{editing:s,
 around:n}=this,o={undo:()=>s.undo(),redo:()=>s.redo(),Delete:()=>s.remove(),Backspace:()=>s.remove(),
-Escape:()=>this.#m(),Enter:()=>this.#d(e),0:n.reset,f:n.fit,a:()=>s.select([...s.pins.keys()]),x:()=>s.
-turn(()=>({angle:null,scale:null})),",":()=>this.#c(-1),".":()=>this.#c(1)},r=Os[t];xe[t]?this.#l(xe[t],
+Escape:()=>this.#m(),Enter:()=>this.#f(e),0:n.reset,f:n.fit,a:()=>s.select([...s.pins.keys()]),x:()=>s.
+turn(()=>({angle:null,scale:null})),",":()=>this.#c(-1),".":()=>this.#c(1)},r=Os[t];xe[t]?this.#d(xe[t],
 e):r?this.#p(r):(o[t]??o[t.toLowerCase()])?.(),n.redraw()}#p([t,e]){let{editing:s}=this;s.turn(n=>{let{
 angle:o,scale:r}=s.turnOf(n);return t?{angle:o+t}:{scale:r*e}})}#m(){if(this.editing.inGesture){this.#i();
-return}this.editing.select([]),this.cursorAt=null}#c(t){this.editing.selectNext(t),this.cursorAt=null}#l([
+return}this.editing.select([]),this.cursorAt=null}#c(t){this.editing.selectNext(t),this.cursorAt=null}#d([
 t,e],{x:s,y:n,unit:o,shift:r}){let{editing:a}=this;if(a.selected.length&&!this.cursorAt){let u=r?ks:
-Ms;a.nudge([u*t,u*e]);return}let h=(r?Ss:Ts)*o,[c,l]=this.cursorAt??[s,n];this.cursorAt=[c+h*t,l+h*e]}#d({
+Ms;a.nudge([u*t,u*e]);return}let h=(r?Ss:Ts)*o,[c,l]=this.cursorAt??[s,n];this.cursorAt=[c+h*t,l+h*e]}#f({
 x:t,y:e,reach:s}){let n=this.cursorAt;if(!n){this.cursorAt=[t,e];return}let o=Y(this.editing.marks,n,
-s)?.mark;this.cursorAt=null,o===void 0?this.#u(n):this.editing.select([Number(o)])}};var be=[["Pins",[["Click or tap the shape","pin a point"],["Drag a pin, or the shape","move it there\
+s)?.mark;this.cursorAt=null,o===void 0?this.#l(n):this.editing.select([Number(o)])}};var be=[["Pins",[["Click or tap the shape","pin a point"],["Drag a pin, or the shape","move it there\
 ; the shape follows, and never folds"],["Drag the ring, its knob","turn the shape at the pin, scale \
 it there"],["< >, + -, X","turn, scale; free both again"],["Delete","remove the selected pins"],["Ar\
 row keys","nudge selected pins, with Shift farther; else move a cursor"],["Enter","show the cursor; \
@@ -362,24 +362,25 @@ a=(t-2*st)/(ve-1);return i.map((h,c)=>{let l=Math.min(Math.max((h-n)/r,0),1);ret
 c)*a,e-st-l*(e-2*st)]})}var L=class{#t=[];constructor(t,e,s,n){this.range=s,this.words=n,this.value=
 f("output",{}),this.canvas=f("canvas",{"aria-hidden":"true"});let o=f("dt",{},t);this.element=f("div",
 {className:"plot",title:e},o,this.value,this.canvas)}add(t){this.#t.push(t),this.#t.length>ve&&this.#t.
-shift(),this.value.textContent=this.words(t)}draw(){let{canvas:t}=this,{clientWidth:e,clientHeight:s}=t;
-if(!e||!s)return;let n=window.devicePixelRatio||1;t.width=Math.round(e*n),t.height=Math.round(s*n);let o=k(
-t);o.scale(n,n);let r=Ls(this.#t,e,s,this.range),a=r.at(-1);if(!a)return;let h=getComputedStyle(t).color,
-[c]=r;P(o,[[...r,[a[0],s],[c[0],s]]]),o.globalAlpha=.12,o.fillStyle=h,o.fill(),o.globalAlpha=1,o.lineJoin=
-"round",P(o,[r],!1),E(o,[[1.5,h]]),o.beginPath(),o.arc(a[0],a[1],2,0,2*Math.PI),o.fillStyle=h,o.fill()}};var _s=5e3,Is=.02,nt=class{#t=new L("Certificate","The least stretch anywhere, as proved. The map fo\
+shift()}draw(){let{canvas:t}=this,{clientWidth:e,clientHeight:s}=t;if(!e||!s)return;let n=window.devicePixelRatio||
+1;t.width=Math.round(e*n),t.height=Math.round(s*n);let o=k(t);o.scale(n,n);let r=Ls(this.#t,e,s,this.
+range),a=r.at(-1);if(!a)return;this.value.textContent=this.words(this.#t[r.length-1]);let h=getComputedStyle(
+t).color,[c]=r;P(o,[[...r,[a[0],s],[c[0],s]]]),o.globalAlpha=.12,o.fillStyle=h,o.fill(),o.globalAlpha=
+1,o.lineJoin="round",P(o,[r],!1),E(o,[[1.5,h]]),o.beginPath(),o.arc(a[0],a[1],2,0,2*Math.PI),o.fillStyle=
+h,o.fill()}};var _s=5e3,Is=.02,nt=class{#t=new L("Certificate","The least stretch anywhere, as proved. The map fo\
 lds nowhere while this is above 0",[0,1+Is],t=>`σ₂ ≥ ${At(t)}`);#s=new L("Energy","The distorti\
 on of the shape, and of the pins",null,t=>t.toPrecision(4));#e=new L("Step","Time of a certified ste\
 p",null,t=>`${t.toFixed(1)} ms`);#o=-1;#n;constructor(){m("plots").append(this.#t.element,this.#s.element,
 this.#e.element)}plot({id:t,certificate:e,energy:s,steps:n,took:o}){t===this.#o&&!n||(this.#o=t,this.#t.
-add(e.sigma2_lower),this.#s.add(s),n&&this.#e.add(o/n),this.draw())}draw(){for(let t of[this.#t,this.#s,
-this.#e])t.draw()}proved({certificate:{sigma2_lower:t,sigma1_upper:e,k_upper:s}}){let n=`σ₂ ≥ ${At(
-t)}, σ₁ ≤ ${Mt(e)}, k ≤ ${Mt(s)}`;m("proved").title=`Proved in this page for the map that is \
-shown: ${n}`,m("bound").textContent=n}pins(t){let e=Ns(t);e&&this.tell(e)}tell(t){let e=m("status");
-e.textContent!==t&&(e.textContent=t)}say(t){let e=m("notice");e.textContent=t,e.hidden=!1,clearTimeout(
-this.#n),this.#n=setTimeout(()=>{e.hidden=!0},_s)}};function Ns({pins:i,selected:t,missed:e,inGesture:s}){
-if(e.length&&!s)return`The shape does not reach pin ${e.map(h=>h+1).join(", ")}`;let n=t.at(-1);if(n===
-void 0)return"";let[o,r]=i[n].target;return`Pin ${n+1} of ${i.length}, at ${Ae(o)}, ${Ae(r)}`}function Ae(i){
-return(Math.round(10*i)/10+0).toFixed(1)}var Me=80;function C(i){let t=i.getBoundingClientRect(),e=m("free").getBoundingClientRect();return{left:e.
+add(e.sigma2_lower),this.#s.add(s),n&&this.#e.add(o/n))}draw(){for(let t of[this.#t,this.#s,this.#e])
+t.draw()}proved({certificate:{sigma2_lower:t,sigma1_upper:e,k_upper:s}}){let n=`σ₂ ≥ ${At(t)}, \
+σ₁ ≤ ${Mt(e)}, k ≤ ${Mt(s)}`;m("proved").title=`Proved in this page for the map that is shown\
+: ${n}`,m("bound").textContent=n}pins(t){let e=Ns(t);e&&this.tell(e)}tell(t){let e=m("status");e.textContent!==
+t&&(e.textContent=t)}say(t){let e=m("notice");e.textContent=t,e.hidden=!1,clearTimeout(this.#n),this.#n=
+setTimeout(()=>{e.hidden=!0},_s)}};function Ns({pins:i,selected:t,missed:e,inGesture:s}){if(e.length&&
+!s)return`The shape does not reach pin ${e.map(h=>h+1).join(", ")}`;let n=t.at(-1);if(n===void 0)return"";
+let[o,r]=i[n].target;return`Pin ${n+1} of ${i.length}, at ${Ae(o)}, ${Ae(r)}`}function Ae(i){return(Math.
+round(10*i)/10+0).toFixed(1)}var Me=80;function C(i){let t=i.getBoundingClientRect(),e=m("free").getBoundingClientRect();return{left:e.
 left-t.left,top:e.top-t.top,width:Math.max(e.width,Me),height:Math.max(e.height,Me),size:{width:t.width,
 height:t.height}}}function B(i,t,e){let[s,n,o,r]=H(i),a=(o-s)/t.width,h=(r-n)/t.height,c=Math.max(a,
 h)/(1-2*e),l=(s+o)/2+c*(t.size.width/2-t.left-t.width/2),u=(n+r)/2-c*(t.size.height/2-t.top-t.height/
@@ -399,52 +400,52 @@ function Te(i,t){let e=i.length/4,s=new Float64Array(4*e);for(let n=0;n<e;n++){l
 n],s[e+n]=i[2*n+1],s[2*e+n]=o?i[2*n]:i[2*(e+n)],s[3*e+n]=o?-i[2*n+1]:i[2*(e+n)+1]}return s}function ot(i){
 let e=[...i.offset_cage,...i.offset_holes.flat()].length+i.hole_points.length,s=new Float64Array(4*e);
 return i.offset_cage.forEach(([o,r],a)=>{s[a]=o,s[e+a]=r}),s}var Se={0:"Picture",1:"Grid",2:"Stretch σ₁",3:"Stretch σ₂",4:"Dilatation k"},Cs="0",Oe=56,rt=class{report=new nt;#t=m(
-"pad");#s=f("select",{id:"overlay","aria-label":"What is shown"});#e=T("undo","Undo (Ctrl+Z)",()=>this.#l(
-"undo"));#o=T("redo","Redo (Ctrl+Shift+Z)",()=>this.#l("redo"));#n=T("trash","Remove the selected pi\
-ns (Delete)",()=>this.#l("Delete"));#r=se(be);#a=null;#i=0;#u;constructor(t,{stage:e,editing:s,view:n},o){
-this.data=t,this.stage=e,this.editing=s,this.view=n,this.film=new tt(o,{show:a=>this.#v(a),thumbnail:a=>this.#g(
-a),redraw:()=>this.redraw(),take:({pins:a,frame:h})=>s.replace(a,h.coefficients),say:a=>this.report.
-say(a),color:a=>this.#b(a)}),this.hand=new et(s,n,{fit:()=>this.fit(),reset:()=>this.#d(),redraw:()=>this.
-redraw(),play:()=>this.film.playOrPause(),say:a=>this.report.say(a),help:this.#r.toggle}),this.pad=new J(
-this.#t,n,this.hand,this.hand);let r=f("canvas",{className:"paper"});this.#t.append(r),this.#u=Bt(r,
-n,this.hand.signal,a=>this.#x(a)),n.changed=()=>this.redraw(),s.told=()=>this.#w(),this.#h(),this.#m(),
-this.#w()}#h(){for(let[h,c]of Object.entries(Se))this.#s.append(new Option(c,h));let t=f("div",{id:"\
-menu",popover:"auto"},...this.#p());t.addEventListener("click",()=>t.hidePopover());let e=T("export",
-"Copy, download, reset",void 0);e.popoverTargetElement=t;let s=[this.#e,this.#o,this.#n];m("tools").
-append(...s,this.#s,e,this.#r.button),document.body.append(t,this.#r.table);let n=f("b",{"aria-hidde\
-n":"true"},"+"),r=f("button",{className:"keep",title:"Keep this pose",onclick:()=>this.#f()});r.append(
-n,"Keep pose"),m("dock").prepend(r,this.film.element);let a=Array.from({length:this.#E},(h,c)=>this.#y(
-c));document.documentElement.style.setProperty("--colors",a.join())}#p(){let{data:t,editing:e,report:s}=this,
-n=(o,r)=>f("button",{onclick:r},o);return[n("Copy the pose as Python",async()=>s.say(await he(t,e))),
-n("Download the picture",()=>{ce(t,this.stage,this.shown),this.redraw()}),n("Download the map and it\
-s proof",async()=>{this.film.release(),s.say(await le(t,e))}),n("Fit the window",()=>this.fit()),n("\
-Back to the undeformed shape",()=>this.#d())]}#m(){this.#s.addEventListener("change",()=>{this.#A(),
-this.redraw()});let t=n=>{!this.film.seen||n.button===1||(this.film.release(),n.stopImmediatePropagation(),
-n.preventDefault())};this.#t.addEventListener("pointerdown",t,{capture:!0}),document.addEventListener(
-"keydown",n=>this.#c(n));let{dataset:e}=this.#t;document.addEventListener("keydown",()=>Object.assign(
-e,{keys:""}),!0),document.addEventListener("pointerdown",()=>delete e.keys,!0),new ResizeObserver(()=>this.
-fit()).observe(this.#t),matchMedia("(prefers-color-scheme: dark)").addEventListener("change",()=>this.
-report.draw())}#c(t){let e=t.target;if(this.#t.contains(e)||t.key==="Tab")return;let s=e.matches("in\
-put, select")&&!q(t),n=e.matches("button")&&/^(Enter| )$/.test(t.key);if(!(s||n)){if(t.key!==" "){this.
-pad.keydown(t);return}t.preventDefault(),this.film.playOrPause()}}#l(t){this.film.release(),this.pad.
-press(t)}#d(){this.film.release(),this.editing.replace([],ot(this.data.outline))}#f(){this.film.release();
-let{pins:t,frame:e}=this.editing;this.film.keep({pins:t,frame:e}),this.report.tell(`Pose ${this.film.
-kept.length} is kept`),this.#w()}get shown(){return this.#a??this.editing.frame}fit(){let t=C(this.#t),
-e=this.shown.images??[];Object.assign(this.view,t.size,B(e,t,this.data.margin)),this.report.draw(),this.
-redraw()}redraw(){this.#u(),!this.#i&&(this.#i=requestAnimationFrame(()=>{this.#i=0,this.film.drawOne();
-let{width:t,height:e,unit:s,x:n,y:o}=this.view;this.stage.paint(this.shown,{width:t,height:e,unit:s,
-x:n,y:o},this.#s.value),document.documentElement.dataset.drawn=String(this.shown.id)}))}#v(t){this.#a=
-t,this.report.proved(this.shown),this.redraw()}#g(t){let e={width:Oe,height:Oe},s={...e,left:0,top:0,
-size:e},n=B(t.images??[],s,this.data.margin);return this.stage.paint(t,{...e,...n},Cs),this.stage.canvas}#x(t){
-let{editing:e,pad:s,hand:n,view:o}=this;if(this.#a)return;let r=s.focused?n.cursorAt:null,{marks:a}=e;
-te(t,o,a,{hovered:s.found?.mark,held:s.held,cursor:r}),Ee(t,o,a,e.missed,e.refused),s.encloses&&s.path.
-length>2&&Qt(t,o,s.path)}#w(){let{editing:t,report:e}=this;this.#e.disabled=!t.canUndo,this.#o.disabled=
-!t.canRedo,this.#n.disabled=t.selected.length===0,m("hint").hidden=t.pins.length>0||this.film.kept.length>
-0,e.plot(t.frame),e.proved(this.shown),e.pins(t),document.documentElement.dataset.settled=String(t.settled),
-this.redraw()}get#E(){return this.data.colors.length/3}#y(t){return`rgb(${this.data.colors.slice(3*t,
-3*t+3).map(s=>Math.round(255*s))})`}#b(t){return this.#y(Math.round((1-Math.min(t,1))*(this.#E-1)))}#A(){
-let{value:t}=this.#s,e=this.data.ranges[t],s=m("legend");s.hidden=!e,e&&s.replaceChildren(`${Se[t]} ${e[0]}`,
-f("i"),`${e[1]}`)}};var at=class{#t;#s=0;#e=new Map;constructor(t,e=()=>{}){this.#t=t,this.onmap=e,t.onmessage=({data:s})=>this.#n(
+"pad");#s=f("select",{id:"overlay","aria-label":"What is shown"});#e=T("undo","Undo (Ctrl+Z)",()=>this.#f(
+"undo"));#o=T("redo","Redo (Ctrl+Shift+Z)",()=>this.#f("redo"));#n=T("trash","Remove the selected pi\
+ns (Delete)",()=>this.#f("Delete"));#r=se(be);#h=null;#i=0;#l=!0;#a;constructor(t,{stage:e,editing:s,
+view:n},o){this.data=t,this.stage=e,this.editing=s,this.view=n,this.film=new tt(o,{show:a=>this.#g(a),
+thumbnail:a=>this.#x(a),redraw:()=>this.redraw(),take:({pins:a,frame:h})=>s.replace(a,h.coefficients),
+say:a=>this.report.say(a),color:a=>this.#A(a)}),this.hand=new et(s,n,{fit:()=>this.fit(),reset:()=>this.#u(),
+redraw:()=>this.redraw(),play:()=>this.film.playOrPause(),say:a=>this.report.say(a),help:this.#r.toggle}),
+this.pad=new J(this.#t,n,this.hand,this.hand);let r=f("canvas",{className:"paper"});this.#t.append(r),
+this.#a=Bt(r,n,this.hand.signal,a=>this.#b(a)),n.changed=()=>this.redraw(),s.told=()=>{this.#l=!0,this.
+report.plot(s.frame),this.redraw()},this.#p(),this.#c(),this.redraw()}#p(){for(let[h,c]of Object.entries(
+Se))this.#s.append(new Option(c,h));let t=f("div",{id:"menu",popover:"auto"},...this.#m());t.addEventListener(
+"click",()=>t.hidePopover());let e=T("export","Copy, download, reset",void 0);e.popoverTargetElement=
+t;let s=[this.#e,this.#o,this.#n];m("tools").append(...s,this.#s,e,this.#r.button),document.body.append(
+t,this.#r.table);let n=f("b",{"aria-hidden":"true"},"+"),r=f("button",{className:"keep",title:"Keep \
+this pose",onclick:()=>this.#E()});r.append(n,"Keep pose"),m("dock").prepend(r,this.film.element);let a=Array.
+from({length:this.#w},(h,c)=>this.#y(c));document.documentElement.style.setProperty("--colors",a.join())}#m(){
+let{data:t,editing:e,report:s}=this,n=(o,r)=>f("button",{onclick:r},o);return[n("Copy the pose as Py\
+thon",async()=>s.say(await he(t,e))),n("Download the picture",()=>{ce(t,this.stage,this.shown),this.
+redraw()}),n("Download the map and its proof",async()=>{this.film.release(),s.say(await le(t,e))}),n(
+"Fit the window",()=>this.fit()),n("Back to the undeformed shape",()=>this.#u())]}#c(){this.#s.addEventListener(
+"change",()=>{this.#T(),this.redraw()});let t=n=>{!this.film.seen||n.button===1||(this.film.release(),
+n.stopImmediatePropagation(),n.preventDefault())};this.#t.addEventListener("pointerdown",t,{capture:!0}),
+document.addEventListener("keydown",n=>this.#d(n));let{dataset:e}=this.#t;document.addEventListener(
+"keydown",()=>Object.assign(e,{keys:""}),!0),document.addEventListener("pointerdown",()=>delete e.keys,
+!0),new ResizeObserver(()=>this.fit()).observe(this.#t),matchMedia("(prefers-color-scheme: dark)").addEventListener(
+"change",()=>this.report.draw())}#d(t){let e=t.target;if(this.#t.contains(e)||t.key==="Tab")return;let s=e.
+matches("input, select")&&!q(t),n=e.matches("button")&&/^(Enter| )$/.test(t.key);if(!(s||n)){if(t.key!==
+" "){this.pad.keydown(t);return}t.preventDefault(),this.film.playOrPause()}}#f(t){this.film.release(),
+this.pad.press(t)}#u(){this.film.release(),this.editing.replace([],ot(this.data.outline))}#E(){this.
+film.release();let{pins:t,frame:e}=this.editing;this.film.keep({pins:t,frame:e}),this.report.tell(`P\
+ose ${this.film.kept.length} is kept`),m("hint").hidden=!0}get shown(){return this.#h??this.editing.
+frame}fit(){let t=C(this.#t),e=this.shown.images??[];Object.assign(this.view,t.size,B(e,t,this.data.
+margin)),this.report.draw(),this.redraw()}redraw(){this.#a(),!this.#i&&(this.#i=requestAnimationFrame(
+()=>{this.#i=0,this.#l&&this.#v(),this.film.drawOne();let{width:t,height:e,unit:s,x:n,y:o}=this.view;
+this.stage.paint(this.shown,{width:t,height:e,unit:s,x:n,y:o},this.#s.value),document.documentElement.
+dataset.drawn=String(this.shown.id)}))}#g(t){this.#h=t,this.report.proved(this.shown),this.redraw()}#x(t){
+let e={width:Oe,height:Oe},s={...e,left:0,top:0,size:e},n=B(t.images??[],s,this.data.margin);return this.
+stage.paint(t,{...e,...n},Cs),this.stage.canvas}#b(t){let{editing:e,pad:s,hand:n,view:o}=this;if(this.#h)
+return;let r=s.focused?n.cursorAt:null,{marks:a}=e;te(t,o,a,{hovered:s.found?.mark,held:s.held,cursor:r}),
+Ee(t,o,a,e.missed,e.refused),s.encloses&&s.path.length>2&&Qt(t,o,s.path)}#v(){let{editing:t,report:e}=this;
+this.#l=!1,this.#e.disabled=!t.canUndo,this.#o.disabled=!t.canRedo,this.#n.disabled=t.selected.length===
+0,m("hint").hidden||=t.pins.length>0,e.draw(),e.proved(this.shown),e.pins(t),document.documentElement.
+dataset.settled=String(t.settled)}get#w(){return this.data.colors.length/3}#y(t){return`rgb(${this.data.
+colors.slice(3*t,3*t+3).map(s=>Math.round(255*s))})`}#A(t){return this.#y(Math.round((1-Math.min(t,1))*
+(this.#w-1)))}#T(){let{value:t}=this.#s,e=this.data.ranges[t],s=m("legend");s.hidden=!e,e&&s.replaceChildren(
+`${Se[t]} ${e[0]}`,f("i"),`${e[1]}`)}};var at=class{#t;#s=0;#e=new Map;constructor(t,e=()=>{}){this.#t=t,this.onmap=e,t.onmessage=({data:s})=>this.#n(
 s)}ask(t){let e=this.#o(t);return new Promise((s,n)=>this.#e.set(e,{resolve:s,reject:n}))}async map(t){
 let e=await this.ask(t);if(e.type!=="map")throw new Error(`the answer is no map but of type ${e.type}`);
 return e}drag(t){return this.#o({type:"drag",pose:t})}place(t,e){return this.#o({type:"place",pose:t,
@@ -457,9 +458,9 @@ mesh=n,this.#n=this.#r(ht),this.#n.setPicture(o)}#r(t){let{vertex:e,painting:s,f
 grid:a,ranges:h}=this.#s,c=this.mover==="shader",l={vertex:c?e:s,fragment:n,frame:o,colors:r,grid:a,
 ranges:h},u=ut(this.#e,t),d=c?this.#o.cage:new Float32Array;return this.mesh=u,new U(this.canvas,this.#t,
 l,u,d)}async choose(t,e){let s=o=>t.map({type:"points",points:ft(o)}),n=await s(this.#e);if(this.mover===
-"shader"){let o=this.#i(n,e);if(Re(o)&&this.#a(n,e),kt(o))return n;this.mover="module",this.#n=this.#r(
+"shader"){let o=this.#i(n,e);if(Re(o)&&this.#h(n,e),kt(o))return n;this.mover="module",this.#n=this.#r(
 ht),n=await s(this.mesh);let r=this.#i(n,e);return Le(o,r,n.evaluated)==="module"?n:(this.mover="sha\
-der",this.#n=this.#r(ht),s(this.#e))}return s(this.mesh)}#a(t,e){this.#n=this.#r(Bs),!kt(this.#i(t,e))&&
+der",this.#n=this.#r(ht),s(this.#e))}return s(this.mesh)}#h(t,e){this.#n=this.#r(Bs),!kt(this.#i(t,e))&&
 (this.#n=this.#r(ht))}#i(t,e){let s=this.#t,n=new Uint8Array(4),o=Array.from({length:Ds},()=>{let r=performance.
 now();return this.paint(t,e,"0"),s.readPixels(0,0,1,1,s.RGBA,s.UNSIGNED_BYTE,n),performance.now()-r});
 return this.frameTime=Pe(o),this.frameTime}paint(t,e,s){let n=this.mover==="shader"?this.#o.of(t.coefficients):

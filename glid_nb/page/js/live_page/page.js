@@ -48,6 +48,7 @@ export class LivePage {
   /** @type {LiveMap | null} a frame of the motion, shown instead of the edited pose */
   #moving = null;
   #due = 0;
+  #news = true; // of the pose that is edited, which is to be told
   #paintPins;
 
   /**
@@ -81,10 +82,14 @@ export class LivePage {
     this.#box.append(paper);
     this.#paintPins = painter(paper, view, this.hand.signal, (pen) => this.#drawPins(pen));
     view.changed = () => this.redraw();
-    editing.told = () => this.#changed();
+    editing.told = () => {
+      this.#news = true;
+      this.report.plot(editing.frame);
+      this.redraw();
+    };
     this.#arrange();
     this.#hear();
-    this.#changed();
+    this.redraw();
   }
 
   #arrange() {
@@ -182,7 +187,7 @@ export class LivePage {
     const { pins, frame } = this.editing;
     this.film.keep({ pins, frame });
     this.report.tell(`Pose ${this.film.kept.length} is kept`);
-    this.#changed();
+    byId("hint").hidden = true;
   }
 
   /** The certified map that is shown. */
@@ -204,6 +209,7 @@ export class LivePage {
     if (this.#due) return;
     this.#due = requestAnimationFrame(() => {
       this.#due = 0;
+      if (this.#news) this.#tell();
       this.film.drawOne();
       const { width, height, unit, x, y } = this.view;
       this.stage.paint(this.shown, { width, height, unit, x, y }, this.#overlay.value);
@@ -238,17 +244,18 @@ export class LivePage {
     if (pad.encloses && pad.path.length > 2) drawLasso(pen, view, pad.path);
   }
 
-  #changed() {
+  // Tells all news of a frame at once: on a slow device several maps come between two frames.
+  #tell() {
     const { editing, report } = this;
+    this.#news = false;
     this.#undo.disabled = !editing.canUndo;
     this.#redo.disabled = !editing.canRedo;
     this.#remove.disabled = editing.selected.length === 0;
-    byId("hint").hidden = editing.pins.length > 0 || this.film.kept.length > 0;
-    report.plot(editing.frame);
+    byId("hint").hidden ||= editing.pins.length > 0;
+    report.draw();
     report.proved(this.shown);
     report.pins(editing);
     document.documentElement.dataset.settled = String(editing.settled);
-    this.redraw();
   }
 
   // Colours.

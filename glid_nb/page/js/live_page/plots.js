@@ -50,7 +50,6 @@ export class Plot {
   add(value) {
     this.#values.push(value);
     if (this.#values.length > LENGTH) this.#values.shift();
-    this.value.textContent = this.words(value);
   }
 
   draw() {
@@ -65,6 +64,7 @@ export class Plot {
     const line = lineThrough(this.#values, width, height, this.range);
     const last = line.at(-1);
     if (!last) return;
+    this.value.textContent = this.words(this.#values[line.length - 1]);
     const color = getComputedStyle(canvas).color;
     const [first] = line;
     tracePath(pen, [[...line, [last[0], height], [first[0], height]]]);

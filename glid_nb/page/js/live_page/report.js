@@ -29,14 +29,16 @@ export class Report {
     byId("plots").append(this.#bound.element, this.#energy.element, this.#time.element);
   }
 
-  /** @param {LiveMap} map that the solver has reached */
+  /**
+   * Adds to the plots; `draw` shows it.
+   * @param {LiveMap} map that the solver has reached
+   */
   plot({ id, certificate, energy, steps, took }) {
     if (id === this.#last && !steps) return;
     this.#last = id;
     this.#bound.add(certificate.sigma2_lower);
     this.#energy.add(energy);
     if (steps) this.#time.add(took / steps);
-    this.draw();
   }
 
   draw() {
