@@ -153,6 +153,17 @@ def test_undo_redo_delete_and_keys(browser: Browser, tmp_path: Path) -> None:
         page.keyboard.press("<")  # turns the shape at the pin
         page.wait_for_function(_SETTLED)
         assert lowest_bound(page) > 0
+        # Beside the shape a drag moves the view, and the wheel zooms.
+        x, y, unit = page.evaluate("(({ x, y, unit }) => [x, y, unit])(window.glidPage.view)")
+        page.mouse.move(1000, 600)
+        page.mouse.down()
+        page.mouse.move(1040, 610, steps=3)
+        page.mouse.up()
+        moved = page.evaluate("[window.glidPage.view.x, window.glidPage.view.y]")
+        np.testing.assert_allclose(moved, [x - 40 * unit, y + 10 * unit])
+        page.mouse.wheel(0, -200)
+        page.wait_for_function("unit => window.glidPage.view.unit < unit", arg=unit)
+        page.keyboard.press("f")
         # The keyboard alone: a cursor, and a pin there.
         page.keyboard.press("0")
         page.keyboard.press("Escape")

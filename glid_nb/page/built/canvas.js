@@ -133,7 +133,7 @@ e.pointerId);const second=this.pointers.size===2;if(second)this.#takeBack(e);thi
 mode=second||e.button===1||e.button===0&&this.#space?"pan":"hand";if(this.mode==="hand")this.#handDown(
 place,e);this.#showCursor()}#handDown(place,e){const{behaviour}=this;const found=this.#find(place,e.
 pointerType);const left=e.button===0;if(left&&!e.shiftKey&&found?.mark!==void 0){this.grip={from:this.
-view.toWorld(place),points:behaviour.held(found)}}this.#pans=left&&Boolean(behaviour.pans?.(found));
+view.toWorld(place),points:behaviour.held(found)}}this.#pans=left&&Boolean(behaviour.pans?.(found,e));
 this.encloses=left&&!behaviour.painting?behaviour.encloses?.(found,e):null;this.path=left?[this.view.
 toWorld(place)]:[];this.send("down",place,e,{part:found?.part});if(e.pointerType==="touch"&&behaviour.
 menu&&!behaviour.painting){this.#longPress=setTimeout(()=>this.#pressedLong(e,place),LONG_PRESS)}behaviour.

@@ -1,9 +1,9 @@
-"use strict";(()=>{var b=class extends Error{},U=class{#t;#s;#e;#o;#n;#r;#h={};#i;constructor(t,e,s,n,o){this.canvas=t,
-this.ranges=s.ranges,this.#t=e,this.#s=Ne(e,s.vertex,s.fragment),e.useProgram(this.#s),this.#e=Fe(n),
-this.#r=this.#f(e.ARRAY_BUFFER,this.#e),this.#d("position",3,0,0);let r=Ce(n).flat(),a=n.heights.length>
-65535;this.#o=r.length,this.#n=a?e.UNSIGNED_INT:e.UNSIGNED_SHORT,this.#f(e.ELEMENT_ARRAY_BUFFER,new(a?
+"use strict";(()=>{var b=class extends Error{},U=class{#t;#e;#s;#o;#n;#r;#h={};#i;constructor(t,e,s,n,o){this.canvas=t,
+this.ranges=s.ranges,this.#t=e,this.#e=Ne(e,s.vertex,s.fragment),e.useProgram(this.#e),this.#s=Fe(n),
+this.#r=this.#d(e.ARRAY_BUFFER,this.#s),this.#f("position",3,0,0);let r=Ce(n).flat(),a=n.heights.length>
+65535;this.#o=r.length,this.#n=a?e.UNSIGNED_INT:e.UNSIGNED_SHORT,this.#d(e.ELEMENT_ARRAY_BUFFER,new(a?
 Uint32Array:Uint16Array)(r)),this.#i=o.length?this.#p(o):this.#m();let[h,c,l,u]=s.frame;e.uniform4f(
-this.#c("frame"),h,c,l-h,u-c),e.uniform3fv(this.#c("colors"),s.colors),e.uniform1f(this.#c("grid_spa\
+this.#u("frame"),h,c,l-h,u-c),e.uniform3fv(this.#u("colors"),s.colors),e.uniform1f(this.#u("grid_spa\
 cing"),s.grid),e.enable(e.DEPTH_TEST),e.depthFunc(e.LEQUAL),e.enable(e.BLEND),e.blendFunc(e.ONE,e.ONE_MINUS_SRC_ALPHA)}setPicture(t){
 let e=this.#t,s=e.getParameter(e.MAX_TEXTURE_SIZE);if(Math.max(t.width,t.height)>s)throw new b(`This\
  device shows pictures of at most ${s} pixels.`);e.bindTexture(e.TEXTURE_2D,e.createTexture()),e.pixelStorei(
@@ -13,19 +13,19 @@ e.texParameteri(e.TEXTURE_2D,e.TEXTURE_MIN_FILTER,e.LINEAR_MIPMAP_LINEAR),e.texP
 e.TEXTURE_WRAP_S,e.CLAMP_TO_EDGE),e.texParameteri(e.TEXTURE_2D,e.TEXTURE_WRAP_T,e.CLAMP_TO_EDGE)}draw({
 width:t,height:e,unit:s,x:n,y:o,overlay:r,coefficients:a,heights:h}){let c=this.#t,l=window.devicePixelRatio||
 1;this.#l(Math.round(t*l),Math.round(e*l)),c.clear(c.COLOR_BUFFER_BIT|c.DEPTH_BUFFER_BIT);let u=Be(t,
-e,s,n,o);c.uniformMatrix4fv(this.#c("projectionMatrix"),!1,u),c.uniform1f(this.#c("pixel"),s/l),c.uniform1f(
-this.#c("overlay"),Number(r)),c.uniform2fv(this.#c("color_range"),this.ranges[r]??[0,1]),h&&this.#a(
+e,s,n,o);c.uniformMatrix4fv(this.#u("projectionMatrix"),!1,u),c.uniform1f(this.#u("pixel"),s/l),c.uniform1f(
+this.#u("overlay"),Number(r)),c.uniform2fv(this.#u("color_range"),this.ranges[r]??[0,1]),h&&this.#a(
 h),this.#i(a),c.drawElements(c.TRIANGLES,this.#o,this.#n,0)}#l(t,e){let{canvas:s}=this;(s.width!==t||
-s.height!==e)&&(s.width=t,s.height=e),this.#t.viewport(0,0,t,e)}#a(t){t.forEach((e,s)=>{this.#e[3*s+
-2]=e}),this.#u(this.#t.ARRAY_BUFFER,this.#r,this.#e)}#p(t){let e=this.#t,[,s,n]=["cage","coefficient\
-s","holes"].map((o,r)=>{let a=e.getUniformBlockIndex(this.#s,`${o}_block`);e.uniformBlockBinding(this.#s,
-a,r);let h=this.#f(e.UNIFORM_BUFFER,t);return e.bindBufferBase(e.UNIFORM_BUFFER,r,h),h});return o=>{
-this.#u(e.UNIFORM_BUFFER,s,o.subarray(0,t.length)),this.#u(e.UNIFORM_BUFFER,n,o.subarray(t.length))}}#m(){
-let t=this.#t,e=t.createBuffer();return t.bindBuffer(t.ARRAY_BUFFER,e),this.#d("image",2,24,0),this.#d(
-"derivatives",4,24,8),s=>this.#u(t.ARRAY_BUFFER,e,s)}#c(t){return this.#h[t]??=this.#t.getUniformLocation(
-this.#s,t),this.#h[t]}#d(t,e,s,n){let o=this.#t,r=o.getAttribLocation(this.#s,t);o.enableVertexAttribArray(
-r),o.vertexAttribPointer(r,e,o.FLOAT,!1,s,n)}#f(t,e){let s=this.#t.createBuffer();return this.#u(t,s,
-e),s}#u(t,e,s){this.#t.bindBuffer(t,e),this.#t.bufferData(t,s,this.#t.DYNAMIC_DRAW)}};function Ne(i,t,e){
+s.height!==e)&&(s.width=t,s.height=e),this.#t.viewport(0,0,t,e)}#a(t){t.forEach((e,s)=>{this.#s[3*s+
+2]=e}),this.#c(this.#t.ARRAY_BUFFER,this.#r,this.#s)}#p(t){let e=this.#t,[,s,n]=["cage","coefficient\
+s","holes"].map((o,r)=>{let a=e.getUniformBlockIndex(this.#e,`${o}_block`);e.uniformBlockBinding(this.#e,
+a,r);let h=this.#d(e.UNIFORM_BUFFER,t);return e.bindBufferBase(e.UNIFORM_BUFFER,r,h),h});return o=>{
+this.#c(e.UNIFORM_BUFFER,s,o.subarray(0,t.length)),this.#c(e.UNIFORM_BUFFER,n,o.subarray(t.length))}}#m(){
+let t=this.#t,e=t.createBuffer();return t.bindBuffer(t.ARRAY_BUFFER,e),this.#f("image",2,24,0),this.#f(
+"derivatives",4,24,8),s=>this.#c(t.ARRAY_BUFFER,e,s)}#u(t){return this.#h[t]??=this.#t.getUniformLocation(
+this.#e,t),this.#h[t]}#f(t,e,s,n){let o=this.#t,r=o.getAttribLocation(this.#e,t);o.enableVertexAttribArray(
+r),o.vertexAttribPointer(r,e,o.FLOAT,!1,s,n)}#d(t,e){let s=this.#t.createBuffer();return this.#c(t,s,
+e),s}#c(t,e,s){this.#t.bindBuffer(t,e),this.#t.bufferData(t,s,this.#t.DYNAMIC_DRAW)}};function Ne(i,t,e){
 let s=i.createProgram();if(i.attachShader(s,St(i,i.VERTEX_SHADER,t)),i.attachShader(s,St(i,i.FRAGMENT_SHADER,
 e)),i.linkProgram(s),!i.getProgramParameter(s,i.LINK_STATUS))throw new b(i.getProgramInfoLog(s)??"Th\
 e shaders do not fit together.");return s}function St(i,t,e){let s=i.createShader(t);if(!s)throw new b(
@@ -50,9 +50,9 @@ let[s,n]=this.toWorld(e),o=Math.min(this.farthest,Math.max(this.nearest,this.uni
 x-s)*(o/this.unit),this.y=n+(this.y-n)*(o/this.unit),this.unit=o,this.changed()}wheel(t,e){t.preventDefault();
 let s=t.deltaMode===1?t.deltaY*33:t.deltaY;this.zoom(Math.exp(s*.0015*(t.ctrlKey?5:1)),e)}follow(t,e,s){
 let n=t.get(e)??s,o=[...t].find(([c])=>c!==e)?.[1],r=o?.5:1;if(t.set(e,s),this.pan(r*(s[0]-n[0]),r*(s[1]-
-n[1])),!o)return;let a=c=>Math.max(w(c,o),1),h=[(s[0]+o[0])/2,(s[1]+o[1])/2];this.zoom(a(n)/a(s),h)}};var $=class{#t=[];#s=[];get canUndo(){return this.#t.length>0}get canRedo(){return this.#s.length>0}note(t){
-this.#t.push(t),this.#s=[]}drop(){return this.#t.pop()}undo(t){let e=this.#t.pop();return e!==void 0&&
-this.#s.push(t),e}redo(t){let e=this.#s.pop();return e!==void 0&&this.#t.push(t),e}};function Ue({source:i,heights:t,triangles:e}){let s=[...i],n=[...t],o=new Map,r=t.length,a=(c,l)=>{let u=Math.
+n[1])),!o)return;let a=c=>Math.max(w(c,o),1),h=[(s[0]+o[0])/2,(s[1]+o[1])/2];this.zoom(a(n)/a(s),h)}};var $=class{#t=[];#e=[];get canUndo(){return this.#t.length>0}get canRedo(){return this.#e.length>0}note(t){
+this.#t.push(t),this.#e=[]}drop(){return this.#t.pop()}undo(t){let e=this.#t.pop();return e!==void 0&&
+this.#e.push(t),e}redo(t){let e=this.#e.pop();return e!==void 0&&this.#t.push(t),e}};function Ue({source:i,heights:t,triangles:e}){let s=[...i],n=[...t],o=new Map,r=t.length,a=(c,l)=>{let u=Math.
 min(c,l)*r+Math.max(c,l),d=o.get(u);if(d!==void 0)return d;let p=n.length;return s.push((s[2*c]+s[2*
 l])/2,(s[2*c+1]+s[2*l+1])/2),n.push((n[c]+n[l])/2),o.set(u,p),p},h=e.flatMap(([c,l,u])=>{let[d,p,v]=[
 a(c,l),a(l,u),a(u,c)];return[[c,d,v],[d,l,p],[v,p,u],[d,p,v]]});return{source:Float32Array.from(s),heights:Float32Array.
@@ -75,11 +75,11 @@ s(l.handle)))}return a}function Ct(i,t,e){let s=(n,o)=>n+e*(o-n);return i.map((n
 angle===null||r.angle===null?null:dt(r.angle-n.angle);return{...n,target:[s(n.target[0],r.target[0]),
 s(n.target[1],r.target[1])],weight:s(n.weight,r.weight),angle:n.angle===null||a===null?null:n.angle+
 e*a,scale:n.scale===null||r.scale===null?null:s(n.scale,r.scale)}})}function Lt({handle:i}){return i.
-join()}var Ge=.15,z=class{pins=[];selected=[];inGesture=!1;#t=new $;#s=0;#e=0;constructor(t,e,s){this.solving=
+join()}var Ge=.15,z=class{pins=[];selected=[];inGesture=!1;#t=new $;#e=0;#s=0;constructor(t,e,s){this.solving=
 t,this.mesh=e,this.frame=s,this.told=()=>{},t.onmap=n=>this.#l(n)}begin(t){this.#h({pins:t,selected:[],
 coefficients:this.frame.coefficients})}get now(){let{pins:t,selected:e,frame:s}=this;return{pins:t,selected:e,
 coefficients:s.coefficients}}get canUndo(){return this.#t.canUndo}get canRedo(){return this.#t.canRedo}get settled(){
-return this.frame.settled&&this.frame.id>=this.#e}get marks(){let t=this.pins.map(({target:s})=>s),e=this.
+return this.frame.settled&&this.frame.id>=this.#s}get marks(){let t=this.pins.map(({target:s})=>s),e=this.
 pins.map((s,n)=>this.imageOf(n));return{targets:t,images:e,selected:[...this.selected],hidden:[],ring:this.#o()}}imageOf(t){
 let{images:e}=this.frame.pins;return this.#n?[e[2*t],e[2*t+1]]:this.pins[t].target}get missed(){return this.
 settled?[...this.pins.keys()].filter(t=>{let[e,s]=this.imageOf(t),[n,o]=this.pins[t].target;return Math.
@@ -99,10 +99,10 @@ this.inGesture||(this.#t.note(this.now),this.inGesture=!0)}endGesture(){this.inG
 if(!this.inGesture)return;this.inGesture=!1;let t=this.#t.drop();t&&this.#h(t)}undo(){let t=this.#t.
 undo(this.now);t&&this.#h(t)}redo(){let t=this.#t.redo(this.now);t&&this.#h(t)}replace(t,e){this.#t.
 note(this.now),this.#h({pins:t,selected:[],coefficients:e})}#r(t,e){this.inGesture||this.#t.note(this.
-now);let s=t.length<this.pins.length;this.pins=t,this.selected=e,t.length?this.#e=this.solving.drag(
-y(t)):this.#i(this.frame.coefficients),s&&(this.#s=this.#e),this.told()}#h({pins:t,selected:e,coefficients:s}){
-this.pins=t,this.selected=e.filter(n=>n<t.length),this.#i(s),t.length&&(this.#e=this.solving.drag(y(
-t))),this.told()}#i(t){let e=this.solving.place(y(this.pins),t);this.#e=e,this.#s=e}#l(t){t.id<this.#s||
+now);let s=t.length<this.pins.length;this.pins=t,this.selected=e,t.length?this.#s=this.solving.drag(
+y(t)):this.#i(this.frame.coefficients),s&&(this.#e=this.#s),this.told()}#h({pins:t,selected:e,coefficients:s}){
+this.pins=t,this.selected=e.filter(n=>n<t.length),this.#i(s),t.length&&(this.#s=this.solving.drag(y(
+t))),this.told()}#i(t){let e=this.solving.place(y(this.pins),t);this.#s=e,this.#e=e}#l(t){t.id<this.#e||
 !t.certificate.certified||(this.frame=t,this.told())}};function m(i){return W(i,HTMLElement)}function W(i,t){let e=document.getElementById(i);if(!(e instanceof
 t))throw new Error(`the page has no ${i}`);return e}function f(i,t={},...e){let s=document.createElement(i);s instanceof HTMLButtonElement&&(s.type="but\
 ton");for(let[n,o]of Object.entries(t))n.startsWith("on")?s.addEventListener(n.slice(2),o):n in s&&n!==
@@ -157,12 +157,12 @@ M3 4.5h10 M6.5 4.5v-2h3v2 M4.5 4.5l.6 9h5.8l.6-9"};function ns(i){return`<svg vi
 ia-hidden="true"><path d="${ss[i]}"/></svg>`}function T(i,t,e,s="glid-icon"){return f("button",{title:t,
 "aria-label":t,className:s,onclick:e,innerHTML:ns(i)})}function q(i){if(!i.ctrlKey&&!i.metaKey)return null;let t=i.key.toLowerCase();return t==="z"?i.shiftKey?
 "redo":"undo":t==="y"?"redo":null}var ne=4,is=600,os=100,rs=8,as=3,J=class{pointers=new Map;mode=null;grip=null;held=new Map;path=[];encloses=null;found=null;rests=null;#t=[
-0,0];#s=!1;#e=!1;#o=!1;#n;constructor(t,e,s,n){this.element=t,this.view=e,this.link=s,this.behaviour=
+0,0];#e=!1;#s=!1;#o=!1;#n;constructor(t,e,s,n){this.element=t,this.view=e,this.link=s,this.behaviour=
 n,t.tabIndex=0,s.signal.addEventListener("abort",()=>clearTimeout(this.#n)),t.addEventListener("poin\
-terdown",o=>this.#l(o)),t.addEventListener("pointermove",o=>this.#f(o)),t.addEventListener("pointeru\
+terdown",o=>this.#l(o)),t.addEventListener("pointermove",o=>this.#d(o)),t.addEventListener("pointeru\
 p",o=>this.#g(o,"up")),t.addEventListener("pointercancel",o=>this.#g(o,"cancel")),t.addEventListener(
 "lostpointercapture",o=>this.#g(o,"cancel")),t.addEventListener("pointerleave",()=>this.hover(null)),
-t.addEventListener("wheel",o=>this.#v(o),{passive:!1}),t.addEventListener("contextmenu",o=>this.#c(o)),
+t.addEventListener("wheel",o=>this.#v(o),{passive:!1}),t.addEventListener("contextmenu",o=>this.#u(o)),
 t.addEventListener("keydown",o=>this.keydown(o)),t.addEventListener("keyup",o=>this.#r(o)),t.addEventListener(
 "focus",()=>n.changed()),t.addEventListener("blur",()=>{this.#w(!1),n.changed()})}get focused(){return this.
 element.matches(":focus")}place(t){let e=this.element.getBoundingClientRect();return[t.clientX-e.left,
@@ -178,19 +178,19 @@ this.behaviour.tapped?.())}#h(t){return this.behaviour.reach[t??"mouse"]??this.b
 return this.behaviour.find(this.view.toWorld(t),this.#h(e)*this.view.unit)}#l(t){if(this.pointers.has(
 t.pointerId)||this.pointers.size>1)return;t.preventDefault(),this.element.focus({preventScroll:!0}),
 this.#o=!1;let e=this.place(t);this.pointers.set(t.pointerId,e),this.element.setPointerCapture(t.pointerId);
-let s=this.pointers.size===2;s&&this.#d(t),this.#t=e,this.mode=s||t.button===1||t.button===0&&this.#e?
+let s=this.pointers.size===2;s&&this.#f(t),this.#t=e,this.mode=s||t.button===1||t.button===0&&this.#s?
 "pan":"hand",this.mode==="hand"&&this.#a(e,t),this.#y()}#a(t,e){let{behaviour:s}=this,n=this.#i(t,e.
 pointerType),o=e.button===0;o&&!e.shiftKey&&n?.mark!==void 0&&(this.grip={from:this.view.toWorld(t),
-points:s.held(n)}),this.#s=o&&!!s.pans?.(n),this.encloses=o&&!s.painting?s.encloses?.(n,e):null,this.
+points:s.held(n)}),this.#e=o&&!!s.pans?.(n,e),this.encloses=o&&!s.painting?s.encloses?.(n,e):null,this.
 path=o?[this.view.toWorld(t)]:[],this.send("down",t,e,{part:n?.part}),e.pointerType==="touch"&&s.menu&&
-!s.painting&&(this.#n=setTimeout(()=>this.#p(e,t),is)),s.changed()}#p(t,e){this.#n=setTimeout(()=>{this.#d(
-t),this.mode=null,this.#m(e,"touch")},os)}#m(t,e){this.behaviour.menu?.(t,this.#i(t,e))}#c(t){t.preventDefault(),
+!s.painting&&(this.#n=setTimeout(()=>this.#p(e,t),is)),s.changed()}#p(t,e){this.#n=setTimeout(()=>{this.#f(
+t),this.mode=null,this.#m(e,"touch")},os)}#m(t,e){this.behaviour.menu?.(t,this.#i(t,e))}#u(t){t.preventDefault(),
 t.stopPropagation();let e=t instanceof PointerEvent&&t.pointerType==="touch";t.button===2&&!e&&this.#m(
-this.place(t),"mouse")}#d(t){this.mode==="hand"&&this.send("cancel",this.#t,t),this.#b()}#f(t){let e=this.
+this.place(t),"mouse")}#f(t){this.mode==="hand"&&this.send("cancel",this.#t,t),this.#b()}#d(t){let e=this.
 place(t),s=t.pointerType==="touch";if(!this.pointers.has(t.pointerId)){s||this.hover(e);return}s||(this.
-rests=e);let n=w(e,this.#t);if(n>rs&&clearTimeout(this.#n),this.mode==="hand"&&this.#s&&n>ne&&(this.#d(
+rests=e);let n=w(e,this.#t);if(n>rs&&clearTimeout(this.#n),this.mode==="hand"&&this.#e&&n>ne&&(this.#f(
 t),this.mode="pan",this.#y()),this.mode==="pan"){this.view.follow(this.pointers,t.pointerId,e);return}
-this.pointers.set(t.pointerId,e),this.mode==="hand"&&this.#u(e,t,n)}#u(t,e,s){let n=this.view.toWorld(
+this.pointers.set(t.pointerId,e),this.mode==="hand"&&this.#c(e,t,n)}#c(t,e,s){let n=this.view.toWorld(
 t);if(this.#E(t,n,s),!this.encloses&&!this.behaviour.painting&&this.send("move",t,e,{replaces:`move ${e.
 pointerId}`}),this.grip){let o=n[0]-this.grip.from[0],r=n[1]-this.grip.from[1];for(let[a,[h,c]]of this.
 grip.points)this.held.set(a,[h+o,c+r])}this.behaviour.changed()}#E(t,e,s){if(this.encloses==="box"){
@@ -200,8 +200,8 @@ pointers.delete(t.pointerId),this.mode==="hand"){let{path:n}=this;this.send(e,s,
 encloses}).then(()=>{this.grip||this.held.clear(),this.path===n&&(this.path=[]),this.behaviour.changed()})}
 this.#x(),this.pointers.size||(this.mode=null),this.#y()}#x(){clearTimeout(this.#n),this.grip=null,this.
 behaviour.changed()}#b(){this.#x(),this.held.clear(),this.path=[]}#v(t){this.behaviour.wheelNeedsFocus&&
-!this.focused&&!t.ctrlKey||(t.stopPropagation(),this.view.wheel(t,this.place(t)))}#w(t){this.#e=t,this.#y()}#y(){
-this.element.style.cursor=this.#A()}#A(){return this.mode==="pan"||this.grip?"grabbing":this.#e?"gra\
+!this.focused&&!t.ctrlKey||(t.stopPropagation(),this.view.wheel(t,this.place(t)))}#w(t){this.#s=t,this.#y()}#y(){
+this.element.style.cursor=this.#A()}#A(){return this.mode==="pan"||this.grip?"grabbing":this.#s?"gra\
 b":this.behaviour.cursor(this.found)}};async function ie(i){try{return await navigator.clipboard.writeText(i),!0}catch{return hs(i)}}function hs(i){
 let t=document.activeElement,e=document.createElement("textarea");e.value=i,e.setAttribute("readonly",
 ""),Object.assign(e.style,{position:"fixed",top:"0",left:"0",opacity:"0"}),document.body.append(e),e.
@@ -242,11 +242,11 @@ let s=o=>Math.abs(o-i);return[t,t+e,t-e].reduce((o,r)=>s(r)<s(o)?r:o)}function g
 i)}var ws=.001,Z=class{buttons=[];#t=[];constructor(t,e,s,n){this.times=t,this.draw=s,this.drawNext=n,this.
 buttons=t.map((r,a)=>{let h=`Pose ${a+1}, at ${r.toFixed(2)} s`;return f("button",{title:h,"aria-lab\
 el":h,onclick:()=>e(r)},f("canvas"))});let o=new IntersectionObserver(r=>{this.#t.length||requestAnimationFrame(
-()=>this.#s());for(let{isIntersecting:a,target:h}of r)a&&(this.#t.push(this.buttons.indexOf(h)),o.unobserve(
+()=>this.#e());for(let{isIntersecting:a,target:h}of r)a&&(this.#t.push(this.buttons.indexOf(h)),o.unobserve(
 h))});for(let r of this.buttons)o.observe(r)}mark(t){this.buttons.forEach((e,s)=>{e.setAttribute("ar\
 ia-current",String(Math.abs(this.times[s]-t)<ws))})}drawOne(){let t=this.#t.shift();if(t===void 0)return;
 let e=this.draw(this.times[t]),s=this.buttons[t].firstChild;s.width=e.width,s.height=e.height,k(s).drawImage(
-e,0,0)}#s(){this.#t.length&&(this.drawNext(),requestAnimationFrame(()=>this.#s()))}};var Q=class{constructor({times:t,repeat:e},s){this.times=t,this.repeat=e,this.floats=s,this.mixed=s.
+e,0,0)}#e(){this.#t.length&&(this.drawNext(),requestAnimationFrame(()=>this.#e()))}};var Q=class{constructor({times:t,repeat:e},s){this.times=t,this.repeat=e,this.floats=s,this.mixed=s.
 slice(0,s.length/t.length),this.start=t[0],this.last=t[t.length-1],this.end=e==="ping-pong"?2*this.last-
 this.start:this.last}within(t){let{start:e,end:s}=this;if(this.repeat==="once")return Math.min(Math.
 max(t,e),s);let n=s-e;return e+((t-e)%n+n)%n}place(t){let{times:e,last:s}=this,n=this.within(t),o=n>
@@ -259,18 +259,18 @@ drag",pose:y(u)});c.push({coefficients:d,sigma2:p.sigma2_lower})}return c}async 
 map(({handle:r})=>r),n={handles:s,targets:s},{pins:o}=await i.map({type:"place",pose:n,coefficients:e});
 return r=>{let a=s.findIndex(([h,c])=>h===r[0]&&c===r[1]);return[o.images[2*a],o.images[2*a+1]]}}function ys(i){
 return i*i*(3-2*i)}var ge=1,we=100,xs=1/25,tt=class{kept=[];seen=!1;element=f("div",{className:"film",hidden:!0});#t=f(
-"div",{className:"poses",role:"group","aria-label":"Kept poses"});#s=f("button",{className:"play",title:"\
-Play or pause (Space)"});#e=f("input",{type:"range",step:String(xs),"aria-label":"Time, seconds"});#o=f(
+"div",{className:"poses",role:"group","aria-label":"Kept poses"});#e=f("button",{className:"play",title:"\
+Play or pause (Space)"});#s=f("input",{type:"range",step:String(xs),"aria-label":"Time, seconds"});#o=f(
 "i",{title:"Certified σ₂ at the knots"});#n=f("output",{className:"clock"});#r=T("trash","Remove \
-this pose",()=>this.#A());#h=new WeakMap;#i=null;#l=[];#a=0;#p=0;#m=null;#c=0;#d=null;#f=!1;#u=null;#E=!0;#g=null;#x=null;constructor(t,e){
-this.start=t,this.screen=e;let s=f("div",{className:"track"},this.#e,this.#o),n=f("div",{className:"\
-player"},this.#s,s,this.#n);this.player=n,this.element.append(this.#t,this.#r,n),this.#s.addEventListener(
-"click",()=>this.playOrPause()),this.#e.addEventListener("input",()=>this.#C(Number(this.#e.value))),
-this.#S()}#b(){return this.#d??=this.start(),this.#d}get playing(){return!!this.#m?.plays}drawOne(){
+this pose",()=>this.#A());#h=new WeakMap;#i=null;#l=[];#a=0;#p=0;#m=null;#u=0;#f=null;#d=!1;#c=null;#E=!0;#g=null;#x=null;constructor(t,e){
+this.start=t,this.screen=e;let s=f("div",{className:"track"},this.#s,this.#o),n=f("div",{className:"\
+player"},this.#e,s,this.#n);this.player=n,this.element.append(this.#t,this.#r,n),this.#e.addEventListener(
+"click",()=>this.playOrPause()),this.#s.addEventListener("input",()=>this.#C(Number(this.#s.value))),
+this.#S()}#b(){return this.#f??=this.start(),this.#f}get playing(){return!!this.#m?.plays}drawOne(){
 this.#x?.drawOne()}async load(t,e){let s=await this.#b(),n=[];for(let[o,r]of t.keyframes.entries()){
 let{coefficients:a}=t.knots[t.times.indexOf(r)],h=e[o]??[],c=await s.map({type:"place",pose:y(h),coefficients:a});
 n.push({pins:h,frame:c})}this.kept=n,this.#P(t),this.#v()}async keep(t){this.kept=[...this.kept,t],this.#v(),
-await this.#O()}release(){this.#k(null),this.#E=!0,this.#u=null,this.seen&&(this.seen=!1,this.screen.
+await this.#O()}release(){this.#k(null),this.#E=!0,this.#c=null,this.seen&&(this.seen=!1,this.screen.
 show(null),this.#M())}playOrPause(){let t=this.#i;t&&this.#k(this.playing?null:ue(t,this.#a,!0))}#v(){
 let t=this.#w,e=s=>this.kept[t.indexOf(s)];this.#x=new Z(t,s=>this.#y(s,e(s)),s=>this.screen.thumbnail(
 e(s).frame),()=>this.screen.redraw()),this.#t.replaceChildren(...this.#x.buttons),this.element.hidden=
@@ -289,61 +289,62 @@ return o}async#N(t,e,s){let n=this.#h.get(t);if(n?.to===e&&n.start===s)return n.
 await this.#b(),t,e,s);return this.#h.set(t,{start:s,to:e,knots:o}),o}#P({times:t,knots:e,keyframes:s,
 repeat:n}){let o=e[0].coefficients.length,r=new Float64Array(o*e.length);for(let[a,{coefficients:h}]of e.
 entries())r.set(h,a*o);this.#i=new Q({times:t,repeat:n},r),this.#l=e,this.#g=s,this.#a=Math.min(Math.
-max(this.#a,this.#i.start),this.#i.end),this.#e.min=String(this.#i.start),this.#e.max=String(this.#i.
+max(this.#a,this.#i.start),this.#i.end),this.#s.min=String(this.#i.start),this.#s.max=String(this.#i.
 end),this.#o.style.background=this.#F(this.#i),this.#L(),this.#S()}#F(t){return`linear-gradient(to r\
 ight, ${Array.from({length:we},(s,n)=>{let o=t.start+(n+.5)/we*(t.end-t.start),{piece:r}=t.place(o),
 a=Math.min(this.#l[r].sigma2,this.#l[r+1].sigma2);return`${this.screen.color(a)} ${n}% ${n+1}%`})})`}#C(t){
-this.#k(null),this.#R(t)}#R(t){let e=this.#i;e&&(this.#a=t===e.end?t:e.within(t),this.#u=this.#a,this.#E=
-!1,this.#L(),this.#f||this.#B(e))}async#B(t){this.#f=!0;try{let e=await this.#b();for(;this.#u!==null;){
-let s=t.at(this.#u).slice();this.#u=null;let n=await e.map({type:"place",pose:y([]),coefficients:s});
+this.#k(null),this.#R(t)}#R(t){let e=this.#i;e&&(this.#a=t===e.end?t:e.within(t),this.#c=this.#a,this.#E=
+!1,this.#L(),this.#d||this.#B(e))}async#B(t){this.#d=!0;try{let e=await this.#b();for(;this.#c!==null;){
+let s=t.at(this.#c).slice();this.#c=null;let n=await e.map({type:"place",pose:y([]),coefficients:s});
 if(this.#E)break;this.seen=!0,this.screen.show(n)}}catch{this.screen.say("This instant is not proved\
-, so the frame before stays.")}finally{this.#f=!1}}#L(){let t=this.#i;t&&(this.#e.value=String(this.#a),
+, so the frame before stays.")}finally{this.#d=!1}}#L(){let t=this.#i;t&&(this.#s.value=String(this.#a),
 this.#n.textContent=`${this.#a.toFixed(1)} / ${t.end.toFixed(1)} s`,this.#M())}#M(){let{repeat:t,last:e=0}=this.#i??
 {},s=t==="ping-pong"&&this.#a>e;this.#x?.mark(s?2*e-this.#a:this.#a),this.#r.hidden=this.#T<0}#k(t,e=()=>{}){
-cancelAnimationFrame(this.#c),this.#m=t&&{...t,began:performance.now()},t&&(this.#c=requestAnimationFrame(
+cancelAnimationFrame(this.#u),this.#m=t&&{...t,began:performance.now()},t&&(this.#u=requestAnimationFrame(
 s=>this.#_(s,e))),this.#S()}#_(t,e){if(!this.#m)return;let{began:s,lasts:n,at:o}=this.#m,r=Math.min(
-Math.max(t-s,0),n);if(this.#R(o(r)),r<n){this.#c=requestAnimationFrame(a=>this.#_(a,e));return}this.#k(
-null),e()}#S(){let{playing:t}=this;this.#s.disabled=!this.#i,this.#e.disabled=!this.#i,this.#s.textContent=
-t?"❚❚":"▶",this.#s.setAttribute("aria-label",t?"Pause":"Play")}};var bs={mouse:13,pen:16,touch:26},Es=/^(Arrow\w+|Delete|Backspace|Escape|Enter|[0fax,.<>+=-])$/i,vs=2,
+Math.max(t-s,0),n);if(this.#R(o(r)),r<n){this.#u=requestAnimationFrame(a=>this.#_(a,e));return}this.#k(
+null),e()}#S(){let{playing:t}=this;this.#e.disabled=!this.#i,this.#s.disabled=!this.#i,this.#e.textContent=
+t?"❚❚":"▶",this.#e.setAttribute("aria-label",t?"Pause":"Play")}};var bs={mouse:13,pen:16,touch:26},Es=/^(Arrow\w+|Delete|Backspace|Escape|Enter|[0fax,.<>+=-])$/i,vs=2,
 As=5,Ms=.1,ks=.5,Ts=6,Ss=30,ye=Math.PI/36,vt=1.05,xe={ArrowLeft:[-1,0],ArrowRight:[1,0],ArrowUp:[0,1],
 ArrowDown:[0,-1]},Os={"<":[ye,1],">":[-ye,1],"+":[0,vt],"=":[0,vt],"-":[0,1/vt]},et=class{reach=bs;keys=Es;signal=new AbortController().
-signal;cursorAt=null;#t=null;constructor(t,e,s){this.editing=t,this.view=e,this.around=s,this.actions=
-{"?":s.help}}changed(){this.around.redraw()}tapped(){this.around.play()}find(t,e){let{marks:s}=this.
-editing,n=()=>Kt(this.view,s,this.view.toScreen(t),e/this.view.unit/2);return Y(s,t,e)??n()}held({mark:t}){
-let{pins:e,selected:s}=this.editing,n=Number(t),o=s.includes(n)?s:[n];return new Map(o.map(r=>[r,e[r].
-target]))}encloses(t,e){return e.shiftKey?"box":null}cursor(t){return t?"grab":"crosshair"}pans(t){return!t&&
-this.#t!==null&&!this.#t.onShape}async put(t){let e=t;return t.type==="down"&&this.#s(e),t.type==="m\
-ove"&&this.#o(e),t.type==="up"&&this.#r(e),t.type==="cancel"&&this.#i(),t.type==="key"&&this.#a(e.key??
-"",e),null}#s(t){let{editing:e}=this;if(this.#i(),this.cursorAt=null,t.button!==0)return;let s=[t.x,
-t.y],n=Y(e.marks,s,t.reach)?.mark,o={start:s,onShape:!1,targets:new Map,part:"",turns:new Map,dragging:!1};
-if(n!==void 0){let r=Number(n);if(t.shift)return this.#e(r);e.selected.includes(r)||e.select([r]),o.
-targets=new Map(e.selected.map(a=>[a,e.pins[a].target]))}else t.part?(o.part=t.part,o.turns=new Map(
-e.selected.map(r=>[r,e.turnOf(r)])),o.onShape=t.part==="turn"&&e.sourceAt(s)!==null):o.onShape=!t.shift&&
-e.sourceAt(s)!==null;this.#t=o}#e(t){let{selected:e}=this.editing,s=e.filter(n=>n!==t);this.editing.
-select(e.includes(t)?s:[...e,t])}#o(t){let{editing:e}=this,s=this.#t;if(!s)return;let n=[t.x,t.y],o=s.
-part||s.targets.size?vs:As;if(!s.dragging&&w(n,s.start)<=o*t.unit||!s.part&&!s.targets.size&&!s.onShape)
-return;if(s.dragging||e.beginGesture(),s.dragging=!0,s.part){this.#n(s,n);return}s.targets.size||(e.
-pin(s.start),s.targets=new Map([[e.pins.length-1,s.start]]));let[r,a]=[n[0]-s.start[0],n[1]-s.start[1]],
-h=[...s.targets].map(([c,[l,u]])=>[c,[l+r,u+a]]);e.move(new Map(h))}#n(t,e){let{editing:s}=this,n=s.
-selected.at(-1);if(n===void 0)return;let[o,r]=s.pins[n].target,a=[t.start[0]-o,t.start[1]-r],h=[e[0]-
-o,e[1]-r],c=Math.atan2(h[1],h[0])-Math.atan2(a[1],a[0]),l=Math.hypot(h[0],h[1])/Math.max(Math.hypot(
-a[0],a[1]),1e-9);s.turn(u=>{let{angle:d,scale:p}=t.turns.get(u)??{angle:0,scale:1};return t.part==="\
-turn"?{angle:d+c}:{scale:p*l}})}#r({path:t=[],encloses:e}){let{editing:s}=this,n=this.#t;if(this.#t=
-null,e&&t.length>2){this.#h(t);return}n&&(n.dragging?s.endGesture():n.onShape?this.#l(n.start):!n.targets.
-size&&!n.part&&s.select([]))}#h(t){let[e,s]=[t.map(([h])=>h),t.map(([,h])=>h)],n=(h,c)=>h>=Math.min(
-...c)&&h<=Math.max(...c),{pins:o,selected:r}=this.editing,a=[...o.keys()].filter(h=>{let[c,l]=o[h].target;
-return n(c,e)&&n(l,s)});this.editing.select([...r,...a])}#i(){this.#t=null,this.editing.cancelGesture()}#l(t){
-this.editing.pin(t)||this.around.say("There is no shape here. Choose a place on it.")}#a(t,e){let{editing:s,
-around:n}=this,o={undo:()=>s.undo(),redo:()=>s.redo(),Delete:()=>s.remove(),Backspace:()=>s.remove(),
-Escape:()=>this.#m(),Enter:()=>this.#f(e),0:n.reset,f:n.fit,a:()=>s.select([...s.pins.keys()]),x:()=>s.
-turn(()=>({angle:null,scale:null})),",":()=>this.#c(-1),".":()=>this.#c(1)},r=Os[t];xe[t]?this.#d(xe[t],
-e):r?this.#p(r):(o[t]??o[t.toLowerCase()])?.(),n.redraw()}#p([t,e]){let{editing:s}=this;s.turn(n=>{let{
-angle:o,scale:r}=s.turnOf(n);return t?{angle:o+t}:{scale:r*e}})}#m(){if(this.editing.inGesture){this.#i();
-return}this.editing.select([]),this.cursorAt=null}#c(t){this.editing.selectNext(t),this.cursorAt=null}#d([
-t,e],{x:s,y:n,unit:o,shift:r}){let{editing:a}=this;if(a.selected.length&&!this.cursorAt){let u=r?ks:
-Ms;a.nudge([u*t,u*e]);return}let h=(r?Ss:Ts)*o,[c,l]=this.cursorAt??[s,n];this.cursorAt=[c+h*t,l+h*e]}#f({
-x:t,y:e,reach:s}){let n=this.cursorAt;if(!n){this.cursorAt=[t,e];return}let o=Y(this.editing.marks,n,
-s)?.mark;this.cursorAt=null,o===void 0?this.#l(n):this.editing.select([Number(o)])}};var be=[["Pins",[["Click or tap the shape","pin a point"],["Drag a pin, or the shape","move it there\
+signal;cursorAt=null;#t=null;#e=[0,0];constructor(t,e,s){this.editing=t,this.view=e,this.around=s,this.
+actions={"?":s.help}}changed(){this.around.redraw()}tapped(){this.around.play()}find(t,e){let{marks:s}=this.
+editing;this.#e=t;let n=()=>Kt(this.view,s,this.view.toScreen(t),e/this.view.unit/2);return Y(s,t,e)??
+n()}held({mark:t}){let{pins:e,selected:s}=this.editing,n=Number(t),o=s.includes(n)?s:[n];return new Map(
+o.map(r=>[r,e[r].target]))}encloses(t,e){return e.shiftKey?"box":null}cursor(t){return t?"grab":"cro\
+sshair"}pans(t,e){return!t&&!e.shiftKey&&this.editing.sourceAt(this.#e)===null}async put(t){let e=t;
+return t.type==="down"&&this.#s(e),t.type==="move"&&this.#n(e),t.type==="up"&&this.#h(e),t.type==="c\
+ancel"&&this.#l(),t.type==="key"&&this.#p(e.key??"",e),null}#s(t){let{editing:e}=this;if(this.#l(),this.
+cursorAt=null,t.button!==0)return;let s=[t.x,t.y],n=Y(e.marks,s,t.reach)?.mark,o={start:s,onShape:!1,
+targets:new Map,part:"",turns:new Map,dragging:!1};if(n!==void 0){let r=Number(n);if(t.shift)return this.#o(
+r);e.selected.includes(r)||e.select([r]),o.targets=new Map(e.selected.map(a=>[a,e.pins[a].target]))}else
+t.part?(o.part=t.part,o.turns=new Map(e.selected.map(r=>[r,e.turnOf(r)])),o.onShape=t.part==="turn"&&
+e.sourceAt(s)!==null):o.onShape=!t.shift&&e.sourceAt(s)!==null;this.#t=o}#o(t){let{selected:e}=this.
+editing,s=e.filter(n=>n!==t);this.editing.select(e.includes(t)?s:[...e,t])}#n(t){let{editing:e}=this,
+s=this.#t;if(!s)return;let n=[t.x,t.y],o=s.part||s.targets.size?vs:As;if(!s.dragging&&w(n,s.start)<=
+o*t.unit||!s.part&&!s.targets.size&&!s.onShape)return;if(s.dragging||e.beginGesture(),s.dragging=!0,
+s.part){this.#r(s,n);return}s.targets.size||(e.pin(s.start),s.targets=new Map([[e.pins.length-1,s.start]]));
+let[r,a]=[n[0]-s.start[0],n[1]-s.start[1]],h=[...s.targets].map(([c,[l,u]])=>[c,[l+r,u+a]]);e.move(new Map(
+h))}#r(t,e){let{editing:s}=this,n=s.selected.at(-1);if(n===void 0)return;let[o,r]=s.pins[n].target,a=[
+t.start[0]-o,t.start[1]-r],h=[e[0]-o,e[1]-r],c=Math.atan2(h[1],h[0])-Math.atan2(a[1],a[0]),l=Math.hypot(
+h[0],h[1])/Math.max(Math.hypot(a[0],a[1]),1e-9);s.turn(u=>{let{angle:d,scale:p}=t.turns.get(u)??{angle:0,
+scale:1};return t.part==="turn"?{angle:d+c}:{scale:p*l}})}#h({path:t=[],encloses:e}){let{editing:s}=this,
+n=this.#t;if(this.#t=null,e&&t.length>2){this.#i(t);return}n&&(n.dragging?s.endGesture():n.onShape?this.#a(
+n.start):!n.targets.size&&!n.part&&s.select([]))}#i(t){let[e,s]=[t.map(([h])=>h),t.map(([,h])=>h)],n=(h,c)=>h>=
+Math.min(...c)&&h<=Math.max(...c),{pins:o,selected:r}=this.editing,a=[...o.keys()].filter(h=>{let[c,
+l]=o[h].target;return n(c,e)&&n(l,s)});this.editing.select([...r,...a])}#l(){this.#t=null,this.editing.
+cancelGesture()}#a(t){this.editing.pin(t)||this.around.say("There is no shape here. Choose a place o\
+n it.")}#p(t,e){let{editing:s,around:n}=this,o={undo:()=>s.undo(),redo:()=>s.redo(),Delete:()=>s.remove(),
+Backspace:()=>s.remove(),Escape:()=>this.#u(),Enter:()=>this.#c(e),0:n.reset,f:n.fit,a:()=>s.select(
+[...s.pins.keys()]),x:()=>s.turn(()=>({angle:null,scale:null})),",":()=>this.#f(-1),".":()=>this.#f(
+1)},r=Os[t];xe[t]?this.#d(xe[t],e):r?this.#m(r):(o[t]??o[t.toLowerCase()])?.(),n.redraw()}#m([t,e]){
+let{editing:s}=this;s.turn(n=>{let{angle:o,scale:r}=s.turnOf(n);return t?{angle:o+t}:{scale:r*e}})}#u(){
+if(this.editing.inGesture){this.#l();return}this.editing.select([]),this.cursorAt=null}#f(t){this.editing.
+selectNext(t),this.cursorAt=null}#d([t,e],{x:s,y:n,unit:o,shift:r}){let{editing:a}=this;if(a.selected.
+length&&!this.cursorAt){let u=r?ks:Ms;a.nudge([u*t,u*e]);return}let h=(r?Ss:Ts)*o,[c,l]=this.cursorAt??
+[s,n];this.cursorAt=[c+h*t,l+h*e]}#c({x:t,y:e,reach:s}){let n=this.cursorAt;if(!n){this.cursorAt=[t,
+e];return}let o=Y(this.editing.marks,n,s)?.mark;this.cursorAt=null,o===void 0?this.#a(n):this.editing.
+select([Number(o)])}};var be=[["Pins",[["Click or tap the shape","pin a point"],["Drag a pin, or the shape","move it there\
 ; the shape follows, and never folds"],["Drag the ring, its knob","turn the shape at the pin, scale \
 it there"],["< >, + -, X","turn, scale; free both again"],["Delete","remove the selected pins"],["Ar\
 row keys","nudge selected pins, with Shift farther; else move a cursor"],["Enter","show the cursor; \
@@ -368,11 +369,11 @@ range),a=r.at(-1);if(!a)return;this.value.textContent=this.words(this.#t[r.lengt
 t).color,[c]=r;P(o,[[...r,[a[0],s],[c[0],s]]]),o.globalAlpha=.12,o.fillStyle=h,o.fill(),o.globalAlpha=
 1,o.lineJoin="round",P(o,[r],!1),E(o,[[1.5,h]]),o.beginPath(),o.arc(a[0],a[1],2,0,2*Math.PI),o.fillStyle=
 h,o.fill()}};var _s=5e3,Is=.02,nt=class{#t=new L("Certificate","The least stretch anywhere, as proved. The map fo\
-lds nowhere while this is above 0",[0,1+Is],t=>`σ₂ ≥ ${At(t)}`);#s=new L("Energy","The distorti\
-on of the shape, and of the pins",null,t=>t.toPrecision(4));#e=new L("Step","Time of a certified ste\
-p",null,t=>`${t.toFixed(1)} ms`);#o=-1;#n;constructor(){m("plots").append(this.#t.element,this.#s.element,
-this.#e.element)}plot({id:t,certificate:e,energy:s,steps:n,took:o}){t===this.#o&&!n||(this.#o=t,this.#t.
-add(e.sigma2_lower),this.#s.add(s),n&&this.#e.add(o/n))}draw(){for(let t of[this.#t,this.#s,this.#e])
+lds nowhere while this is above 0",[0,1+Is],t=>`σ₂ ≥ ${At(t)}`);#e=new L("Energy","The distorti\
+on of the shape, and of the pins",null,t=>t.toPrecision(4));#s=new L("Step","Time of a certified ste\
+p",null,t=>`${t.toFixed(1)} ms`);#o=-1;#n;constructor(){m("plots").append(this.#t.element,this.#e.element,
+this.#s.element)}plot({id:t,certificate:e,energy:s,steps:n,took:o}){t===this.#o&&!n||(this.#o=t,this.#t.
+add(e.sigma2_lower),this.#e.add(s),n&&this.#s.add(o/n))}draw(){for(let t of[this.#t,this.#e,this.#s])
 t.draw()}proved({certificate:{sigma2_lower:t,sigma1_upper:e,k_upper:s}}){let n=`σ₂ ≥ ${At(t)}, \
 σ₁ ≤ ${Mt(e)}, k ≤ ${Mt(s)}`;m("proved").title=`Proved in this page for the map that is shown\
 : ${n}`,m("bound").textContent=n}pins(t){let e=Ns(t);e&&this.tell(e)}tell(t){let e=m("status");e.textContent!==
@@ -384,14 +385,14 @@ round(10*i)/10+0).toFixed(1)}var Me=80;function C(i){let t=i.getBoundingClientRe
 left-t.left,top:e.top-t.top,width:Math.max(e.width,Me),height:Math.max(e.height,Me),size:{width:t.width,
 height:t.height}}}function B(i,t,e){let[s,n,o,r]=H(i),a=(o-s)/t.width,h=(r-n)/t.height,c=Math.max(a,
 h)/(1-2*e),l=(s+o)/2+c*(t.size.width/2-t.left-t.width/2),u=(n+r)/2-c*(t.size.height/2-t.top-t.height/
-2);return{unit:c,x:l,y:u}}var it=class{#t;#s;#e;#o;constructor(t,{chain:e,shaderHoles:s}){let n=[t.offset_cage,...t.offset_holes];
-this.#s=t,this.#o={chain:e,holes:s},this.#t=Fs(n.map(o=>o.length)),this.#e=n.flat(),this.cage=this.#n()}#n(){
-let t=new Float32Array(4*this.#o.chain),e=this.#e[this.#e.length-1];for(let s=0;s<this.#o.chain;s++){
-let n=this.#t[s],[o,r]=n?this.#e[n.vertex]:e,a=n&&!n.first?this.#r(s):[0,0];t.set([o,r,...a],4*s)}return t}#r(t){
-let[e,s]=this.#e[this.#t[t].vertex],[n,o]=this.#e[this.#t[t-1].vertex],[r,a]=[e-n,s-o],h=r*r+a*a;return[
+2);return{unit:c,x:l,y:u}}var it=class{#t;#e;#s;#o;constructor(t,{chain:e,shaderHoles:s}){let n=[t.offset_cage,...t.offset_holes];
+this.#e=t,this.#o={chain:e,holes:s},this.#t=Fs(n.map(o=>o.length)),this.#s=n.flat(),this.cage=this.#n()}#n(){
+let t=new Float32Array(4*this.#o.chain),e=this.#s[this.#s.length-1];for(let s=0;s<this.#o.chain;s++){
+let n=this.#t[s],[o,r]=n?this.#s[n.vertex]:e,a=n&&!n.first?this.#r(s):[0,0];t.set([o,r,...a],4*s)}return t}#r(t){
+let[e,s]=this.#s[this.#t[t].vertex],[n,o]=this.#s[this.#t[t-1].vertex],[r,a]=[e-n,s-o],h=r*r+a*a;return[
 r/h,-a/h]}of(t){let{chain:e,holes:s}=this.#o,n=t.length/4,o=new Float32Array(4*(e+s));for(let[h,{vertex:c}]of this.#t.
-entries())for(let l=0;l<4;l++)o[4*h+l]=t[l*n+c];let r=1e3*Math.max(...this.#e.map(([h,c])=>Math.hypot(
-h,c))),a=this.#s.hole_points;for(let h=0;h<s;h++){let c=this.#e.length+h,l=h<a.length?[...a[h],t[c],
+entries())for(let l=0;l<4;l++)o[4*h+l]=t[l*n+c];let r=1e3*Math.max(...this.#s.map(([h,c])=>Math.hypot(
+h,c))),a=this.#e.hole_points;for(let h=0;h<s;h++){let c=this.#s.length+h,l=h<a.length?[...a[h],t[c],
 t[n+c]]:[r];o.set(l,4*(e+h))}return o}};function Fs(i){let t=[],e=0;for(let s of i){t.push({vertex:e+
 s-1,first:!0});for(let n=0;n<s;n++)t.push({vertex:e+n,first:!1});e+=s}return t}function ke({images:i,
 samples:t}){if(!i||!t)throw new Error("the map was not evaluated at the mesh");let e=i.length/2,s=new Float32Array(
@@ -400,72 +401,72 @@ function Te(i,t){let e=i.length/4,s=new Float64Array(4*e);for(let n=0;n<e;n++){l
 n],s[e+n]=i[2*n+1],s[2*e+n]=o?i[2*n]:i[2*(e+n)],s[3*e+n]=o?-i[2*n+1]:i[2*(e+n)+1]}return s}function ot(i){
 let e=[...i.offset_cage,...i.offset_holes.flat()].length+i.hole_points.length,s=new Float64Array(4*e);
 return i.offset_cage.forEach(([o,r],a)=>{s[a]=o,s[e+a]=r}),s}var Se={0:"Picture",1:"Grid",2:"Stretch σ₁",3:"Stretch σ₂",4:"Dilatation k"},Cs="0",Oe=56,rt=class{report=new nt;#t=m(
-"pad");#s=f("select",{id:"overlay","aria-label":"What is shown"});#e=T("undo","Undo (Ctrl+Z)",()=>this.#f(
-"undo"));#o=T("redo","Redo (Ctrl+Shift+Z)",()=>this.#f("redo"));#n=T("trash","Remove the selected pi\
-ns (Delete)",()=>this.#f("Delete"));#r=se(be);#h=null;#i=0;#l=!0;#a;constructor(t,{stage:e,editing:s,
+"pad");#e=f("select",{id:"overlay","aria-label":"What is shown"});#s=T("undo","Undo (Ctrl+Z)",()=>this.#d(
+"undo"));#o=T("redo","Redo (Ctrl+Shift+Z)",()=>this.#d("redo"));#n=T("trash","Remove the selected pi\
+ns (Delete)",()=>this.#d("Delete"));#r=se(be);#h=null;#i=0;#l=!0;#a;constructor(t,{stage:e,editing:s,
 view:n},o){this.data=t,this.stage=e,this.editing=s,this.view=n,this.film=new tt(o,{show:a=>this.#g(a),
 thumbnail:a=>this.#x(a),redraw:()=>this.redraw(),take:({pins:a,frame:h})=>s.replace(a,h.coefficients),
-say:a=>this.report.say(a),color:a=>this.#A(a)}),this.hand=new et(s,n,{fit:()=>this.fit(),reset:()=>this.#u(),
+say:a=>this.report.say(a),color:a=>this.#A(a)}),this.hand=new et(s,n,{fit:()=>this.fit(),reset:()=>this.#c(),
 redraw:()=>this.redraw(),play:()=>this.film.playOrPause(),say:a=>this.report.say(a),help:this.#r.toggle}),
 this.pad=new J(this.#t,n,this.hand,this.hand);let r=f("canvas",{className:"paper"});this.#t.append(r),
 this.#a=Bt(r,n,this.hand.signal,a=>this.#b(a)),n.changed=()=>this.redraw(),s.told=()=>{this.#l=!0,this.
-report.plot(s.frame),this.redraw()},this.#p(),this.#c(),this.redraw()}#p(){for(let[h,c]of Object.entries(
-Se))this.#s.append(new Option(c,h));let t=f("div",{id:"menu",popover:"auto"},...this.#m());t.addEventListener(
+report.plot(s.frame),this.redraw()},this.#p(),this.#u(),this.redraw()}#p(){for(let[h,c]of Object.entries(
+Se))this.#e.append(new Option(c,h));let t=f("div",{id:"menu",popover:"auto"},...this.#m());t.addEventListener(
 "click",()=>t.hidePopover());let e=T("export","Copy, download, reset",void 0);e.popoverTargetElement=
-t;let s=[this.#e,this.#o,this.#n];m("tools").append(...s,this.#s,e,this.#r.button),document.body.append(
+t;let s=[this.#s,this.#o,this.#n];m("tools").append(...s,this.#e,e,this.#r.button),document.body.append(
 t,this.#r.table);let n=f("b",{"aria-hidden":"true"},"+"),r=f("button",{className:"keep",title:"Keep \
 this pose",onclick:()=>this.#E()});r.append(n,"Keep pose"),m("dock").prepend(r,this.film.element);let a=Array.
 from({length:this.#w},(h,c)=>this.#y(c));document.documentElement.style.setProperty("--colors",a.join())}#m(){
 let{data:t,editing:e,report:s}=this,n=(o,r)=>f("button",{onclick:r},o);return[n("Copy the pose as Py\
 thon",async()=>s.say(await he(t,e))),n("Download the picture",()=>{ce(t,this.stage,this.shown),this.
 redraw()}),n("Download the map and its proof",async()=>{this.film.release(),s.say(await le(t,e))}),n(
-"Fit the window",()=>this.fit()),n("Back to the undeformed shape",()=>this.#u())]}#c(){this.#s.addEventListener(
+"Fit the window",()=>this.fit()),n("Back to the undeformed shape",()=>this.#c())]}#u(){this.#e.addEventListener(
 "change",()=>{this.#T(),this.redraw()});let t=n=>{!this.film.seen||n.button===1||(this.film.release(),
 n.stopImmediatePropagation(),n.preventDefault())};this.#t.addEventListener("pointerdown",t,{capture:!0}),
-document.addEventListener("keydown",n=>this.#d(n));let{dataset:e}=this.#t;document.addEventListener(
+document.addEventListener("keydown",n=>this.#f(n));let{dataset:e}=this.#t;document.addEventListener(
 "keydown",()=>Object.assign(e,{keys:""}),!0),document.addEventListener("pointerdown",()=>delete e.keys,
 !0),new ResizeObserver(()=>this.fit()).observe(this.#t),matchMedia("(prefers-color-scheme: dark)").addEventListener(
-"change",()=>this.report.draw())}#d(t){let e=t.target;if(this.#t.contains(e)||t.key==="Tab")return;let s=e.
+"change",()=>this.report.draw())}#f(t){let e=t.target;if(this.#t.contains(e)||t.key==="Tab")return;let s=e.
 matches("input, select")&&!q(t),n=e.matches("button")&&/^(Enter| )$/.test(t.key);if(!(s||n)){if(t.key!==
-" "){this.pad.keydown(t);return}t.preventDefault(),this.film.playOrPause()}}#f(t){this.film.release(),
-this.pad.press(t)}#u(){this.film.release(),this.editing.replace([],ot(this.data.outline))}#E(){this.
+" "){this.pad.keydown(t);return}t.preventDefault(),this.film.playOrPause()}}#d(t){this.film.release(),
+this.pad.press(t)}#c(){this.film.release(),this.editing.replace([],ot(this.data.outline))}#E(){this.
 film.release();let{pins:t,frame:e}=this.editing;this.film.keep({pins:t,frame:e}),this.report.tell(`P\
 ose ${this.film.kept.length} is kept`),m("hint").hidden=!0}get shown(){return this.#h??this.editing.
 frame}fit(){let t=C(this.#t),e=this.shown.images??[];Object.assign(this.view,t.size,B(e,t,this.data.
 margin)),this.report.draw(),this.redraw()}redraw(){this.#a(),!this.#i&&(this.#i=requestAnimationFrame(
 ()=>{this.#i=0,this.#l&&this.#v(),this.film.drawOne();let{width:t,height:e,unit:s,x:n,y:o}=this.view;
-this.stage.paint(this.shown,{width:t,height:e,unit:s,x:n,y:o},this.#s.value),document.documentElement.
+this.stage.paint(this.shown,{width:t,height:e,unit:s,x:n,y:o},this.#e.value),document.documentElement.
 dataset.drawn=String(this.shown.id)}))}#g(t){this.#h=t,this.report.proved(this.shown),this.redraw()}#x(t){
 let e={width:Oe,height:Oe},s={...e,left:0,top:0,size:e},n=B(t.images??[],s,this.data.margin);return this.
 stage.paint(t,{...e,...n},Cs),this.stage.canvas}#b(t){let{editing:e,pad:s,hand:n,view:o}=this;if(this.#h)
 return;let r=s.focused?n.cursorAt:null,{marks:a}=e;te(t,o,a,{hovered:s.found?.mark,held:s.held,cursor:r}),
 Ee(t,o,a,e.missed,e.refused),s.encloses&&s.path.length>2&&Qt(t,o,s.path)}#v(){let{editing:t,report:e}=this;
-this.#l=!1,this.#e.disabled=!t.canUndo,this.#o.disabled=!t.canRedo,this.#n.disabled=t.selected.length===
+this.#l=!1,this.#s.disabled=!t.canUndo,this.#o.disabled=!t.canRedo,this.#n.disabled=t.selected.length===
 0,m("hint").hidden||=t.pins.length>0,e.draw(),e.proved(this.shown),e.pins(t),document.documentElement.
 dataset.settled=String(t.settled)}get#w(){return this.data.colors.length/3}#y(t){return`rgb(${this.data.
 colors.slice(3*t,3*t+3).map(s=>Math.round(255*s))})`}#A(t){return this.#y(Math.round((1-Math.min(t,1))*
-(this.#w-1)))}#T(){let{value:t}=this.#s,e=this.data.ranges[t],s=m("legend");s.hidden=!e,e&&s.replaceChildren(
-`${Se[t]} ${e[0]}`,f("i"),`${e[1]}`)}};var at=class{#t;#s=0;#e=new Map;constructor(t,e=()=>{}){this.#t=t,this.onmap=e,t.onmessage=({data:s})=>this.#n(
-s)}ask(t){let e=this.#o(t);return new Promise((s,n)=>this.#e.set(e,{resolve:s,reject:n}))}async map(t){
+(this.#w-1)))}#T(){let{value:t}=this.#e,e=this.data.ranges[t],s=m("legend");s.hidden=!e,e&&s.replaceChildren(
+`${Se[t]} ${e[0]}`,f("i"),`${e[1]}`)}};var at=class{#t;#e=0;#s=new Map;constructor(t,e=()=>{}){this.#t=t,this.onmap=e,t.onmessage=({data:s})=>this.#n(
+s)}ask(t){let e=this.#o(t);return new Promise((s,n)=>this.#s.set(e,{resolve:s,reject:n}))}async map(t){
 let e=await this.ask(t);if(e.type!=="map")throw new Error(`the answer is no map but of type ${e.type}`);
 return e}drag(t){return this.#o({type:"drag",pose:t})}place(t,e){return this.#o({type:"place",pose:t,
-coefficients:e})}#o(t){return this.#s+=1,this.#t.postMessage({...t,id:this.#s}),this.#s}#n(t){let e=this.#e.
-get(t.id);t.type==="map"&&this.onmap(t),!(t.type==="map"&&!t.settled)&&(this.#e.delete(t.id),t.type===
+coefficients:e})}#o(t){return this.#e+=1,this.#t.postMessage({...t,id:this.#e}),this.#e}#n(t){let e=this.#s.
+get(t.id);t.type==="map"&&this.onmap(t),!(t.type==="map"&&!t.settled)&&(this.#s.delete(t.id),t.type===
 "failed"?e?.reject(new Error(t.message)):e?.resolve(t))}};function Pe(i){let t=i.toSorted((e,s)=>e-s);return t[Math.floor(t.length/2)]}function Re(i){return i<=
-4}function kt(i){return i<=8}function Le(i,t,e){return t+e<i?"module":"shader"}var ht=1,Bs=2,Ds=5,ct=class{mover="shader";frameTime=0;#t;#s;#e;#o;#n;constructor(t,e,s,n,o){this.canvas=
-t,this.#t=e,this.#s=s,this.#e=n,this.#o=new it(s.outline,s),this.mover=s.vertex?"shader":"module",this.
+4}function kt(i){return i<=8}function Le(i,t,e){return t+e<i?"module":"shader"}var ht=1,Bs=2,Ds=5,ct=class{mover="shader";frameTime=0;#t;#e;#s;#o;#n;constructor(t,e,s,n,o){this.canvas=
+t,this.#t=e,this.#e=s,this.#s=n,this.#o=new it(s.outline,s),this.mover=s.vertex?"shader":"module",this.
 mesh=n,this.#n=this.#r(ht),this.#n.setPicture(o)}#r(t){let{vertex:e,painting:s,fragment:n,frame:o,colors:r,
-grid:a,ranges:h}=this.#s,c=this.mover==="shader",l={vertex:c?e:s,fragment:n,frame:o,colors:r,grid:a,
-ranges:h},u=ut(this.#e,t),d=c?this.#o.cage:new Float32Array;return this.mesh=u,new U(this.canvas,this.#t,
-l,u,d)}async choose(t,e){let s=o=>t.map({type:"points",points:ft(o)}),n=await s(this.#e);if(this.mover===
+grid:a,ranges:h}=this.#e,c=this.mover==="shader",l={vertex:c?e:s,fragment:n,frame:o,colors:r,grid:a,
+ranges:h},u=ut(this.#s,t),d=c?this.#o.cage:new Float32Array;return this.mesh=u,new U(this.canvas,this.#t,
+l,u,d)}async choose(t,e){let s=o=>t.map({type:"points",points:ft(o)}),n=await s(this.#s);if(this.mover===
 "shader"){let o=this.#i(n,e);if(Re(o)&&this.#h(n,e),kt(o))return n;this.mover="module",this.#n=this.#r(
 ht),n=await s(this.mesh);let r=this.#i(n,e);return Le(o,r,n.evaluated)==="module"?n:(this.mover="sha\
-der",this.#n=this.#r(ht),s(this.#e))}return s(this.mesh)}#h(t,e){this.#n=this.#r(Bs),!kt(this.#i(t,e))&&
+der",this.#n=this.#r(ht),s(this.#s))}return s(this.mesh)}#h(t,e){this.#n=this.#r(Bs),!kt(this.#i(t,e))&&
 (this.#n=this.#r(ht))}#i(t,e){let s=this.#t,n=new Uint8Array(4),o=Array.from({length:Ds},()=>{let r=performance.
 now();return this.paint(t,e,"0"),s.readPixels(0,0,1,1,s.RGBA,s.UNSIGNED_BYTE,n),performance.now()-r});
 return this.frameTime=Pe(o),this.frameTime}paint(t,e,s){let n=this.mover==="shader"?this.#o.of(t.coefficients):
 ke(t);this.#n.draw({...e,overlay:s,coefficients:n,heights:null})}get points(){return ft(this.mover===
-"shader"?this.#e:this.mesh)}};var Ie=Reflect.get(globalThis,"glidPage"),{data:x,worker:Us}=Ie;async function _e(){let i=URL.createObjectURL(
+"shader"?this.#s:this.mesh)}};var Ie=Reflect.get(globalThis,"glidPage"),{data:x,worker:Us}=Ie;async function _e(){let i=URL.createObjectURL(
 new Blob([Us],{type:"text/javascript"})),t=new Worker(i);URL.revokeObjectURL(i);let e=new at(t),{outline:s,
 options:n,start:o,poses:r}=x;await e.ask({type:"shape",outline:s,options:n});let a=o.length?Float64Array.
 from(o):ot(s);return await e.map({type:"place",pose:y(r[0]),coefficients:a}),e}async function Gs(){let i=await S(

@@ -64,6 +64,8 @@ export class Hand {
 
   /** @type {Press | null} */
   #press = null;
+  /** @type {Point} where the pad has asked last what is there */
+  #pointed = [0, 0];
 
   /**
    * @param {Editing} editing
@@ -94,6 +96,7 @@ export class Hand {
    */
   find(point, reach) {
     const { marks } = this.editing;
+    this.#pointed = point;
     const onRing = () =>
       ringAt(this.view, marks, this.view.toScreen(point), reach / this.view.unit / 2);
     return markAt(marks, point, reach) ?? onRing();
@@ -124,11 +127,12 @@ export class Hand {
   }
 
   /**
-   * Moves the view if nothing lies below the pointer.
+   * Moves the view if neither a pin nor the shape lies below the pointer.
    * @param {Found | null} found
+   * @param {PointerEvent} e
    */
-  pans(found) {
-    return !found && this.#press !== null && !this.#press.onShape;
+  pans(found, e) {
+    return !found && !e.shiftKey && this.editing.sourceAt(this.#pointed) === null;
   }
 
   // What the pad tells.

@@ -21,7 +21,7 @@ import { distance } from "./view.js";
  * @property {(found: Found | null) => string} cursor the pointer's shape
  * @property {() => void} changed called when something is to be drawn again
  * @property {boolean} [painting] whether the left button paints a path
- * @property {(found: Found | null) => boolean} [pans] whether the left button moves the view
+ * @property {(found: Found | null, e: PointerEvent) => boolean} [pans] whether the left button moves the view
  * @property {(found: Found | null, e: PointerEvent) => "box" | "lasso" | null} [encloses] what the
  *   left button draws around things
  * @property {() => void} [tapped] the space bar was pressed and let go, and nothing was dragged
@@ -233,7 +233,7 @@ export class Pad {
     if (left && !e.shiftKey && found?.mark !== undefined) {
       this.grip = { from: this.view.toWorld(place), points: behaviour.held(found) };
     }
-    this.#pans = left && Boolean(behaviour.pans?.(found));
+    this.#pans = left && Boolean(behaviour.pans?.(found, e));
     this.encloses = left && !behaviour.painting ? behaviour.encloses?.(found, e) : null;
     this.path = left ? [this.view.toWorld(place)] : [];
     this.send("down", place, e, { part: found?.part });
