@@ -79,18 +79,15 @@ class Answer(NamedTuple):
     history: Array  # (1 + iterations, columns); the first row is the start
     phi: Array
     psi: Array
-    depths: Array  # of the proof's panels; empty if they cannot be told by depths
+    depths: Array  # of the panels on which the solver proved it; empty if it had none
 
 
 def of_result(result: Result, key: str) -> bytes:
     """The answer with a result whose map is harmonic. ``key`` is the problem's."""
     assert isinstance(result.map, HarmonicMap)
-    proof, depths = result.certificate, np.zeros(0, dtype=np.uint8)
-    if proof is not None and proof.panels.depth.max() < 256:
-        depths = proof.panels.depth.astype(np.uint8)
-        again = panels_of(result.map.domain, result.options, depths)
-        same = again is not None and np.array_equal(again.start, proof.panels.start)
-        depths = depths if same else depths[:0]
+    depths = np.zeros(0, dtype=np.uint8)
+    if result.discretisation is not None:  # `Panels.split` allows a depth of 40
+        depths = result.discretisation.panels.depth.astype(np.uint8)
     rows = [[_number(getattr(one, name)) for name in _COLUMNS] for one in _steps(result)]
     header = {
         "problem": key,
@@ -250,9 +247,10 @@ def _check_handles(result: Result) -> None:
 
 
 def certificate_from(depths: Array, map: HarmonicMap, options: Options) -> Certificate:
-    """Prove a map, beginning with the panels of the worker's proof.
+    """Prove a map, beginning with the panels on which the solver proved it.
 
-    They only save time. Wrong panels cannot prove a map that folds: they tile the boundary.
+    On them `certify` proves all that the solver proves (docs/proof.md, Lemma 15). Wrong panels
+    cannot prove a map that folds: all of them tile the boundary.
     """
     panels = panels_of(map.domain, options, depths) if len(depths) else None
     split = options.sampling == "graded"

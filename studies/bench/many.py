@@ -15,7 +15,6 @@ from typing import Any
 
 import numpy as np
 
-from glid_nb.certificate import certify
 from glid_nb.many import answer, solve_many, worker
 from glid_nb.many.folder import Folder
 from glid_nb.many.plan import Plan
@@ -101,7 +100,6 @@ def _parts(problems: list[Any], plan: StudyPlan) -> Measurement:
         folder = Folder(Path(name))
         seconds = {
             "solve": _cpu(lambda: solve(domain, pose, options=OPTIONS), repeats),
-            "certify on the worker": _cpu(lambda: certify(result.map), repeats),
             "write the answer": _cpu(lambda: answer.of_result(result, key), repeats),
             "pack and hash the pose": _cpu(
                 lambda: (worker.packed(pose), shared.problem_key(pose)), repeats
