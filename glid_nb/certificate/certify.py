@@ -253,6 +253,7 @@ def proved_by(
 
 
 def _conclude(map: HarmonicMap, panels: Panels, known: Known, kind: CertificateKind) -> Certificate:
+    """The certificate that the panels' bounds give: (26) on each, (30) by loops (Corollary 8.2)."""
     bounds, unproved = known.bounds, ~np.asarray(known.bounds.injective)
     # Where two panels join, f_z was computed twice: with the turn from one value to the other the
     # loops close, and about the true one where both are less off than they are large.

@@ -28,7 +28,7 @@ class EndValues(NamedTuple):
 
 
 class PanelBounds(NamedTuple):
-    """What is proved on each panel; the turning as in Theorem 8.1."""
+    """What is proved on each panel: bounds as in (4b), (4c), (4d), the turning of Theorem 8.1."""
 
     sigma2_lower: PerPanel
     sigma1_upper: PerPanel

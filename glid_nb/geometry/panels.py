@@ -106,7 +106,7 @@ def paired(panels: Panels, domain: Domain, ratio: float) -> Array:
 
 
 def uniform_panels(cage: Cage, n: int = 10_000) -> Panels:
-    """The segments between about `n` even samples of the boundary (the set G of Section 9.1).
+    """The segments between about `n` even samples of the boundary (the set G of (31)).
 
     A loop of length P_l gets n_l = ceil(P_l / P * n) samples, P the whole perimeter; an edge of it
     gets c = ceil(length / P_l * n_l), at a + (b - a) k / c for k = 0, ..., c - 1. Rounding up makes

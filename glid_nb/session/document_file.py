@@ -178,9 +178,10 @@ def _check_member(info: zipfile.ZipInfo) -> None:
 def _image_png(image: NDArray[np.uint8]) -> bytes:
     """A read-only (h, w, 4) uint8 picture as PNG, exactly, including hidden colours."""
     global _last
-    if _last is None or _last[0]() is not image:
-        _last = weakref.ref(image), png(image, compress_level=1)
-    return _last[1]
+    last = _last  # read once: another thread may save another picture meanwhile
+    if last is None or last[0]() is not image:
+        last = _last = weakref.ref(image), png(image, compress_level=1)
+    return last[1]
 
 
 def _read_png(data: bytes, size: tuple[int, int], mode: str, name: str) -> NDArray[Any]:

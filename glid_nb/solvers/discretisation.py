@@ -1,6 +1,6 @@
 """The matrices of a solve: the basis at the panels' ends, midpoints and Hessian nodes.
 
-A complex matrix ``D`` is stored as ``[Re D, -Im D]`` (the first row pair of Equation (15)). Then
+A complex matrix ``D`` is stored as ``[Re D, -Im D]`` (the first row of Equation (15)). Then
 ``Re(D phi)`` is one real product, and so is ``Im(D phi) = Re(D (-i phi))``.
 """
 

@@ -104,9 +104,9 @@ def assemble(
 ) -> Float[Array, "4u 4u"]:
     """Upper triangle of ``sum_i w_i B_i^T K_i B_i`` over ``[Re phi, Im phi, Re psi, Im psi]``.
 
-    This is (14) as a sum of (18), in the blocks of Appendix E, (E.8) and (E.10). The products
-    differ from those of (G.10). The block below the diagonal blocks is zero, because the Cholesky
-    factorisation does not read it.
+    This is (14) as a sum of (18), over the nodes of (33), in the blocks of Appendix E, (E.8) and
+    (E.10). The products differ from those of (G.10). The block below the diagonal blocks is zero,
+    because the Cholesky factorisation does not read it.
 
     ``nodes`` is ``D`` as ``[Re D, -Im D]``, transposed. ``f`` and ``g`` are unit vectors (Re, Im)
     along ``f_z`` and ``conj(f_zbar)``; where a derivative vanishes, any unit vector is right.
@@ -142,7 +142,7 @@ def assemble_across_f(
 ) -> Float[Array, "2u 2u"]:
     """The part of :func:`assemble` that depends on ``across_f``; it lies in the block of ``phi``.
 
-    With ``across = -lambda_1``, adding it to the exact Hessian gives (25).
+    With ``across = max(-lambda_1, 0)``, adding it to the exact Hessian gives (25).
     """
     columns = nodes.shape[0] // 2
     u, v = _rotated(nodes[:columns], -nodes[columns:], f)

@@ -32,7 +32,7 @@ class Search(NamedTuple):
 
     steps: Float[Array, " t"]
     acceptable: Bool[Array, " t"]  # sufficient decrease (Algorithm 1, line 17)
-    best: Int[Array, ""]  # index of the candidate with the least energy
+    best: Int[Array, ""]  # index of the acceptable candidate with the least energy
 
 
 def largest_step(values: Values, change: Values) -> Number:
@@ -88,7 +88,8 @@ def search(problem: SubspaceProblem, point: Point, line: Line) -> Search:
         (top / RATIO**CANDIDATES, jnp.full(CANDIDATES, jnp.inf)),
     )
     energies = jnp.where(jnp.isnan(energies), jnp.inf, energies)
-    return Search(steps, acceptable(steps, energies), jnp.argmin(energies))
+    passes = acceptable(steps, energies)
+    return Search(steps, passes, jnp.argmin(jnp.where(passes, energies, jnp.inf)))
 
 
 class Backtracking(NamedTuple):

@@ -108,7 +108,7 @@ class Descent:
         return Progress(make=now.make, sigma2_lower=self.sigma2_lower, **self._course(now.entry))
 
     def result(self, ending: Ending, compile_time: float, solve_time: float) -> Result:
-        """The result of the solve (Algorithm 1, line 10)."""
+        """The result of the solve (Algorithm 1, output and line 10)."""
         now = self.reached()
         made = now.make()
         harmonic = isinstance(made, Certificate)

@@ -48,7 +48,7 @@ class Positional(NamedTuple):
 def positional_energy(
     map: HarmonicMap, pose: Pose, weight: float, damping: float = 1.0
 ) -> Positional:
-    """The positional energy of a pose, its rows padded to a bucket.
+    """The positional energy of a pose, its rows padded to a bucket; its targets are those of (F.8).
 
     ``weight`` is the options' ``p2p_weight``, for lengths in the cage's ``unit``. Angles and scales
     add rows for ``f_z``, measured at ``map``; see :func:`_turns`.
@@ -71,7 +71,7 @@ def positional_energy(
 def weights_of_images(
     domain: Domain, pose: Pose, weight: float
 ) -> tuple[NDArray[Any], NDArray[Any]]:
-    """Weights (h,) of the handles' images, and whether they grow with the pose's weights."""
+    """Weights (h,) of the handles' images, lambda of (20), and whether they grow with the pose."""
     weights, grow = _weights(weight, _MOST, pose.weights)
     return weights / domain.cage.unit**2, grow
 
@@ -118,7 +118,7 @@ def measured_apart(a: Positional, b: Positional) -> float:
 
 
 def handle_rows(domain: Domain, handles: bytes) -> NDArray[Any]:
-    """The complex rows (h, c) whose products with ``phi`` and ``psi`` give the handles' images."""
+    """The complex rows (h, c) of (G.4): ``phi`` and ``psi`` times them are the handles' images."""
     return basis_at(domain, handles, cauchy.cauchy_coordinates)
 
 

@@ -313,6 +313,15 @@ class Editor(ClosingWidget, ipywidgets.VBox):
                     return
                 self._made(name)
 
+    def _fill_at_rest(self) -> None:
+        """Make the missing parts once the model rests and a page has drawn the canvas.
+
+        A page that is still connecting may miss a widget that is made meanwhile, and then it cannot
+        show what refers to the widget. Voila connects when all cells have run.
+        """
+        if self.canvas is not None and self.canvas.drawn and self.monitor.rested:
+            self._fill()
+
     def _part(self, name: str) -> Any:
         """A part; made if it is missing. Raises a RuntimeError if the editor is closed."""
         if self._closed and name not in self._parts:
@@ -351,7 +360,8 @@ class Editor(ClosingWidget, ipywidgets.VBox):
         self.monitor = monitor = SolverMonitor(model, _SIDE_WIDTH, _PLOTS_HEIGHT)
         # Make the hidden parts only when the model rests, and the pins' numbers after the first
         # gesture. So the first drag has the processor for itself.
-        monitor.observe(lambda _: self._fill(), ["rested"])
+        monitor.observe(lambda _: self._fill_at_rest(), ["rested"])
+        canvas.pane.stage.observe(lambda _: self._fill_at_rest(), ["drawn"])
         canvas.brush.observe(lambda _: model.tell("hand"), ["tool"])
         model.observe(lambda what: self._fill("pins") if what == "hand" else None)
         self.timeline = TimelinePanel(self.canvas, self._open_files)

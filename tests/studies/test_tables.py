@@ -47,3 +47,15 @@ def test_numbers_have_three_digits(value: float, text: str) -> None:
 def test_units() -> None:
     assert (seconds(0.0624), seconds(7.06)) == ("62 ms", "7.1 s")
     assert [percent(s) for s in (0.6, 0.0999, 0.012, 0.00002)] == ["60%", "10%", "1.2%", "<0.01%"]
+
+
+DOCS = Path(__file__).parents[2] / "docs"
+
+
+@pytest.mark.parametrize("page", sorted(DOCS.glob("*.md")), ids=lambda page: page.name)
+def test_the_tables_of_a_page_are_the_files_beside_it(page: Path, tmp_path: Path) -> None:
+    copy = tmp_path / page.name
+    copy.write_bytes(page.read_bytes())
+    for folder in ("benchmarks", "comparisons"):
+        update_page(copy, DOCS / folder)
+    assert copy.read_text(encoding="utf-8") == page.read_text(encoding="utf-8")

@@ -18,6 +18,7 @@ from queue import Queue
 from types import SimpleNamespace
 from typing import Any
 
+import ipywidgets
 import numpy as np
 import pytest
 import skimage.data
@@ -354,6 +355,7 @@ def test_the_canvas_shows_what_the_model_holds() -> None:
 
 _FIRST_CANVAS = """
 import sys
+import ipywidgets
 import numpy as np
 from ipywidgets.widgets import widget
 import glid_nb as glid
@@ -428,6 +430,21 @@ def test_a_tab_is_filled_when_it_is_chosen(editor: Editor) -> None:
     assert box.children == ()
     side(editor).selected_index = 1
     assert box.children == (editor.solver_panel,)
+
+
+def test_no_widget_is_made_while_a_page_may_be_connecting(editor: Editor) -> None:
+    """It would miss the widget: Voila connects when all cells have run."""
+    canvas = editor.canvas
+    assert canvas is not None
+    editor._repr_mimebundle_()
+    made = set(ipywidgets.widgets.widget._instances)
+    assert editor.solve(60)
+    while not editor.monitor.rested:
+        assert editor.monitor.refresh(60)
+    assert set(ipywidgets.widgets.widget._instances) == made
+    canvas.pane.stage.drawn = True
+    assert editor.monitor.refresh(60)
+    assert all(box.children for box in side(editor).children[1:])
 
 
 def test_the_numbers_come_when_the_first_gesture_has_ended(editor: Editor) -> None:
