@@ -1,12 +1,13 @@
 # make demo   one picture from file to certified deformation, in an environment of its own
-# make test   everything that continuous integration runs; GLID_NB_REFERENCE=DIR adds the paper's shapes
+# make test   all tests: of this checkout, of the distributions installed in empty environments, and all chapters, in
+#               an environment made as the course's page says; GLID_NB_REFERENCE=DIR adds the paper's shapes
+# make install-tests  the second and third of these alone; needs the package index
 # make unit   the fast tests only (under a minute)
 # make pythons  the fast tests, the demo and a chapter on every other Python of this machine, and on
 #               the oldest one with the oldest libraries that pyproject.toml allows
 # make leaks  half an hour in a browser: memory in long sessions, cells that run again, a new user's walk
 # make lint   ruff, pyright, biome and tsc for JavaScript, and the linters of the workflows
 # make page   bundles the JavaScript of glid_nb/page anew; make page-tests tests it
-# make install-tests  builds the distributions, installs them and the course, and runs them; needs the package index
 # make dev    the development environment with everything
 # make compare  the paper's comparisons measured anew (half an hour); ARGUMENTS=--help tells more
 # make bench  the solver's speed on this machine (2 to 15 minutes); ARGUMENTS=--help likewise
@@ -31,10 +32,11 @@ unexport PYTHONDONTWRITEBYTECODE
 demo: $(VENV)/.demo
 	$(VENV)/bin/glid-nb demo --out glid-nb-demo
 
-# --no-skip: a test that would be skipped because something is missing fails instead.
+# --no-skip: a test that would be skipped because something is missing fails instead. The tests marked
+# `install` need the package index.
 test: $(VENV)/.test browser page-tests
-	$(PYTEST) -p no:nbval --no-skip -n $(WORKERS) --dist worksteal --durations 25 --ignore tests/notebooks
-	$(PYTEST) --nbval --nbval-current-env --no-skip -n $(WORKERS) --dist loadfile notebooks tests/notebooks
+	$(PYTEST) -p no:nbval --no-skip -n $(WORKERS) --dist worksteal --durations 25
+	$(MAKE) install-tests
 
 # Needs node, which the extra `page` brings; all else uses the bundles that lie in the repository.
 page: node_modules/.package-lock.json
@@ -53,7 +55,7 @@ chapter: $(VENV)/.test
 	$(PYTEST) --nbval --nbval-current-env notebooks/01_quickstart.ipynb
 
 install-tests: $(VENV)/.test
-	$(PYTEST) -p no:nbval --no-skip --install -m install -n $(WORKERS) --dist loadfile --durations 5 tests/packaging
+	$(PYTEST) -p no:nbval --no-skip --install -m install -n $(WORKERS) --dist loadgroup --durations 5 tests/packaging
 
 leaks: $(VENV)/.test browser
 	$(PYTEST) -p no:nbval --no-skip -s --minutes 10 -m long tests/widgets

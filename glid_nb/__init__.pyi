@@ -47,6 +47,7 @@ from .minima import differentiable as differentiable
 from .minima import refine as refine
 from .minima import solve as solve
 from .minima import solve_batch as solve_batch
+from .many import solve_many as solve_many
 from .session.suggest import suggest_pose as suggest_pose
 from ._runtime import enable_compilation_cache as enable_compilation_cache
 

@@ -5,6 +5,9 @@ keys offset, offset_cage, offset_holes, hole_points, angles, scales and weights 
 optional. image_size_px and depths are copied into the map. Without --report only the map is
 written, without --out only the report. For many problems, both are folders, and a problem that
 fails does not stop the others. One of them may be `-`, standard output.
+
+--jobs 4 solves many problems in processes, --scheduler on the workers of dask. Then each result is
+one line, and --summary writes a table of all.
 """
 
 import argparse
@@ -16,6 +19,7 @@ from glid_nb._errors import InputFileError, about
 from glid_nb._json import json_text, picture_size, read_object
 from glid_nb.certificate.certify import proof_text
 from glid_nb.cli.flags import add_solver_flags, energy_of, options_of
+from glid_nb.cli.jobs import add_job_flags, has_job_flags, solve_jobs
 from glid_nb.cli.many import destination, for_each, planned
 from glid_nb.cli.output import STANDARD_OUTPUT, check_files, finish, map_text, run_solver
 
@@ -33,6 +37,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     refine = "solve again with finer bases until that lowers the energy by less than 1 %%"
     add("--refine", action="store_true", help=refine)
     add("--json", action="store_true", help="print the summary as JSON")
+    add_job_flags(parser)
     add_solver_flags(parser)
 
 
@@ -46,6 +51,11 @@ def run(chosen: argparse.Namespace) -> None:
     results = [planned(problems, flag, to, ".json") for flag, to in flags.items()]
     check_files(itertools.chain(*results), [*problems, chosen.start])
     outs, proofs, reports = results
+    if has_job_flags(chosen):
+        if standard:
+            raise InputFileError(f"{standard[0]} -: each result is a line there; name a folder")
+        solve_jobs(problems, outs, proofs, reports, chosen)
+        return
     for_each(
         problems,
         lambda i: _solve(problems[i], outs[i], proofs[i], reports[i], chosen),

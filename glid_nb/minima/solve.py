@@ -76,10 +76,7 @@ def solve(
     check_type("start", start, starts, "an earlier result or its map")
     check_type("callback", callback, Callable | None, "a function of a Progress")
     check_type("method", method, Method | None, "one of glid_nb.methods, such as LBFGS()")
-    method = Newton() if method is None else method
-    if energy is None and method.energies is not None and "iso" not in method.energies:
-        energy = method.energies[0]
-    energy = as_energy(energy)
+    method, energy = method_for(method, energy)
     method.check(energy, pose)
     pose.check_inside(domain)
     problem: Any = {"domain": domain, "pose": pose, "energy": energy}
@@ -88,6 +85,14 @@ def solve(
     if isinstance(start_map, HarmonicMap) and not start_map.domain.equals(domain):
         raise StartError("the map to start from has another domain; pass a map of this domain")
     return search.run(method, inputs)
+
+
+def method_for(method: Method | None, energy: Energy | str | None) -> tuple[Method, Energy]:
+    """A method and an energy, with defaults for None: Newton's method and the energy of (20)."""
+    method = Newton() if method is None else method
+    if energy is None and method.energies is not None and "iso" not in method.energies:
+        energy = method.energies[0]
+    return method, as_energy(energy)
 
 
 def refine(result: Result, gain: float = 0.01, callback: Callback | None = None) -> Result:

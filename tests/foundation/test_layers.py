@@ -20,7 +20,7 @@ LAYERS = (
     ("certificate", "imaging", "auditing"),
     ("solvers",),
     ("minima",),
-    ("methods", "motion", "landmarks"),
+    ("methods", "motion", "landmarks", "many"),
     ("figures", "page"),
     ("samples", "export"),
     ("session",),

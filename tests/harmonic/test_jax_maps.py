@@ -49,6 +49,14 @@ def test_a_map_is_traced_mapped_and_differentiated(x64: bool) -> None:
             np.testing.assert_allclose(np.reshape(images, (-1, 2)), usual, atol=close)
         gradient = jax.grad(lambda q: map(q).sum())(q)
         np.testing.assert_allclose(gradient, slopes.sum(axis=1), atol=close)
+
+
+def test_the_derivatives_of_jax_are_those_of_the_map() -> None:
+    map, close = bent(), PRECISION[True]
+    points = inside(map)
+    slopes = jacobian(map, points)
+    with enable_x64():
+        q = jnp.asarray(points)
         for derivative in (jax.jacfwd, jax.jacrev):
             np.testing.assert_allclose(jax.vmap(derivative(map))(q), slopes, atol=close)
         for name in ("sigma1", "sigma2", "k", "det"):

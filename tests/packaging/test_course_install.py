@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import os
 import re
+import shutil
 import sys
 import tomllib
 from pathlib import Path
 
 import pytest
+from filelock import FileLock
 
 from tools import badges
 
@@ -54,17 +56,32 @@ def test_colab_gets_all_of_the_extra_but_the_server_that_it_has() -> None:
     assert set(named[1].split(",")) == parts_of_course() - {"lab"}
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture(scope="session")
 def installed(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A copy of the checkout after the page's lines, except the last one, which opens Lab."""
-    copy = copy_of_the_checkout(tmp_path_factory.mktemp("course") / "checkout")
-    *install, last = commands()
+    """A copy of the checkout after the page's lines, except the last one, which opens Lab.
+
+    The first process that wants it makes it; the others wait and share it.
+    """
+    folder = tmp_path_factory.getbasetemp()
+    if "PYTEST_XDIST_WORKER" in os.environ:
+        folder = folder.parent
+    copy, done = folder / "course", folder / "course-is-installed"
+    with FileLock(folder / "course.lock"):
+        if not done.exists():
+            install(copy)
+            done.touch()
+    return copy
+
+
+def install(folder: Path) -> None:
+    shutil.rmtree(folder, ignore_errors=True)  # of another process, which failed
+    copy = copy_of_the_checkout(folder)
+    *lines, last = commands()
     assert last == ".venv/bin/jupyter lab notebooks"
     # `python3` is the Python that runs the tests.
     path = os.pathsep.join([str(Path(sys.executable).parent), os.environ["PATH"]])
-    for line in install:
+    for line in lines:
         run("sh", "-c", line, folder=copy, PATH=path)
-    return copy
 
 
 @pytest.mark.install

@@ -13,7 +13,8 @@ import pytest
 
 from .environments import CHECKOUT, Built, Environment, build, run
 
-pytestmark = [pytest.mark.install, pytest.mark.timeout(600)]
+# In one group, so that one process builds and installs.
+pytestmark = [pytest.mark.install, pytest.mark.timeout(600), pytest.mark.xdist_group("wheels")]
 
 SCRIPT = Path(__file__).with_name("installed.py")
 

@@ -12,6 +12,7 @@ import pytest
 
 import glid_nb
 from studies.__main__ import main
+from studies.bench import many
 from studies.bench.scaling import flower, local_exponents, ring_of_handles
 from studies.bench.solving import MODES, iterations_to
 
@@ -102,6 +103,19 @@ def test_bench_measures_starts_and_batches(bench: Callable[..., None], tmp_path:
     assert float(rows[1]["1 device(s)"]) > 0
     cold, warm = table(out / "start.csv")
     assert float(cold["first solve"]) > float(warm["second solve"])
+
+
+@pytest.mark.slow
+def test_bench_measures_many_problems(
+    bench: Callable[..., None], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(many, "EXECUTORS", {"this process": many.EXECUTORS["this process"]})
+    bench("many")
+    rows = table(tmp_path / "speed" / "many.csv")
+    assert [row["executor"] for row in rows] == ["solve in a loop", "this process"]
+    assert all(float(row["poses per second"]) > 0 for row in rows)
+    sizes = {row["part"]: row["bytes"] for row in table(tmp_path / "speed" / "many-parts.csv")}
+    assert int(sizes["answer"]) < int(sizes["whole result, pickled"]) / 100
 
 
 @pytest.mark.parametrize(
