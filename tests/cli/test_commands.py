@@ -49,6 +49,16 @@ def strict_json(text: str) -> dict:
     return json.loads(text, parse_constant=refuse)
 
 
+def test_page_makes_a_live_page(run, picture: Path, tmp_path: Path) -> None:
+    out = tmp_path / "page.html"
+    outcome = run("page", picture, "--out", out, "--title", "A <ring>", "--energy", "mips")
+    assert outcome.code == 0
+    assert outcome.out.startswith(f"{out}: a live page, ")
+    text = out.read_text(encoding="utf-8")
+    assert "<title>A &lt;ring&gt;</title>" in text
+    assert run("page", picture, "--out", picture).code == 1  # it would overwrite the picture
+
+
 def test_trace_writes_the_cage_in_world_coordinates(run, picture: Path, tmp_path: Path) -> None:
     out = tmp_path / "cage.json"
     outcome = run("trace", picture, "--out", out, "--offset", 0, "--simplify", 0.5)

@@ -212,8 +212,8 @@ KINDS: dict[str, tuple[Callable[[Command, Path], None], str]] = {
     r"(voila|jupyter lab|jupyter notebook) \S+|glid-nb lab": (is_served, "clone"),
     r"python docs/\S+\.py": (runs, "clone"),
     r"glid-nb (samples|doctor|demo)( .*)?": (runs, "folder"),
-    r"glid-nb (trace|solve|render|animate|audit) .*": (runs, "folder"),
-    r"glid-nb (trace|solve|render|animate|audit)": (names_a_command, "folder"),
+    r"glid-nb (trace|solve|render|animate|page|audit) .*": (runs, "folder"),
+    r"glid-nb (trace|solve|render|animate|page|audit)": (names_a_command, "folder"),
     r"(glid-check|python -c).*": (runs, "folder"),
 }
 

@@ -119,6 +119,11 @@ def test_the_headless_editor(editor: Editor, tmp_path: Path) -> None:
     for suffix in (".png", ".obj", ".glb", ".svg", ".html", ".py"):
         for file in editor.export(tmp_path / f"out{suffix}"):
             assert file.stat().st_size > 100
+    (live,) = editor.export(tmp_path / "out.html", live=True)
+    assert "glidPage" in live.read_text(encoding="utf-8")
+    assert editor.export(tmp_path / "out.live.html") == (tmp_path / "out.live.html",)
+    with pytest.raises(ExportError, match=r"must end in \.html"):
+        editor.export(tmp_path / "out.png", live=True)
     proof, map_ = map(str, editor.export(tmp_path / "out.proof.json"))
     assert glid_check.main([map_, proof]) == 0
     with Image.open(editor.export(tmp_path / "big.png", size=(400, 200))[0]) as picture:
