@@ -4,7 +4,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { Editing } from "../../glid_nb/page/js/live_page/editing.js";
 import { History } from "../../glid_nb/page/js/live_page/history.js";
-import { quicker, shaderSuffices } from "../../glid_nb/page/js/live_page/measuring.js";
+import { quicker, shaderSuffices, sharpness } from "../../glid_nb/page/js/live_page/measuring.js";
 import { boxOf, divided, dividedTimes, sourceAt } from "../../glid_nb/page/js/live_page/mesh.js";
 import {
   allowedScale,
@@ -133,6 +133,12 @@ test("the module moves the vertices only where that is quicker", () => {
   assert.equal(quicker(40, 20, 5), "module");
   assert.equal(quicker(40, 20, 25), "shader");
   assert.ok(shaderSuffices(2) && !shaderSuffices(30));
+});
+
+test("a movement has fewer pixels only where drawing is slow, and a picture at rest has all", () => {
+  assert.equal(sharpness(40, true), 0.5);
+  assert.equal(sharpness(40, false), 1);
+  assert.equal(sharpness(5, true), 1);
 });
 
 test("moved vertices are their images, then both derivatives", () => {

@@ -507,6 +507,8 @@ def test_a_part_that_cannot_be_made_says_why_in_its_place(
     caught: list[Any] = []
     monkeypatch.setattr(threading, "excepthook", caught.append)
     monkeypatch.setattr("glid_nb.widgets.monitor.REST", 0.0)
+    assert editor.canvas is not None
+    editor.canvas.pane.stage.drawn = True
     with monkeypatch.context() as patched:
         patched.setattr("glid_nb.widgets.editor.PinBar", fail)
         assert editor.solve(TIMEOUT)

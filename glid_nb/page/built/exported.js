@@ -61,10 +61,10 @@ gl.pixelStorei(gl.UNPACK_PREMULTIPLY_ALPHA_WEBGL,true);gl.pixelStorei(gl.UNPACK_
 pixelStorei(gl.UNPACK_COLORSPACE_CONVERSION_WEBGL,gl.NONE);gl.texImage2D(gl.TEXTURE_2D,0,gl.RGBA,gl.
 RGBA,gl.UNSIGNED_BYTE,picture);gl.generateMipmap(gl.TEXTURE_2D);gl.texParameteri(gl.TEXTURE_2D,gl.TEXTURE_MIN_FILTER,
 gl.LINEAR_MIPMAP_LINEAR);gl.texParameteri(gl.TEXTURE_2D,gl.TEXTURE_WRAP_S,gl.CLAMP_TO_EDGE);gl.texParameteri(
-gl.TEXTURE_2D,gl.TEXTURE_WRAP_T,gl.CLAMP_TO_EDGE)}draw({width,height,unit,x,y,overlay,coefficients,heights}){
-const gl=this.#gl;const ratio=window.devicePixelRatio||1;this.#resize(Math.round(width*ratio),Math.round(
-height*ratio));gl.clear(gl.COLOR_BUFFER_BIT|gl.DEPTH_BUFFER_BIT);const projection=projectionMatrix(width,
-height,unit,x,y);gl.uniformMatrix4fv(this.#uniform("projectionMatrix"),false,projection);gl.uniform1f(
+gl.TEXTURE_2D,gl.TEXTURE_WRAP_T,gl.CLAMP_TO_EDGE)}draw({width,height,unit,x,y,overlay,coefficients,heights,
+sharpness=1}){const gl=this.#gl;const ratio=(window.devicePixelRatio||1)*sharpness;this.#resize(Math.
+round(width*ratio),Math.round(height*ratio));gl.clear(gl.COLOR_BUFFER_BIT|gl.DEPTH_BUFFER_BIT);const projection=projectionMatrix(
+width,height,unit,x,y);gl.uniformMatrix4fv(this.#uniform("projectionMatrix"),false,projection);gl.uniform1f(
 this.#uniform("pixel"),unit/ratio);gl.uniform1f(this.#uniform("overlay"),Number(overlay));gl.uniform2fv(
 this.#uniform("color_range"),this.ranges[overlay]??[0,1]);if(heights)this.#lift(heights);this.#move(
 coefficients);gl.drawElements(gl.TRIANGLES,this.#count,this.#index,0)}#resize(width,height){const{canvas}=this;

@@ -29,6 +29,7 @@
  * @property {string} overlay the number of what the colours say, as in picture.frag
  * @property {Float32Array} coefficients of the map
  * @property {Float32Array | null} heights of the vertices, where they move
+ * @property {number} [sharpness] pixels per pixel of the display, along a side; 1 if not given
  */
 
 const FLOAT = 4; // bytes
@@ -100,9 +101,9 @@ export class Renderer {
   }
 
   /** @param {Frame} frame */
-  draw({ width, height, unit, x, y, overlay, coefficients, heights }) {
+  draw({ width, height, unit, x, y, overlay, coefficients, heights, sharpness = 1 }) {
     const gl = this.#gl;
-    const ratio = window.devicePixelRatio || 1;
+    const ratio = (window.devicePixelRatio || 1) * sharpness;
     this.#resize(Math.round(width * ratio), Math.round(height * ratio));
     gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
     const projection = projectionMatrix(width, height, unit, x, y);

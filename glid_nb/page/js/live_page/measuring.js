@@ -3,6 +3,9 @@
 /** ms for a frame, of the display's 16. */
 const QUICK = 4;
 const FAST_ENOUGH = 8;
+const TOO_SLOW = 16;
+/** Pixels per pixel of the display, along a side, of a frame in a movement that is too slow. */
+const COARSE = 0.5;
 
 /**
  * The median.
@@ -27,6 +30,15 @@ export function mayBeFiner(ms) {
  */
 export function shaderSuffices(ms) {
   return ms <= FAST_ENOUGH;
+}
+
+/**
+ * Pixels to draw per pixel of the display, along a side. Where drawing is slow, a movement has fewer.
+ * @param {number} ms of a frame with all pixels
+ * @param {boolean} moving
+ */
+export function sharpness(ms, moving) {
+  return moving && ms > TOO_SLOW ? COARSE : 1;
 }
 
 /**

@@ -212,9 +212,15 @@ export class LivePage {
       if (this.#news) this.#tell();
       this.film.drawOne();
       const { width, height, unit, x, y } = this.view;
-      this.stage.paint(this.shown, { width, height, unit, x, y }, this.#overlay.value);
+      const seen = { width, height, unit, x, y };
+      this.stage.paint(this.shown, seen, this.#overlay.value, this.#moves);
       document.documentElement.dataset.drawn = String(this.shown.id);
     });
+  }
+
+  /** Whether the next frame is to follow at once. */
+  get #moves() {
+    return this.pad.held.size > 0 || this.film.playing || !this.editing.settled;
   }
 
   /** @param {LiveMap | null} frame */

@@ -1,7 +1,7 @@
 // Draws certified maps. Measured frame times choose who moves the mesh, and how fine it is.
 
 import { Renderer } from "../exported/renderer.js";
-import { mayBeFiner, median, quicker, shaderSuffices } from "./measuring.js";
+import { mayBeFiner, median, quicker, shaderSuffices, sharpness } from "./measuring.js";
 import { dividedTimes, pointsOf } from "./mesh.js";
 import { movedVertices, Wire } from "./wire.js";
 
@@ -78,6 +78,7 @@ export class Stage {
       const painting = this.#measured(frame, seen);
       if (quicker(shader, painting, frame.evaluated) === "module") return frame;
       this.mover = "shader";
+      this.frameTime = shader;
       this.#renderer = this.#made(COARSE);
       return points(this.#base);
     }
@@ -116,11 +117,13 @@ export class Stage {
    * @param {LiveMap} frame a certified map
    * @param {Seen} seen
    * @param {string} overlay the number of what the colours say
+   * @param {boolean} moving whether the next frame follows at once
    */
-  paint(frame, seen, overlay) {
+  paint(frame, seen, overlay, moving = false) {
     const coefficients =
       this.mover === "shader" ? this.#wire.of(frame.coefficients) : movedVertices(frame);
-    this.#renderer.draw({ ...seen, overlay, coefficients, heights: null });
+    const sharp = sharpness(this.frameTime, moving);
+    this.#renderer.draw({ ...seen, overlay, coefficients, heights: null, sharpness: sharp });
   }
 
   /** Where maps must be evaluated for the vertices that are drawn, and for pointers. */
