@@ -33,12 +33,13 @@ def run(chosen: argparse.Namespace) -> None:
     out = chosen.out.path
     check_files([out], [chosen.image, chosen.pose, chosen.scribbles])
     energy, options = energy_of(chosen), trace_options_of(chosen)
-    pose = None if chosen.pose is None else glid_nb.io.load_pose(chosen.pose)
+    path: Path | None = chosen.pose
+    pose = None if path is None else glid_nb.io.load_pose(path)
     image = glid_nb.read_image(chosen.image)
     with about(chosen.image), step(f"tracing {chosen.image.name}"):
         domain = glid_nb.Domain.from_cage(glid_nb.trace(image, options).cage)
-    if pose is not None:
-        with about(chosen.pose):
+    if path is not None and pose is not None:
+        with about(path):
             pose.check_inside(domain)
     title = chosen.image.stem if chosen.title is None else chosen.title
     with step("making the page"):
