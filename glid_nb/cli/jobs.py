@@ -4,7 +4,6 @@ import argparse
 import csv
 import io
 import json
-import sys
 from collections.abc import Iterator, Sequence
 from contextlib import closing, contextmanager
 from pathlib import Path
@@ -17,7 +16,16 @@ from glid_nb._json import json_text, picture_size, read_object
 from glid_nb.certificate.certify import proof_text
 from glid_nb.certificate.rounding import rounded_down
 from glid_nb.cli.flags import energy_of, options_of
-from glid_nb.cli.output import BAD_INPUT, check_files, map_text, one_line, write
+from glid_nb.cli.output import (
+    BAD_INPUT,
+    about_input,
+    check_failures,
+    check_files,
+    map_text,
+    one_line,
+    tell_error,
+    write,
+)
 
 CONNECT = 10  # seconds to wait for a scheduler
 
@@ -67,9 +75,8 @@ def solve_jobs(
             if chosen.debug:
                 raise
             problems.pop(str(path), None)
-            text = one_line(error)
-            text = text if str(path) in text else f"{path}: {text}"
-            _tell_error(text)
+            text = about_input(path, error)
+            tell_error(text)
             rows[str(path)] = {"name": str(path), "status": "failed", "error": text}
     files = {str(path): named for path, *named in zip(paths, outs, proofs, reports, strict=True)}
     try:
@@ -83,7 +90,7 @@ def solve_jobs(
                         raise one.error
                     row = rows[one.name] = one.to_row()
                     if one.result is None:
-                        _tell_error(row["error"])
+                        tell_error(row["error"])
                         continue
                     size = sizes[one.name]
                     written = _write(one.result, problems[one.name], size, files[one.name])
@@ -91,8 +98,7 @@ def solve_jobs(
     finally:  # also after Ctrl-C
         if chosen.summary is not None:
             write_atomically(chosen.summary, _table([rows[n] for n in files if n in rows]))
-    if failed := sum(row["status"] == "failed" for row in rows.values()):
-        raise InputError(f"{failed} of {len(paths)} inputs failed, for the reasons above")
+    check_failures(sum(row["status"] == "failed" for row in rows.values()), len(paths))
 
 
 @contextmanager
@@ -145,10 +151,6 @@ def _line(row: dict[str, Any], written: Sequence[Path]) -> str:
     parts += ["kept before"] if row["kept"] else [f"{row['solve_time']:.3f} s"]
     to = f" -> {', '.join(map(str, written))}" if written else ""
     return f"{row['name']}: {', '.join(parts)}{to}"
-
-
-def _tell_error(text: str) -> None:
-    print(f"glid-nb: error: {text}", file=sys.stderr)
 
 
 def _table(rows: Sequence[dict[str, Any]]) -> str:

@@ -9,7 +9,7 @@ from typing import Any, NoReturn
 
 import glid_nb
 from glid_nb.cli import animate, audit, demo, doctor, lab, page, render, samples, solve, trace
-from glid_nb.cli.output import BAD_INPUT, one_line
+from glid_nb.cli.output import BAD_INPUT, one_line, tell_error
 
 COMMANDS = (demo, trace, solve, render, animate, page, audit, samples, lab, doctor)
 
@@ -69,6 +69,6 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except BAD_INPUT as error:
         if chosen.debug:
             raise
-        print(f"glid-nb: error: {one_line(error)}", file=sys.stderr)
+        tell_error(one_line(error))
         return 1
     return code or 0

@@ -1,13 +1,19 @@
 """The destination of results: a file, standard output, or a folder for many inputs."""
 
 import os
-import sys
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
-from glid_nb._errors import InputError, InputFileError
-from glid_nb.cli.output import BAD_INPUT, STANDARD_OUTPUT, check_folder, one_line
+from glid_nb._errors import InputFileError
+from glid_nb.cli.output import (
+    BAD_INPUT,
+    STANDARD_OUTPUT,
+    about_input,
+    check_failures,
+    check_folder,
+    tell_error,
+)
 
 
 class Destination(NamedTuple):
@@ -70,12 +76,9 @@ def for_each(inputs: Sequence[Path], run: Callable[[int], None], debug: bool = F
         except BAD_INPUT as error:
             if debug:
                 raise
-            text = one_line(error)
-            text = text if str(given) in text else f"{given}: {text}"
-            print(f"glid-nb: error: {text}", file=sys.stderr)
+            tell_error(about_input(given, error))
             failed += 1
-    if failed:
-        raise InputError(f"{failed} of {len(inputs)} inputs failed, for the reasons above")
+    check_failures(failed, len(inputs))
 
 
 def refuse_standard_output(path: Path, flag: str, needs: str) -> None:

@@ -39,6 +39,22 @@ def one_line(error: BaseException) -> str:
     return " ".join(str(error).split())
 
 
+def tell_error(text: str) -> None:
+    print(f"glid-nb: error: {text}", file=sys.stderr)
+
+
+def about_input(given: Path, error: BaseException) -> str:
+    """`one_line` of an error, with the input that it is about in front if it does not name it."""
+    text = one_line(error)
+    return text if str(given) in text else f"{given}: {text}"
+
+
+def check_failures(failed: int, count: int) -> None:
+    """Raise an InputError if any of ``count`` inputs failed. Each was told already."""
+    if failed:
+        raise InputError(f"{failed} of {count} inputs failed, for the reasons above")
+
+
 STANDARD_OUTPUT = Path("standard output")
 """Stands for ``-``. It is compared by identity, so that a file may have any name."""
 

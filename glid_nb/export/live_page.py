@@ -92,7 +92,7 @@ def live_page_html(
         "ranges": _RANGES,
         "size": [*texture.shape[1::-1]],
     }
-    packed = _deflated(
+    deflated = _deflated(
         {
             "style": stylesheet("live_page"),
             "page": bundle("live_page"),
@@ -102,8 +102,8 @@ def live_page_html(
     )
     parts = {
         "title": html.escape(title),
-        "packed": _lettered(packed),
-        "size": str(len(packed)),
+        "packed": _lettered(deflated),
+        "size": str(len(deflated)),
         "picture": "data:image/png;base64," + base64.b64encode(png(texture)).decode("ascii"),
     }
     # Replace in one pass, so that inserted text is not searched for placeholders.

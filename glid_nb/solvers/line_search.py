@@ -87,8 +87,7 @@ def search(problem: SubspaceProblem, point: Point, line: Line) -> Search:
         lower,
         (top / RATIO**CANDIDATES, jnp.full(CANDIDATES, jnp.inf)),
     )
-    energies = jnp.where(jnp.isnan(energies), jnp.inf, energies)
-    passes = acceptable(steps, energies)
+    passes = acceptable(steps, energies)  # an energy that is NaN does not pass
     return Search(steps, passes, jnp.argmin(jnp.where(passes, energies, jnp.inf)))
 
 

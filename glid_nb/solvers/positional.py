@@ -71,7 +71,7 @@ def positional_energy(
 def weights_of_images(
     domain: Domain, pose: Pose, weight: float
 ) -> tuple[NDArray[Any], NDArray[Any]]:
-    """Weights (h,) of the handles' images, lambda of (20), and whether they grow with the pose."""
+    """Weights (h,) of handles' images, with lambda of (20), and whether the pose raises them."""
     weights, grow = _weights(weight, _MOST, pose.weights)
     return weights / domain.cage.unit**2, grow
 
