@@ -76,6 +76,7 @@ def drag(page: Page, start: tuple[float, float], end: tuple[float, float]) -> No
 
 
 def status(page: Page) -> str:
+    page.wait_for_function(_SETTLED)
     return page.locator("#status").inner_text()
 
 
@@ -137,10 +138,8 @@ def test_undo_redo_delete_and_keys(browser: Browser, tmp_path: Path) -> None:
         drag(page, (5.2, 0), (5.2, 3))
         assert np.abs(shown(page) - before).max() > 30
         page.keyboard.press("Control+z")
-        page.wait_for_function(_SETTLED)
         assert status(page) == "Pin 2 of 2, at 5.2, 0.0"
         page.keyboard.press("Control+Shift+Z")
-        page.wait_for_function(_SETTLED)
         assert status(page) == "Pin 2 of 2, at 5.2, 3.0"
         page.keyboard.press("Shift+ArrowUp")
         page.keyboard.press("ArrowLeft")
@@ -171,7 +170,6 @@ def test_undo_redo_delete_and_keys(browser: Browser, tmp_path: Path) -> None:
         for _ in range(10):
             page.keyboard.press("Shift+ArrowLeft")
         page.keyboard.press("Enter")
-        page.wait_for_function(_SETTLED)
         assert status(page).startswith("Pin 1 of 1, at -")
 
 
@@ -254,7 +252,6 @@ def test_a_phone_pins_by_taps_and_zooms_by_two_fingers(browser: Browser, tmp_pat
         opened(page, tmp_path)
         assert page.evaluate("document.documentElement.scrollWidth") == 390
         page.touchscreen.tap(*on_screen(page, -6, 1))
-        page.wait_for_function(_SETTLED)
         assert status(page).startswith("Pin 1 of 1, at -6.0, 1.0")
         for name in ("Undo", "Redo", "Remove the selected pins", "Copy, download", "Keys and"):
             box = page.get_by_role("button", name=name).bounding_box()

@@ -409,45 +409,45 @@ thumbnail:a=>this.#b(a),redraw:()=>this.redraw(),take:({pins:a,frame:h})=>s.repl
 say:a=>this.report.say(a),color:a=>this.#T(a)}),this.hand=new et(s,n,{fit:()=>this.fit(),reset:()=>this.#c(),
 redraw:()=>this.redraw(),play:()=>this.film.playOrPause(),say:a=>this.report.say(a),help:this.#r.toggle}),
 this.pad=new J(this.#t,n,this.hand,this.hand);let r=f("canvas",{className:"paper"});this.#t.append(r),
-this.#a=Bt(r,n,this.hand.signal,a=>this.#v(a)),n.changed=()=>this.redraw(),s.told=()=>{this.#l=!0,this.
-report.plot(s.frame),this.redraw()},this.#p(),this.#u(),this.redraw()}#p(){for(let[h,c]of Object.entries(
-Se))this.#e.append(new Option(c,h));let t=f("div",{id:"menu",popover:"auto"},...this.#m());t.addEventListener(
-"click",()=>t.hidePopover());let e=T("export","Copy, download, reset",void 0);e.popoverTargetElement=
-t;let s=[this.#s,this.#o,this.#n];m("tools").append(...s,this.#e,e,this.#r.button),document.body.append(
-t,this.#r.table);let n=f("b",{"aria-hidden":"true"},"+"),r=f("button",{className:"keep",title:"Keep \
-this pose",onclick:()=>this.#E()});r.append(n,"Keep pose"),m("dock").prepend(r,this.film.element);let a=Array.
-from({length:this.#w},(h,c)=>this.#A(c));document.documentElement.style.setProperty("--colors",a.join())}#m(){
-let{data:t,editing:e,report:s}=this,n=(o,r)=>f("button",{onclick:r},o);return[n("Copy the pose as Py\
-thon",async()=>s.say(await he(t,e))),n("Download the picture",()=>{ce(t,this.stage,this.shown),this.
-redraw()}),n("Download the map and its proof",async()=>{this.film.release(),s.say(await le(t,e))}),n(
-"Fit the window",()=>this.fit()),n("Back to the undeformed shape",()=>this.#c())]}#u(){this.#e.addEventListener(
-"change",()=>{this.#S(),this.redraw()});let t=n=>{!this.film.seen||n.button===1||(this.film.release(),
-n.stopImmediatePropagation(),n.preventDefault())};this.#t.addEventListener("pointerdown",t,{capture:!0}),
-document.addEventListener("keydown",n=>this.#f(n));let{dataset:e}=this.#t;document.addEventListener(
-"keydown",()=>Object.assign(e,{keys:""}),!0),document.addEventListener("pointerdown",()=>delete e.keys,
-!0),new ResizeObserver(()=>this.fit()).observe(this.#t),matchMedia("(prefers-color-scheme: dark)").addEventListener(
-"change",()=>this.report.draw())}#f(t){let e=t.target;if(this.#t.contains(e)||t.key==="Tab")return;let s=e.
-matches("input, select")&&!q(t),n=e.matches("button")&&/^(Enter| )$/.test(t.key);if(!(s||n)){if(t.key!==
-" "){this.pad.keydown(t);return}t.preventDefault(),this.film.playOrPause()}}#d(t){this.film.release(),
-this.pad.press(t)}#c(){this.film.release(),this.editing.replace([],ot(this.data.outline))}#E(){this.
-film.release();let{pins:t,frame:e}=this.editing;this.film.keep({pins:t,frame:e}),this.report.tell(`P\
-ose ${this.film.kept.length} is kept`),m("hint").hidden=!0}get shown(){return this.#h??this.editing.
-frame}fit(){let t=C(this.#t),e=this.shown.images??[];Object.assign(this.view,t.size,B(e,t,this.data.
-margin)),this.report.draw(),this.redraw()}redraw(){this.#a(),!this.#i&&(this.#i=requestAnimationFrame(
-()=>{this.#i=0,this.#l&&this.#x(),this.film.drawOne();let{width:t,height:e,unit:s,x:n,y:o}=this.view,
-r={width:t,height:e,unit:s,x:n,y:o};this.stage.paint(this.shown,r,this.#e.value,this.#g),document.documentElement.
-dataset.drawn=String(this.shown.id)}))}get#g(){return this.pad.held.size>0||this.film.playing||!this.
-editing.settled}#y(t){this.#h=t,this.report.proved(this.shown),this.redraw()}#b(t){let e={width:Oe,height:Oe},
-s={...e,left:0,top:0,size:e},n=B(t.images??[],s,this.data.margin);return this.stage.paint(t,{...e,...n},
-Bs),this.stage.canvas}#v(t){let{editing:e,pad:s,hand:n,view:o}=this;if(this.#h)return;let r=s.focused?
-n.cursorAt:null,{marks:a}=e;te(t,o,a,{hovered:s.found?.mark,held:s.held,cursor:r}),Ee(t,o,a,e.missed,
-e.refused),s.encloses&&s.path.length>2&&Qt(t,o,s.path)}#x(){let{editing:t,report:e}=this;this.#l=!1,
-this.#s.disabled=!t.canUndo,this.#o.disabled=!t.canRedo,this.#n.disabled=t.selected.length===0,m("hi\
-nt").hidden||=t.pins.length>0,e.draw(),e.proved(this.shown),e.pins(t),document.documentElement.dataset.
-settled=String(t.settled)}get#w(){return this.data.colors.length/3}#A(t){return`rgb(${this.data.colors.
-slice(3*t,3*t+3).map(s=>Math.round(255*s))})`}#T(t){return this.#A(Math.round((1-Math.min(t,1))*(this.#w-
-1)))}#S(){let{value:t}=this.#e,e=this.data.ranges[t],s=m("legend");s.hidden=!e,e&&s.replaceChildren(
-`${Se[t]} ${e[0]}`,f("i"),`${e[1]}`)}};var at=class{#t;#e=0;#s=new Map;constructor(t,e=()=>{}){this.#t=t,this.onmap=e,t.onmessage=({data:s})=>this.#n(
+this.#a=Bt(r,n,this.hand.signal,a=>this.#v(a)),n.changed=()=>this.redraw(),s.told=()=>{this.#l=!0,document.
+documentElement.dataset.settled="false",this.report.plot(s.frame),this.redraw()},this.#p(),this.#u(),
+this.redraw()}#p(){for(let[h,c]of Object.entries(Se))this.#e.append(new Option(c,h));let t=f("div",{
+id:"menu",popover:"auto"},...this.#m());t.addEventListener("click",()=>t.hidePopover());let e=T("exp\
+ort","Copy, download, reset",void 0);e.popoverTargetElement=t;let s=[this.#s,this.#o,this.#n];m("too\
+ls").append(...s,this.#e,e,this.#r.button),document.body.append(t,this.#r.table);let n=f("b",{"aria-\
+hidden":"true"},"+"),r=f("button",{className:"keep",title:"Keep this pose",onclick:()=>this.#E()});r.
+append(n,"Keep pose"),m("dock").prepend(r,this.film.element);let a=Array.from({length:this.#w},(h,c)=>this.#A(
+c));document.documentElement.style.setProperty("--colors",a.join())}#m(){let{data:t,editing:e,report:s}=this,
+n=(o,r)=>f("button",{onclick:r},o);return[n("Copy the pose as Python",async()=>s.say(await he(t,e))),
+n("Download the picture",()=>{ce(t,this.stage,this.shown),this.redraw()}),n("Download the map and it\
+s proof",async()=>{this.film.release(),s.say(await le(t,e))}),n("Fit the window",()=>this.fit()),n("\
+Back to the undeformed shape",()=>this.#c())]}#u(){this.#e.addEventListener("change",()=>{this.#S(),
+this.redraw()});let t=n=>{!this.film.seen||n.button===1||(this.film.release(),n.stopImmediatePropagation(),
+n.preventDefault())};this.#t.addEventListener("pointerdown",t,{capture:!0}),document.addEventListener(
+"keydown",n=>this.#f(n));let{dataset:e}=this.#t;document.addEventListener("keydown",()=>Object.assign(
+e,{keys:""}),!0),document.addEventListener("pointerdown",()=>delete e.keys,!0),new ResizeObserver(()=>this.
+fit()).observe(this.#t),matchMedia("(prefers-color-scheme: dark)").addEventListener("change",()=>this.
+report.draw())}#f(t){let e=t.target;if(this.#t.contains(e)||t.key==="Tab")return;let s=e.matches("in\
+put, select")&&!q(t),n=e.matches("button")&&/^(Enter| )$/.test(t.key);if(!(s||n)){if(t.key!==" "){this.
+pad.keydown(t);return}t.preventDefault(),this.film.playOrPause()}}#d(t){this.film.release(),this.pad.
+press(t)}#c(){this.film.release(),this.editing.replace([],ot(this.data.outline))}#E(){this.film.release();
+let{pins:t,frame:e}=this.editing;this.film.keep({pins:t,frame:e}),this.report.tell(`Pose ${this.film.
+kept.length} is kept`),m("hint").hidden=!0}get shown(){return this.#h??this.editing.frame}fit(){let t=C(
+this.#t),e=this.shown.images??[];Object.assign(this.view,t.size,B(e,t,this.data.margin)),this.report.
+draw(),this.redraw()}redraw(){this.#a(),!this.#i&&(this.#i=requestAnimationFrame(()=>{this.#i=0,this.#l&&
+this.#x(),this.film.drawOne();let{width:t,height:e,unit:s,x:n,y:o}=this.view,r={width:t,height:e,unit:s,
+x:n,y:o};this.stage.paint(this.shown,r,this.#e.value,this.#g),document.documentElement.dataset.drawn=
+String(this.shown.id)}))}get#g(){return this.pad.held.size>0||this.film.playing||!this.editing.settled}#y(t){
+this.#h=t,this.report.proved(this.shown),this.redraw()}#b(t){let e={width:Oe,height:Oe},s={...e,left:0,
+top:0,size:e},n=B(t.images??[],s,this.data.margin);return this.stage.paint(t,{...e,...n},Bs),this.stage.
+canvas}#v(t){let{editing:e,pad:s,hand:n,view:o}=this;if(this.#h)return;let r=s.focused?n.cursorAt:null,
+{marks:a}=e;te(t,o,a,{hovered:s.found?.mark,held:s.held,cursor:r}),Ee(t,o,a,e.missed,e.refused),s.encloses&&
+s.path.length>2&&Qt(t,o,s.path)}#x(){let{editing:t,report:e}=this;this.#l=!1,this.#s.disabled=!t.canUndo,
+this.#o.disabled=!t.canRedo,this.#n.disabled=t.selected.length===0,m("hint").hidden||=t.pins.length>
+0,e.draw(),e.proved(this.shown),e.pins(t),document.documentElement.dataset.settled=String(t.settled)}get#w(){
+return this.data.colors.length/3}#A(t){return`rgb(${this.data.colors.slice(3*t,3*t+3).map(s=>Math.round(
+255*s))})`}#T(t){return this.#A(Math.round((1-Math.min(t,1))*(this.#w-1)))}#S(){let{value:t}=this.#e,
+e=this.data.ranges[t],s=m("legend");s.hidden=!e,e&&s.replaceChildren(`${Se[t]} ${e[0]}`,f("i"),`${e[1]}`)}};var at=class{#t;#e=0;#s=new Map;constructor(t,e=()=>{}){this.#t=t,this.onmap=e,t.onmessage=({data:s})=>this.#n(
 s)}ask(t){let e=this.#o(t);return new Promise((s,n)=>this.#s.set(e,{resolve:s,reject:n}))}async map(t){
 let e=await this.ask(t);if(e.type!=="map")throw new Error(`the answer is no map but of type ${e.type}`);
 return e}drag(t){return this.#o({type:"drag",pose:t})}place(t,e){return this.#o({type:"place",pose:t,

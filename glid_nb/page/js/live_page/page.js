@@ -84,6 +84,7 @@ export class LivePage {
     view.changed = () => this.redraw();
     editing.told = () => {
       this.#news = true;
+      document.documentElement.dataset.settled = "false"; // until the page tells of it
       this.report.plot(editing.frame);
       this.redraw();
     };
