@@ -23,7 +23,8 @@ from glid_nb._jax import jax
 from glid_nb._kept_programs import KeptPrograms
 from glid_nb._runtime import default_device, jax_option, stage
 
-MOST_LOADED = 4  # programs in memory, 15 MB each; one solve uses up to four
+# Programs in memory, 15 MB each. A solve uses up to four; to read one takes as long as many solves.
+MOST_LOADED = 8
 
 
 class Program:

@@ -188,6 +188,7 @@ def is_served(command: Command, clone: Path) -> None:
                 run_all(page)
             page.locator(".glid-editor .glid-pad").first.wait_for(state="attached")
             page.wait_for_function(f"({PICTURES})() === true")
+            assert not page.get_by_text("Traceback (most recent call last)").count()
     finally:
         host.close()
 

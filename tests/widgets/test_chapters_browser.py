@@ -21,7 +21,6 @@ RUNS = {
     "lab-09": ("09", LabNotebook),
     "lab-12": ("12", LabNotebook),
     "notebook": ("04", functools.partial(LabNotebook, interface="notebook")),
-    "voila-02": ("02", VoilaPage),
     "voila-09": ("09", VoilaPage),
 }
 
@@ -41,9 +40,6 @@ def test_a_chapter_runs_and_shows_as_many_pictures_as_are_saved(
     outputs = [o for c in cells for o in c.outputs]
     saved = [o for o in outputs if "NotebookFigure" in o.get("data", {}).get("text/plain", "")]
     book.page.locator(IMAGE).nth(len(saved) - 1).wait_for(state="attached", timeout=60_000)
-    if chapter == "02":
-        book.page.locator(".glid-editor").first.wait_for()
-    else:
-        book.page.locator(".widget-interact img").first.wait_for(state="attached")
+    book.page.locator(".widget-interact img").first.wait_for(state="attached")
     assert not book.page.get_by_text("Traceback (most recent call last)").count()
     book.screenshot(f"chapter-{name}")
