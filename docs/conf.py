@@ -28,6 +28,7 @@ extensions = [
     "attachments",
     "course",
     "front_page",
+    "live_gecko",
     "mathml",
     "pictures",
     "reference",

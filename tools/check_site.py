@@ -2,7 +2,8 @@
 
 Every link and anchor between its pages must resolve. In Chromium, every page must open at the width
 of a phone and of a desktop, without an error in the console, a request outside the folder, or
-sideways scrolling. Searching must find a page. Pages are opened as files, without a server.
+sideways scrolling, and a live page in it must start. Searching must find a page. Pages are opened
+as files, without a server.
 ``--links`` checks only the links.
 """
 
@@ -98,6 +99,8 @@ class Visitor:
         self.page.goto(self.home + name)
         if name == "index.html":  # leads on to the start page
             self.page.wait_for_url(f"{self.home}docs/**")
+        for live in self.page.locator("iframe.live").all():
+            live.content_frame.locator("html[data-ready=true]").wait_for(state="attached")
         wide = self.page.evaluate(_OVERFLOW)
         return [*self.notes, *(f"wider than the page: {element}" for element in wide)]
 

@@ -65,7 +65,7 @@ h+1]+A*i[2*c+1]+g*i[2*l+1]])}return a}function H(i){let[t,e,s,n]=[1/0,1/0,-1/0,-
 length;o+=2)t=Math.min(t,i[o]),s=Math.max(s,i[o]),e=Math.min(e,i[o+1]),n=Math.max(n,i[o+1]);return[t,
 e,s,n]}function K(i,t){return{handle:i,target:t,angle:null,scale:null,weight:1,name:""}}function y(i){return{
 handles:i.map(({handle:t})=>t),targets:i.map(({target:t})=>t),weights:i.map(({weight:t})=>t),angles:i.
-map(({angle:t})=>t),scales:i.map(({scale:t})=>t)}}function z(i,t,e){return i.map((s,n)=>t.includes(n)?
+map(({angle:t})=>t),scales:i.map(({scale:t})=>t)}}function j(i,t,e){return i.map((s,n)=>t.includes(n)?
 {...s,...e(s,n)}:s)}function _t(i,t){return i.filter((e,s)=>!t.includes(s))}function It(i){return Math.
 min(20,Math.max(.05,i))}function dt(i){return Math.atan2(Math.sin(i),Math.cos(i))}function Nt(i,t,e){
 return i?((t??(e>0?-1:i))+e+i)%i:-1}function Ft(i,t,e,s){let n=new Map(i.map(h=>[Lt(h),h])),o=new Map(
@@ -75,7 +75,7 @@ s(l.handle)))}return a}function Ct(i,t,e){let s=(n,o)=>n+e*(o-n);return i.map((n
 angle===null||r.angle===null?null:dt(r.angle-n.angle);return{...n,target:[s(n.target[0],r.target[0]),
 s(n.target[1],r.target[1])],weight:s(n.weight,r.weight),angle:n.angle===null||a===null?null:n.angle+
 e*a,scale:n.scale===null||r.scale===null?null:s(n.scale,r.scale)}})}function Lt({handle:i}){return i.
-join()}var $e=.15,W=class{pins=[];selected=[];inGesture=!1;#t=new $;#e=0;#s=0;constructor(t,e,s){this.solving=
+join()}var $e=.15,z=class{pins=[];selected=[];inGesture=!1;#t=new $;#e=0;#s=0;constructor(t,e,s){this.solving=
 t,this.mesh=e,this.frame=s,this.told=()=>{},t.onmap=n=>this.#l(n)}begin(t){this.#h({pins:t,selected:[],
 coefficients:this.frame.coefficients})}get now(){let{pins:t,selected:e,frame:s}=this;return{pins:t,selected:e,
 coefficients:s.coefficients}}get canUndo(){return this.#t.canUndo}get canRedo(){return this.#t.canRedo}get settled(){
@@ -91,10 +91,10 @@ return this.frame.pins.images.length===2*this.pins.length}sourceAt(t){return Rt(
 images??[],t)}select(t){this.selected=[...new Set(t)],this.told()}selectNext(t){let e=Nt(this.pins.length,
 this.selected.at(-1),t);e>=0&&this.select([e])}pin(t){let e=this.sourceAt(t);return e?(this.#r([...this.
 pins,K(e,t)],[this.pins.length]),!0):!1}remove(){this.selected.length&&this.#r(_t(this.pins,this.selected),
-[])}move(t){let e=(s,n)=>({target:t.get(n)??s.target});this.#r(z(this.pins,[...t.keys()],e),this.selected)}nudge([
-t,e]){let s=({target:[n,o]})=>({target:[n+t,o+e]});this.#r(z(this.pins,this.selected,s),this.selected)}turn(t){
+[])}move(t){let e=(s,n)=>({target:t.get(n)??s.target});this.#r(j(this.pins,[...t.keys()],e),this.selected)}nudge([
+t,e]){let s=({target:[n,o]})=>({target:[n+t,o+e]});this.#r(j(this.pins,this.selected,s),this.selected)}turn(t){
 let e=(s,n)=>{let{angle:o,scale:r}=t(n);return{...o===void 0?{}:{angle:o===null?null:dt(o)},...r===void 0?
-{}:{scale:r===null?null:It(r)}}};this.selected.length&&this.#r(z(this.pins,this.selected,e),this.selected)}beginGesture(){
+{}:{scale:r===null?null:It(r)}}};this.selected.length&&this.#r(j(this.pins,this.selected,e),this.selected)}beginGesture(){
 this.inGesture||(this.#t.note(this.now),this.inGesture=!0)}endGesture(){this.inGesture=!1}cancelGesture(){
 if(!this.inGesture)return;this.inGesture=!1;let t=this.#t.drop();t&&this.#h(t)}undo(){let t=this.#t.
 undo(this.now);t&&this.#h(t)}redo(){let t=this.#t.redo(this.now);t&&this.#h(t)}replace(t,e){this.#t.
@@ -103,7 +103,7 @@ now);let s=t.length<this.pins.length;this.pins=t,this.selected=e,t.length?this.#
 y(t)):this.#i(this.frame.coefficients),s&&(this.#e=this.#s),this.told()}#h({pins:t,selected:e,coefficients:s}){
 this.pins=t,this.selected=e.filter(n=>n<t.length),this.#i(s),t.length&&(this.#s=this.solving.drag(y(
 t))),this.told()}#i(t){let e=this.solving.place(y(this.pins),t);this.#s=e,this.#e=e}#l(t){t.id<this.#e||
-!t.certificate.certified||(this.frame=t,this.told())}};function m(i){return j(i,HTMLElement)}function j(i,t){let e=document.getElementById(i);if(!(e instanceof
+!t.certificate.certified||(this.frame=t,this.told())}};function m(i){return W(i,HTMLElement)}function W(i,t){let e=document.getElementById(i);if(!(e instanceof
 t))throw new Error(`the page has no ${i}`);return e}function f(i,t={},...e){let s=document.createElement(i);s instanceof HTMLButtonElement&&(s.type="but\
 ton");for(let[n,o]of Object.entries(t))n.startsWith("on")?s.addEventListener(n.slice(2),o):n in s&&n!==
 "list"?Reflect.set(s,n,o):s.setAttribute(n,o);return s.append(...e),s}function k(i){let t=i.getContext(
@@ -115,34 +115,34 @@ arc(t,e,s,0,2*Math.PI),E(i,n,o)}function O(i,t,e,s,n,o=1){I(i,t,e,[]),i.fillStyl
 [[o,n]])}function P(i,t,e=!0){i.beginPath();for(let s of t)s.forEach(([n,o],r)=>{r?i.lineTo(n,o):i.moveTo(
 n,o)}),e&&i.closePath()}function X([i,t],[e,s]){return[[i,t],[e,t],[e,s],[i,s]]}function V(i,t,e,s="\
 evenodd"){P(i,t),i.fillStyle=e,i.fill(s)}function E(i,t,e=[]){i.setLineDash(e);for(let[s,n]of t)i.lineWidth=
-s,i.strokeStyle=n,i.stroke();i.setLineDash([])}function Dt(i,t){let e=null,s=1/0;for(let n of i){let o=n.d+(n.loss??0);n.d>t||o>=s||(e=n,s=o)}return e}var R=6,Ke=4,ze=42,Ut=14,Gt=[36,112];function pt(i,t,e){let s=t.selected.at(-1),[n,o]=t.ring;if(n===void 0||o===void 0||s===void 0||!t.targets[s])
-return null;let r=i.toScreen(e?.get(s)??t.targets[s]),a=ze*Math.min(2.5,Math.max(.5,o)),h=r[0]+a*Math.
+s,i.strokeStyle=n,i.stroke();i.setLineDash([])}function Dt(i,t){let e=null,s=1/0;for(let n of i){let o=n.d+(n.loss??0);n.d>t||o>=s||(e=n,s=o)}return e}var R=6,Ke=4,je=42,Ut=14,Gt=[36,112];function pt(i,t,e){let s=t.selected.at(-1),[n,o]=t.ring;if(n===void 0||o===void 0||s===void 0||!t.targets[s])
+return null;let r=i.toScreen(e?.get(s)??t.targets[s]),a=je*Math.min(2.5,Math.max(.5,o)),h=r[0]+a*Math.
 cos(n),c=r[1]-a*Math.sin(n);return{centre:r,radius:a,knob:[h,c]}}function Kt(i,t,e,s){let n=pt(i,t);return n?w(e,n.knob)<=Math.max(R+Ke,s)?{part:"scale"}:Math.abs(w(
 e,n.centre)-n.radius)<=s?{part:"turn"}:null:null}function Y(i,t,e){return $t(i,!1,t,e)??$t(i,!0,t,e)}
 function $t(i,t,e,s){let o=(t?i.images:i.targets).map((r,a)=>{let h=i.hidden.includes(a)?s/3:0;return{
-mark:a,reached:t,d:w(r,e),loss:h}});return Dt(o,s)}function zt(i,t){return t.filter(e=>!We(i,e)).map(
+mark:a,reached:t,d:w(r,e),loss:h}});return Dt(o,s)}function jt(i,t){return t.filter(e=>!ze(i,e)).map(
 e=>{let[s,n]=i.toScreen(e),o=Ht(n,i.height),r=o<Gt[1]?Gt[0]:0,a=Ht(s,i.width-r);return{at:[a,o],target:e,
-angle:Math.atan2(n-o,s-a)}})}function We(i,t){let[e,s]=i.toScreen(t);return e>=0&&s>=0&&e<=i.width&&s<=i.height}function Ht(i,t){
-return Math.min(t-Ut,Math.max(Ut,i))}var Wt=7.5,jt=3.5,Xt=12,je=2,N="rgba(255,255,255,0.85)",Yt="rgba(255,255,255,0.9)",Xe="#2b2b2b",qt="\
+angle:Math.atan2(n-o,s-a)}})}function ze(i,t){let[e,s]=i.toScreen(t);return e>=0&&s>=0&&e<=i.width&&s<=i.height}function Ht(i,t){
+return Math.min(t-Ut,Math.max(Ut,i))}var zt=7.5,Wt=3.5,Xt=12,We=2,N="rgba(255,255,255,0.85)",Yt="rgba(255,255,255,0.9)",Xe="#2b2b2b",qt="\
 #00d5e0",Jt="#063f45",Ve="#067a82",Zt="#0072b2",mt="#d55e00",Vt="rgba(40,40,40,0.75)";function gt(i,t,e){i.lineCap="round",P(i,t,!1),E(i,e)}function Qt(i,t,e){V(i,[t.line(e)],"rgba(0,114,178,0.12)"),E(i,[[3,N],[1.4,Zt]],[5,3])}function te(i,t,e,{
 hovered:s,held:n,cursor:o}){let r=t.line(e.targets.map((h,c)=>n.get(c)??h)),a=t.line(e.images);Ye(i,
 r,a),r.forEach((h,c)=>{e.selected.includes(c)?O(i,h,Xt,"rgba(0,114,178,0.28)",Zt,2):c===s&&O(i,h,Xt,
 "rgba(0,114,178,0.14)"),qe(i,h,e.hidden.includes(c))}),Je(i,t,e,n),Ze(i,t,e),a.forEach((h,c)=>{e.hidden.
-includes(c)||(O(i,h,jt+1,Yt),O(i,h,jt,"#111"))}),o&&Qe(i,t.toScreen(o))}function Ye(i,t,e){let n=t.map(
-(o,r)=>[e[r],o]).filter(([o,r])=>o&&w(o,r)>=je);gt(i,n,[[3.6,N],[1.6,Xe]])}function qe(i,t,e){if(!e){
-O(i,t,Wt,qt,Jt,1.4);return}I(i,t,Wt,[[3.4,N],[1.6,Ve]],[3.5,2.4])}function Je(i,t,e,s){let n=pt(t,e,
+includes(c)||(O(i,h,Wt+1,Yt),O(i,h,Wt,"#111"))}),o&&Qe(i,t.toScreen(o))}function Ye(i,t,e){let n=t.map(
+(o,r)=>[e[r],o]).filter(([o,r])=>o&&w(o,r)>=We);gt(i,n,[[3.6,N],[1.6,Xe]])}function qe(i,t,e){if(!e){
+O(i,t,zt,qt,Jt,1.4);return}I(i,t,zt,[[3.4,N],[1.6,Ve]],[3.5,2.4])}function Je(i,t,e,s){let n=pt(t,e,
 s);if(!n)return;let[,,o,r]=e.ring,{centre:a,radius:h,knob:c}=n,[l,u]=c,d=o?mt:Vt;I(i,a,h,[[4,N]]),I(
 i,a,h,[[2,d]],o?[]:[6,4]),gt(i,[[a,c]],[[3,N],[1.2,d]]);let p=X([l-R,u-R],[l+R,u+R]);V(i,[p],r?mt:"#\
-fff"),E(i,[[1.6,r?"#fff":Vt]])}function Ze(i,t,e){for(let{at:s,angle:n}of zt(t,e.targets)){let o=(r,a)=>[
+fff"),E(i,[[1.6,r?"#fff":Vt]])}function Ze(i,t,e){for(let{at:s,angle:n}of jt(t,e.targets)){let o=(r,a)=>[
 s[0]+a*Math.cos(n+r),s[1]+a*Math.sin(n+r)];V(i,[[o(0,11),o(2.4,9),o(-2.4,9)]],qt),E(i,[[1.6,Jt]])}}function Qe(i,[
 t,e]){let s=(n,o)=>[[t+4*n,e+4*o],[t+13*n,e+13*o]];gt(i,[s(1,0),s(-1,0),s(0,1),s(0,-1)],[[4,Yt],[1.6,
 mt]])}var ts=["pointerdown","pointermove","wheel","keydown","keyup","contextmenu"];function ee(i){for(let t of ts)
 i.addEventListener(t,e=>e.stopPropagation());return i}function se(i){let t=ee(f("div",{className:"gl\
-id-help",popover:"auto",autofocus:!0,tabIndex:-1},...i.map(es)));t.addEventListener("click",()=>t.hidePopover());
-let e="Keys and gestures (?)",n=ee(f("button",{...{className:"glid-help-button",title:e,"aria-label":e},
-popoverTargetElement:t},"?"));return{table:t,button:n,toggle:()=>{t.togglePopover()}}}function es([i,
-t]){return f("section",{},f("h4",{},i),f("table",{},...t.map(ss)))}function ss([i,t]){return f("tr",
-{},f("th",{},i),f("td",{},t))}var ns={edit:"M3 2l9.5 5.2-4 1.2 2.4 4.3-1.8 1-2.4-4.3L3 12z",foreground:"M13.5 2.5l-6 6 M6.7 9.2c-1\
+id-help",popover:"auto",tabIndex:-1},...i.map(es)));t.addEventListener("click",()=>t.hidePopover()),
+t.addEventListener("beforetoggle",()=>Object.assign(t,{autofocus:!0}));let e="Keys and gestures (?)",
+n=ee(f("button",{...{className:"glid-help-button",title:e,"aria-label":e},popoverTargetElement:t},"?"));
+return{table:t,button:n,toggle:()=>{t.togglePopover()}}}function es([i,t]){return f("section",{},f("\
+h4",{},i),f("table",{},...t.map(ss)))}function ss([i,t]){return f("tr",{},f("th",{},i),f("td",{},t))}var ns={edit:"M3 2l9.5 5.2-4 1.2 2.4 4.3-1.8 1-2.4-4.3L3 12z",foreground:"M13.5 2.5l-6 6 M6.7 9.2c-1\
 .6-.5-3 .6-3.1 2.1-.1 1-.7 1.7-1.6 2 2.2.9 5.6.4 5.9-2.2 .1-.8-.4-1.6-1.2-1.9z M9.5 12.5h5 M12 10v5",
 background:"M13.5 2.5l-6 6 M6.7 9.2c-1.6-.5-3 .6-3.1 2.1-.1 1-.7 1.7-1.6 2 2.2.9 5.6.4 5.9-2.2 .1-.8\
 -.4-1.6-1.2-1.9z M9.5 12.5h5",color:"M9 4l3 3 M10 3.2l1-1a1.6 1.6 0 0 1 2.8 2.2l-1.1 1.1 M9.6 5.2L3.\
@@ -416,38 +416,39 @@ id:"menu",popover:"auto"},...this.#m());t.addEventListener("click",()=>t.hidePop
 ort","Copy, download, reset",void 0);e.popoverTargetElement=t;let s=[this.#s,this.#o,this.#n];m("too\
 ls").append(...s,this.#e,e,this.#r.button),document.body.append(t,this.#r.table);let n=f("b",{"aria-\
 hidden":"true"},"+"),r=f("button",{className:"keep",title:"Keep this pose",onclick:()=>this.#E()});r.
-append(n,"Keep pose"),m("dock").prepend(r,this.film.element);let a=Array.from({length:this.#w},(h,c)=>this.#A(
-c));document.documentElement.style.setProperty("--colors",a.join())}#m(){let{data:t,editing:e,report:s}=this,
-n=(o,r)=>f("button",{onclick:r},o);return[n("Copy the pose as Python",async()=>s.say(await he(t,e))),
-n("Download the picture",()=>{ce(t,this.stage,this.shown),this.redraw()}),n("Download the map and it\
-s proof",async()=>{this.film.release(),s.say(await le(t,e))}),n("Fit the window",()=>this.fit()),n("\
-Back to the undeformed shape",()=>this.#c())]}#u(){this.#e.addEventListener("change",()=>{this.#S(),
-this.redraw()});let t=n=>{!this.film.seen||n.button===1||(this.film.release(),n.stopImmediatePropagation(),
-n.preventDefault())};this.#t.addEventListener("pointerdown",t,{capture:!0}),document.addEventListener(
-"keydown",n=>this.#f(n));let{dataset:e}=this.#t;document.addEventListener("keydown",()=>Object.assign(
-e,{keys:""}),!0),document.addEventListener("pointerdown",()=>delete e.keys,!0),new ResizeObserver(()=>this.
-fit()).observe(this.#t),matchMedia("(prefers-color-scheme: dark)").addEventListener("change",()=>this.
-report.draw())}#f(t){let e=t.target;if(this.#t.contains(e)||t.key==="Tab")return;let s=e.matches("in\
-put, select")&&!q(t),n=e.matches("button")&&/^(Enter| )$/.test(t.key);if(!(s||n)){if(t.key!==" "){this.
-pad.keydown(t);return}t.preventDefault(),this.film.playOrPause()}}#d(t){this.film.release(),this.pad.
-press(t)}#c(){this.film.release(),this.editing.replace([],ot(this.data.outline))}#E(){this.film.release();
-let{pins:t,frame:e}=this.editing;this.film.keep({pins:t,frame:e}),this.report.tell(`Pose ${this.film.
-kept.length} is kept`),m("hint").hidden=!0}get shown(){return this.#h??this.editing.frame}fit(){let t=C(
-this.#t),e=this.shown.images??[];Object.assign(this.view,t.size,B(e,t,this.data.margin)),this.report.
-draw(),this.redraw()}redraw(){this.#a(),!this.#i&&(this.#i=requestAnimationFrame(()=>{this.#i=0,this.#l&&
-this.#x(),this.film.drawOne();let{width:t,height:e,unit:s,x:n,y:o}=this.view,r={width:t,height:e,unit:s,
-x:n,y:o};this.stage.paint(this.shown,r,this.#e.value,this.#g),document.documentElement.dataset.drawn=
-String(this.shown.id)}))}get#g(){return this.pad.held.size>0||this.film.playing||!this.editing.settled}#y(t){
-this.#h=t,this.report.proved(this.shown),this.redraw()}#b(t){let e={width:Oe,height:Oe},s={...e,left:0,
-top:0,size:e},n=B(t.images??[],s,this.data.margin);return this.stage.paint(t,{...e,...n},Bs),this.stage.
-canvas}#v(t){let{editing:e,pad:s,hand:n,view:o}=this;if(this.#h)return;let r=s.focused?n.cursorAt:null,
-{marks:a}=e;te(t,o,a,{hovered:s.found?.mark,held:s.held,cursor:r}),Ee(t,o,a,e.missed,e.refused),s.encloses&&
-s.path.length>2&&Qt(t,o,s.path)}#x(){let{editing:t,report:e}=this;this.#l=!1,this.#s.disabled=!t.canUndo,
-this.#o.disabled=!t.canRedo,this.#n.disabled=t.selected.length===0,m("hint").hidden||=t.pins.length>
-0,e.draw(),e.proved(this.shown),e.pins(t),document.documentElement.dataset.settled=String(t.settled)}get#w(){
-return this.data.colors.length/3}#A(t){return`rgb(${this.data.colors.slice(3*t,3*t+3).map(s=>Math.round(
-255*s))})`}#T(t){return this.#A(Math.round((1-Math.min(t,1))*(this.#w-1)))}#S(){let{value:t}=this.#e,
-e=this.data.ranges[t],s=m("legend");s.hidden=!e,e&&s.replaceChildren(`${Se[t]} ${e[0]}`,f("i"),`${e[1]}`)}};var at=class{#t;#e=0;#s=new Map;constructor(t,e=()=>{}){this.#t=t,this.onmap=e,t.onmessage=({data:s})=>this.#n(
+append(n,"Keep pose"),m("dock").prepend(r,this.film.element),this.data.poses[0].length&&(m("hint").textContent=
+"Drag a pin.");let a=Array.from({length:this.#w},(h,c)=>this.#A(c));document.documentElement.style.setProperty(
+"--colors",a.join())}#m(){let{data:t,editing:e,report:s}=this,n=(o,r)=>f("button",{onclick:r},o);return[
+n("Copy the pose as Python",async()=>s.say(await he(t,e))),n("Download the picture",()=>{ce(t,this.stage,
+this.shown),this.redraw()}),n("Download the map and its proof",async()=>{this.film.release(),s.say(await le(
+t,e))}),n("Fit the window",()=>this.fit()),n("Back to the undeformed shape",()=>this.#c())]}#u(){this.#e.
+addEventListener("change",()=>{this.#S(),this.redraw()});let t=n=>{!this.film.seen||n.button===1||(this.
+film.release(),n.stopImmediatePropagation(),n.preventDefault())};this.#t.addEventListener("pointerdo\
+wn",t,{capture:!0}),document.addEventListener("keydown",n=>this.#f(n));let{dataset:e}=this.#t;document.
+addEventListener("keydown",()=>Object.assign(e,{keys:""}),!0),document.addEventListener("pointerdown",
+()=>delete e.keys,!0),new ResizeObserver(()=>this.fit()).observe(this.#t),matchMedia("(prefers-color\
+-scheme: dark)").addEventListener("change",()=>this.report.draw())}#f(t){let e=t.target;if(this.#t.contains(
+e)||t.key==="Tab")return;let s=e.matches("input, select")&&!q(t),n=e.matches("button")&&/^(Enter| )$/.
+test(t.key);if(!(s||n)){if(t.key!==" "){this.pad.keydown(t);return}t.preventDefault(),this.film.playOrPause()}}#d(t){
+this.film.release(),this.pad.press(t)}#c(){this.film.release(),this.editing.replace([],ot(this.data.
+outline))}#E(){this.film.release();let{pins:t,frame:e}=this.editing;this.film.keep({pins:t,frame:e}),
+this.report.tell(`Pose ${this.film.kept.length} is kept`),m("hint").hidden=!0}get shown(){return this.#h??
+this.editing.frame}fit(){let t=C(this.#t),e=this.shown.images??[];Object.assign(this.view,t.size,B(e,
+t,this.data.margin)),this.report.draw(),this.redraw()}redraw(){this.#a(),!this.#i&&(this.#i=requestAnimationFrame(
+()=>{this.#i=0,this.#l&&this.#x(),this.film.drawOne();let{width:t,height:e,unit:s,x:n,y:o}=this.view,
+r={width:t,height:e,unit:s,x:n,y:o};this.stage.paint(this.shown,r,this.#e.value,this.#g),document.documentElement.
+dataset.drawn=String(this.shown.id)}))}get#g(){return this.pad.held.size>0||this.film.playing||!this.
+editing.settled}#y(t){this.#h=t,this.report.proved(this.shown),this.redraw()}#b(t){let e={width:Oe,height:Oe},
+s={...e,left:0,top:0,size:e},n=B(t.images??[],s,this.data.margin);return this.stage.paint(t,{...e,...n},
+Bs),this.stage.canvas}#v(t){let{editing:e,pad:s,hand:n,view:o}=this;if(this.#h)return;let r=s.focused?
+n.cursorAt:null,{marks:a}=e;te(t,o,a,{hovered:s.found?.mark,held:s.held,cursor:r}),Ee(t,o,a,e.missed,
+e.refused),s.encloses&&s.path.length>2&&Qt(t,o,s.path)}#x(){let{editing:t,report:e}=this;this.#l=!1,
+this.#s.disabled=!t.canUndo,this.#o.disabled=!t.canRedo,this.#n.disabled=t.selected.length===0,t.canUndo&&
+(m("hint").hidden=!0),e.draw(),e.proved(this.shown),e.pins(t),document.documentElement.dataset.settled=
+String(t.settled)}get#w(){return this.data.colors.length/3}#A(t){return`rgb(${this.data.colors.slice(
+3*t,3*t+3).map(s=>Math.round(255*s))})`}#T(t){return this.#A(Math.round((1-Math.min(t,1))*(this.#w-1)))}#S(){
+let{value:t}=this.#e,e=this.data.ranges[t],s=m("legend");s.hidden=!e,e&&s.replaceChildren(`${Se[t]} ${e[0]}`,
+f("i"),`${e[1]}`)}};var at=class{#t;#e=0;#s=new Map;constructor(t,e=()=>{}){this.#t=t,this.onmap=e,t.onmessage=({data:s})=>this.#n(
 s)}ask(t){let e=this.#o(t);return new Promise((s,n)=>this.#s.set(e,{resolve:s,reject:n}))}async map(t){
 let e=await this.ask(t);if(e.type!=="map")throw new Error(`the answer is no map but of type ${e.type}`);
 return e}drag(t){return this.#o({type:"drag",pose:t})}place(t,e){return this.#o({type:"place",pose:t,
@@ -473,16 +474,16 @@ new Blob([Gs],{type:"text/javascript"})),t=new Worker(i);URL.revokeObjectURL(i);
 options:n,start:o,poses:r}=x;await e.ask({type:"shape",outline:s,options:n});let a=o.length?Float64Array.
 from(o):ot(s);return await e.map({type:"place",pose:y(r[0]),coefficients:a}),e}async function $s(){let i=await S(
 x.source,2),t=await S(x.heights,1),e=await Pt(x.triangles);return{source:i,heights:t,triangles:e}}async function Hs(){
-let i=j("source",HTMLImageElement);return await i.decode().catch(()=>{throw new b("The picture in th\
+let i=W("source",HTMLImageElement);return await i.decode().catch(()=>{throw new b("The picture in th\
 is page is damaged.")}),i}function Ks(i){let t=i.getContext("webgl2",{antialias:!0,premultipliedAlpha:!0,
 preserveDrawingBuffer:!0});if(!t)throw new b("This page needs WebGL 2 and a browser of 2023 or later\
-.");return t}async function zs({coefficients:i,width:t,times:e,keyframes:s,repeat:n,sigma2:o}){let r=await Ot(
+.");return t}async function js({coefficients:i,width:t,times:e,keyframes:s,repeat:n,sigma2:o}){let r=await Ot(
 i,t),a=x.outline.hole_points.length,h=e.map((c,l)=>({coefficients:Te(r.subarray(l*t,(l+1)*t),a),sigma2:Math.
-min(o[l-1]??1/0,o[l]??1/0)}));return{times:e,knots:h,keyframes:s,repeat:n}}async function Ws(){let i=j(
+min(o[l-1]??1/0,o[l]??1/0)}));return{times:e,knots:h,keyframes:s,repeat:n}}async function zs(){let i=W(
 "picture",HTMLCanvasElement),t=Ks(i),[e,s,n]=await Promise.all([Ie(),$s(),Hs()]),o=new G(()=>{},{nearest:1e-4,
 farthest:1});Object.assign(o,C(m("pad")).size),Object.assign(o,B(s.source,C(m("pad")),x.margin));let r=new ct(
-i,t,x,s,n),a=await r.choose(e,o),h=new W(e,s,a),c=new rt(x,{stage:r,editing:h,view:o},async()=>{let u=await Ie();
+i,t,x,s,n),a=await r.choose(e,o),h=new z(e,s,a),c=new rt(x,{stage:r,editing:h,view:o},async()=>{let u=await Ie();
 return await u.map({type:"points",points:r.points}),u});h.begin(x.poses[0]),x.motion&&await c.film.load(
-await zs(x.motion),x.poses),Ne.view=o;let{dataset:l}=document.documentElement;l.mover=r.mover,l.frame=
-r.frameTime.toFixed(1),l.ready="true"}Ws().catch(i=>{let t=m("problem");if(t.textContent=i.message,t.
+await js(x.motion),x.poses),Ne.view=o;let{dataset:l}=document.documentElement;l.mover=r.mover,l.frame=
+r.frameTime.toFixed(1),l.ready="true"}zs().catch(i=>{let t=m("problem");if(t.textContent=i.message,t.
 hidden=!1,!(i instanceof b))throw i});})();

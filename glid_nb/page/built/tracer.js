@@ -6,12 +6,13 @@ function penOf(canvas){const pen=canvas.getContext("2d");if(!pen)throw new Error
 not draw on canvases");return pen}function follow(model,listeners){for(const[names,listener]of Object.entries(listeners)){model.on(names,
 listener);listener()}}var OF_THE_PAD=["pointerdown","pointermove","wheel","keydown","keyup","contextmenu"];function shield(element){
 for(const name of OF_THE_PAD)element.addEventListener(name,e=>e.stopPropagation());return element}function help(sections){
-const table=shield(make("div",{className:"glid-help",popover:"auto",autofocus:true,tabIndex:-1},...sections.
-map(section)));table.addEventListener("click",()=>table.hidePopover());const title="Keys and gesture\
-s (?)";const look={className:"glid-help-button",title,"aria-label":title};const button=shield(make("\
-button",{...look,popoverTargetElement:table},"?"));return{table,button,toggle:()=>void table.togglePopover()}}
-function section([title,rows]){return make("section",{},make("h4",{},title),make("table",{},...rows.
-map(row)))}function row([keys,what]){return make("tr",{},make("th",{},keys),make("td",{},what))}var PATHS={edit:"M3 2l9.5 5.2-4 1.2 2.4 4.3-1.8 1-2.4-4.3L3 12z",foreground:"M13.5 2.5l-6 6 M6.7 9.2\
+const table=shield(make("div",{className:"glid-help",popover:"auto",tabIndex:-1},...sections.map(section)));
+table.addEventListener("click",()=>table.hidePopover());table.addEventListener("beforetoggle",()=>Object.
+assign(table,{autofocus:true}));const title="Keys and gestures (?)";const look={className:"glid-help\
+-button",title,"aria-label":title};const button=shield(make("button",{...look,popoverTargetElement:table},
+"?"));return{table,button,toggle:()=>void table.togglePopover()}}function section([title,rows]){return make(
+"section",{},make("h4",{},title),make("table",{},...rows.map(row)))}function row([keys,what]){return make(
+"tr",{},make("th",{},keys),make("td",{},what))}var PATHS={edit:"M3 2l9.5 5.2-4 1.2 2.4 4.3-1.8 1-2.4-4.3L3 12z",foreground:"M13.5 2.5l-6 6 M6.7 9.2\
 c-1.6-.5-3 .6-3.1 2.1-.1 1-.7 1.7-1.6 2 2.2.9 5.6.4 5.9-2.2 .1-.8-.4-1.6-1.2-1.9z M9.5 12.5h5 M12 10\
 v5",background:"M13.5 2.5l-6 6 M6.7 9.2c-1.6-.5-3 .6-3.1 2.1-.1 1-.7 1.7-1.6 2 2.2.9 5.6.4 5.9-2.2 .\
 1-.8-.4-1.6-1.2-1.9z M9.5 12.5h5",color:"M9 4l3 3 M10 3.2l1-1a1.6 1.6 0 0 1 2.8 2.2l-1.1 1.1 M9.6 5.\

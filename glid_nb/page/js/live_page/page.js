@@ -109,6 +109,7 @@ export class LivePage {
     const keep = make("button", { className: "keep", title: "Keep this pose", onclick });
     keep.append(plus, "Keep pose");
     byId("dock").prepend(keep, this.film.element);
+    if (this.data.poses[0].length) byId("hint").textContent = "Drag a pin.";
     const colors = Array.from({ length: this.#stops }, (_, i) => this.#css(i));
     document.documentElement.style.setProperty("--colors", colors.join());
   }
@@ -258,7 +259,7 @@ export class LivePage {
     this.#undo.disabled = !editing.canUndo;
     this.#redo.disabled = !editing.canRedo;
     this.#remove.disabled = editing.selected.length === 0;
-    byId("hint").hidden ||= editing.pins.length > 0;
+    if (editing.canUndo) byId("hint").hidden = true;
     report.draw();
     report.proved(this.shown);
     report.pins(editing);

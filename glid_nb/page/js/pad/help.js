@@ -23,11 +23,13 @@ export function help(sections) {
   const table = shield(
     make(
       "div",
-      { className: "glid-help", popover: "auto", autofocus: true, tabIndex: -1 },
+      { className: "glid-help", popover: "auto", tabIndex: -1 },
       ...sections.map(section),
     ),
   );
   table.addEventListener("click", () => table.hidePopover());
+  // Not before: a framed page may not ask for the focus when it opens.
+  table.addEventListener("beforetoggle", () => Object.assign(table, { autofocus: true }));
   const title = "Keys and gestures (?)";
   const look = { className: "glid-help-button", title, "aria-label": title };
   const button = shield(make("button", { ...look, popoverTargetElement: table }, "?"));
