@@ -4,10 +4,12 @@ All calls that another version of a library may refuse are here. Each has a fall
 versions that refuse it. The package then works without the feature, only slower.
 """
 
+import copyreg
 import functools
 import importlib
 import platform
 import re
+import sys
 from collections.abc import Callable
 from contextlib import AbstractContextManager
 from typing import Any
@@ -119,7 +121,21 @@ def executables() -> Any | None:
         module = importlib.import_module("jax.experimental.serialize_executable")
     except ImportError:
         return None
+    _write_layout_by_name()
     return module if hasattr(module, "serialize") else None
+
+
+def _write_layout_by_name() -> None:
+    """Let pickle write the layout "automatic" by its name.
+
+    Types of arrays hold it since JAX 0.12, and compare it by identity. Read by value it is another
+    one: the results of a program that was read had a type of their own, for which all that took
+    them was compiled or read again.
+    """
+    automatic = getattr(jax.typeof(np.float32(0)), "layout", None)
+    kind, name = type(automatic), repr(automatic)
+    if getattr(sys.modules[kind.__module__], name, None) is automatic:
+        copyreg.pickle(kind, repr)
 
 
 @functools.cache

@@ -25,6 +25,7 @@ from glid_nb._runtime import default_device, jax_option, stage
 
 # Programs in memory, 15 MB each. A solve uses up to four; to read one takes as long as many solves.
 MOST_LOADED = 8
+_FORMAT = 2  # of the files; a change of how programs are written needs another number
 
 
 class Program:
@@ -114,8 +115,9 @@ def _digest(text: str) -> str:
 
 @functools.cache
 def _here() -> tuple[Any, ...]:
-    """The libraries, their flags and the processor, on which every program depends."""
-    return version("jax"), version("jaxlib"), os.environ.get("XLA_FLAGS"), processor()
+    """The libraries, their flags and the processor, on which every program depends, and how we
+    write it."""
+    return _FORMAT, version("jax"), version("jaxlib"), os.environ.get("XLA_FLAGS"), processor()
 
 
 @functools.cache

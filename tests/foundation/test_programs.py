@@ -63,6 +63,18 @@ def test_another_process_finds_it_without_tracing() -> None:
     assert stages(made(), TWOS, ONES) == ["load"]
 
 
+def test_results_of_a_program_that_was_read_have_the_usual_type() -> None:
+    """With JAX 0.12 they had not, and every call with such a result read the program again."""
+    seen: list[str] = []
+    result = made()(ONES, ONES)
+    program = made()
+    again = program(ONES, ONES)
+    assert jax.typeof(again) == jax.typeof(result)
+    with watched(seen.append):
+        program(ONES, program(program(ONES, ONES), ONES))
+    assert seen == []
+
+
 def test_after_a_change_of_the_package_it_is_found_by_its_text(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
