@@ -11,8 +11,12 @@ if(this.repeat==="once")return Math.min(Math.max(time,start),end);const span=end
 last?2*last-within:within;const next=times.findIndex((knot,i)=>i>0&&there<knot);const high=next<0?times.
 length-1:next;const low=high-1;return{piece:low,share:(there-times[low])/(times[high]-times[low])}}at(time){
 const{piece,share}=this.place(time);const{floats,mixed}=this;const low=piece*mixed.length;const high=low+
-mixed.length;for(let i=0;i<mixed.length;i++){mixed[i]=(1-share)*floats[low+i]+share*floats[high+i]}return mixed}};function undoOrRedo(e){if(!e.ctrlKey&&!e.metaKey)return null;const key=e.key.toLowerCase();if(key===
-"z")return e.shiftKey?"redo":"undo";return key==="y"?"redo":null}var BUSY_AFTER=250;var ACKNOWLEDGE_TIMEOUT=2e3;var Link=class{busy=false;refusal=null;view=Math.random().
+mixed.length;for(let i=0;i<mixed.length;i++){mixed[i]=(1-share)*floats[low+i]+share*floats[high+i]}return mixed}};var LAST_LATIN="ɏ";var LATIN={Comma:",<",Period:".>",Slash:"/?",Minus:"-_",Equal:"=+",BracketLeft:"\
+[{",BracketRight:"]}"};function keyOf({key,code="",shiftKey=false}){if(key.length>1||key<=LAST_LATIN)
+return key;const[,letter,digit]=code.match(/^(?:Key([A-Z])|(?:Digit|Numpad)([0-9]))$/)??[];if(letter)
+return shiftKey?letter:letter.toLowerCase();return digit??LATIN[code]?.[Number(shiftKey)]??key}function undoOrRedo(e){
+if(!e.ctrlKey&&!e.metaKey)return null;const key=keyOf(e).toLowerCase();if(key==="z")return e.shiftKey?
+"redo":"undo";return key==="y"?"redo":null}var BUSY_AFTER=250;var ACKNOWLEDGE_TIMEOUT=2e3;var Link=class{busy=false;refusal=null;view=Math.random().
 toString(36).slice(2);#queue=[];#buffers=[];#promised=[];#waiting=false;#awaited=0;#number=0;#acknowledged=0;#overdue;#timeout;#drawing=0;constructor(model,element,signal,report){
 this.model=model;this.element=element;this.signal=signal;this.report=report;connectNoMoreComms(model.
 widget_manager.kernel);element.dataset.idle="true";signal.addEventListener("abort",()=>this.#stop());
@@ -111,7 +115,8 @@ beyond.at(-1))??null}function landing(keyframes,index,time,least){const gap2=Mat
 const others=keyframes.filter((_,i)=>i!==index).map(key=>key.time);const earliest=index<keyframes.length?
 0:(others.at(-1)??0)+gap2;const free=at=>at>=earliest&&others.every(other=>Math.abs(at-other)>gap2-ROUNDING);
 const places=[Math.max(time,earliest),...others.flatMap(other=>[other-gap2,other+gap2])];const far=at=>Math.
-abs(at-time);return places.map(at=>Math.round(100*at)/100).filter(free).sort((a,b)=>far(a)-far(b))[0]}var SNAP=6;var STILL=4;var SLIM=8;var WIDE=60;var LEAST_HEIGHT=.06;var Track=class{span=1;keys=make(
+abs(at-time);return places.map(at=>Math.round(100*at)/100).filter(free).sort((a,b)=>far(a)-far(b))[0]}function scaleOf(element){const{width,height}=element.getBoundingClientRect();const across=width/element.
+offsetWidth||1;return{across,down:height/element.offsetHeight||across}}var SNAP=6;var STILL=4;var SLIM=8;var WIDE=60;var LEAST_HEIGHT=.06;var Track=class{span=1;keys=make(
 "div",{className:"glid-keys"});head=make("div",{className:"glid-playhead"});ruler=make("div",{className:"\
 glid-ruler",tabIndex:0,role:"slider","aria-label":"Time","aria-valuemin":0});#drag=null;#scrubbing=null;#shown=null;constructor(hand){
 this.hand=hand;this.strip=make("div",{className:"glid-strip",role:"img",onpointerleave:()=>hand.hover(
@@ -145,22 +150,22 @@ end)}`;return[...proved,this.#piece(from,end,status,text,1)]}#piece(start,end,ki
 calc(${this.#wide(end-start)})`;return make("div",{className:`glid-piece glid-${kind}`,title:text,onpointerenter:()=>this.
 hand.hover(text),style:`left: ${this.#at(start)}; width: ${width}; --glid-height: ${height}`})}#wide(time){
 return`${time/this.span} * (100% - 2 * var(--glid-inset))`}#at(time){return`calc(var(--glid-inset) +\
- ${this.#wide(time)})`}#inside(){const{left,width}=this.element.getBoundingClientRect();const inset=Number.
-parseFloat(getComputedStyle(this.element).getPropertyValue("--glid-inset"));return{left:left+inset,width:width-
-2*inset}}#grab(e,index,time){if(e.button!==0)return;e.stopPropagation();const button=e.currentTarget;
-this.#drag={index,from:time,x:e.clientX,time:null};button.setPointerCapture(e.pointerId);button.focus(
-{preventScroll:true});button.onpointermove=move=>this.#dragged(move,button);button.onlostpointercapture=
-()=>this.#letGo()}#dragged(e,button){const drag=this.#drag;if(!drag)return;const moved=e.clientX-drag.
-x;if(drag.time===null&&Math.abs(moved)<=STILL)return;const time=drag.from+moved/this.#inside().width*
-this.span;drag.time=this.landing(drag.index,time);button.style.left=this.#at(drag.time);this.head.style.
-left=this.#at(drag.time);this.hand.hover(`to ${seconds(drag.time)}`)}#letGo(){if(!this.#drag)return;
-const{index,time}=this.#drag;this.drop();if(time!==null){this.focus();this.hand.move(index,time)}else if(index<
-(this.#shown?.keyframes.length??0)){this.hand.select(index)}}#down(e){if(e.button!==0||!this.hand.scrubs())
-return;this.#scrubbing=e.pointerId;this.element.setPointerCapture(e.pointerId);this.#scrub(e)}#scrub(e){
-if(this.#scrubbing!==e.pointerId)return;const{left,width}=this.#inside();const time=(e.clientX-left)/
-width*this.span;const near=SNAP/width*this.span;const key=this.#shown?.keyframes.find(one=>Math.abs(
-one.time-time)<near);this.hand.scrub(key?.time??time)}#up(e){if(this.#scrubbing!==e.pointerId)return;
-this.drop();this.hand.scrubbed()}};var STEP=1/30;var NUDGE=.1;var Timeline=class{note=make("div",{className:"glid-timeline-note",role:"\
+ ${this.#wide(time)})`}#inside(){const{left,width}=this.element.getBoundingClientRect();const length=getComputedStyle(
+this.element).getPropertyValue("--glid-inset");const inset=Number.parseFloat(length)*scaleOf(this.element).
+across;return{left:left+inset,width:width-2*inset}}#grab(e,index,time){if(e.button!==0)return;e.stopPropagation();
+const button=e.currentTarget;this.#drag={index,from:time,x:e.clientX,time:null};button.setPointerCapture(
+e.pointerId);button.focus({preventScroll:true});button.onpointermove=move=>this.#dragged(move,button);
+button.onlostpointercapture=()=>this.#letGo()}#dragged(e,button){const drag=this.#drag;if(!drag)return;
+const moved=e.clientX-drag.x;if(drag.time===null&&Math.abs(moved)<=STILL)return;const time=drag.from+
+moved/this.#inside().width*this.span;drag.time=this.landing(drag.index,time);button.style.left=this.#at(
+drag.time);this.head.style.left=this.#at(drag.time);this.hand.hover(`to ${seconds(drag.time)}`)}#letGo(){
+if(!this.#drag)return;const{index,time}=this.#drag;this.drop();if(time!==null){this.focus();this.hand.
+move(index,time)}else if(index<(this.#shown?.keyframes.length??0)){this.hand.select(index)}}#down(e){
+if(e.button!==0||!this.hand.scrubs())return;this.#scrubbing=e.pointerId;this.element.setPointerCapture(
+e.pointerId);this.#scrub(e)}#scrub(e){if(this.#scrubbing!==e.pointerId)return;const{left,width}=this.#inside();
+const time=(e.clientX-left)/width*this.span;const near=SNAP/width*this.span;const key=this.#shown?.keyframes.
+find(one=>Math.abs(one.time-time)<near);this.hand.scrub(key?.time??time)}#up(e){if(this.#scrubbing!==
+e.pointerId)return;this.drop();this.hand.scrubbed()}};var STEP=1/30;var NUDGE=.1;var Timeline=class{note=make("div",{className:"glid-timeline-note",role:"\
 status","aria-live":"polite"});stage=null;#layers=null;#hovered="";constructor({model,el,signal}){this.
 model=model;this.root=make("div",{className:"glid-skin glid-timeline",role:"group","aria-label":"Tim\
 eline"});this.root.dataset.lmSuppressShortcuts="true";this.link=new Link(model,this.root,signal,()=>this.

@@ -24,9 +24,13 @@ M3 8h10",open:"M2 12.5v-9h4l1.5 2H14v7z",play:"M5 3l8 5-8 5z",pause:"M5.5 3v10 M
 4 0 1 1 0 8",copy:"M5.5 5.5h8v8h-8z M3 10.5v-8h8",export:"M8 2v8 M4.8 6.8L8 10l3.2-3.2 M3 13.5h10",trash:"\
 M3 4.5h10 M6.5 4.5v-2h3v2 M4.5 4.5l.6 9h5.8l.6-9"};function icon(name){return`<svg viewBox="0 0 16 1\
 6" aria-hidden="true"><path d="${PATHS[name]}"/></svg>`}function iconButton(name,title,onclick,className="\
-glid-icon"){return make("button",{title,"aria-label":title,className,onclick,innerHTML:icon(name)})}var TEXT="textarea, [contenteditable], input:not([type=checkbox], [type=range], [type=radio])";function undoOrRedo(e){
-if(!e.ctrlKey&&!e.metaKey)return null;const key=e.key.toLowerCase();if(key==="z")return e.shiftKey?"\
-redo":"undo";return key==="y"?"redo":null}function keysAround(element,act,signal,whole=element){const editorAround=e=>{
+glid-icon"){return make("button",{title,"aria-label":title,className,onclick,innerHTML:icon(name)})}var TEXT="textarea, [contenteditable], input:not([type=checkbox], [type=range], [type=radio])";var LAST_LATIN="\
+ɏ";var LATIN={Comma:",<",Period:".>",Slash:"/?",Minus:"-_",Equal:"=+",BracketLeft:"[{",BracketRight:"\
+]}"};function keyOf({key,code="",shiftKey=false}){if(key.length>1||key<=LAST_LATIN)return key;const[
+,letter,digit]=code.match(/^(?:Key([A-Z])|(?:Digit|Numpad)([0-9]))$/)??[];if(letter)return shiftKey?
+letter:letter.toLowerCase();return digit??LATIN[code]?.[Number(shiftKey)]??key}function undoOrRedo(e){
+if(!e.ctrlKey&&!e.metaKey)return null;const key=keyOf(e).toLowerCase();if(key==="z")return e.shiftKey?
+"redo":"undo";return key==="y"?"redo":null}function keysAround(element,act,signal,whole=element){const editorAround=e=>{
 const editor=element.closest(".glid-editor")??whole;const inside=editor.contains(e.target)&&element.
 checkVisibility();return inside?editor:null};const refocus=e=>{const editor=editorAround(e);if(!editor)
 return;editor.tabIndex=-1;const target=e.target;const lost=e.type==="focusout"?target.disabled:target.
@@ -38,7 +42,7 @@ bubbled=>bubbled.stopPropagation():null;if(outside&&!target.matches(TEXT)&&isFor
 e)};const options={capture:true,signal};window.addEventListener("pointerdown",refocus,options);window.
 addEventListener("focusout",refocus,options);window.addEventListener("keydown",keydown,options)}function isForThePad(e,target){
 if(undoOrRedo(e))return!e.altKey;if(e.ctrlKey||e.metaKey||target.matches("select"))return false;const free=target.
-closest(".glid-timeline")?/^[^ ]$/:/^([^ ]|Escape|Delete)$/;return free.test(e.key)}var BUSY_AFTER=250;var ACKNOWLEDGE_TIMEOUT=2e3;var Link=class{busy=false;refusal=null;view=Math.random().
+closest(".glid-timeline")?/^[^ ]$/:/^([^ ]|Escape|Delete)$/;return free.test(keyOf(e))}var BUSY_AFTER=250;var ACKNOWLEDGE_TIMEOUT=2e3;var Link=class{busy=false;refusal=null;view=Math.random().
 toString(36).slice(2);#queue=[];#buffers=[];#promised=[];#waiting=false;#awaited=0;#number=0;#acknowledged=0;#overdue;#timeout;#drawing=0;constructor(model,element,signal,report){
 this.model=model;this.element=element;this.signal=signal;this.report=report;connectNoMoreComms(model.
 widget_manager.kernel);element.dataset.idle="true";signal.addEventListener("abort",()=>this.#stop());
@@ -171,11 +175,12 @@ const dot=(point[0]-start[0])*along[0]+(point[1]-start[1])*along[1];const share=
 let found=-1;holes.forEach((hole,i)=>{if((found<0||hole.area<holes[found].area)&&encloses(hole.loop,
 point))found=i});return found}function encloses(loop,[x,y]){let winding=0;loop.forEach(([x0,y0],i)=>{
 const[x1,y1]=loop[(i+1)%loop.length];const left=(x1-x0)*(y-y0)-(x-x0)*(y1-y0);if(y0<=y&&y1>y&&left>0)
-winding+=1;if(y0>y&&y1<=y&&left<0)winding-=1});return winding!==0}function painter(canvas,view,signal,draw){let due=0;signal.addEventListener("abort",()=>cancelAnimationFrame(
-due));return()=>{if(due)return;due=requestAnimationFrame(()=>{due=0;draw(clearedPen(canvas,view))})}}
-function clearedPen(canvas,{width,height}){const ratio=window.devicePixelRatio||1;const wide=Math.round(
-width*ratio);const high=Math.round(height*ratio);if(canvas.width!==wide||canvas.height!==high){canvas.
-width=wide;canvas.height=high}const pen=penOf(canvas);pen.setTransform(ratio,0,0,ratio,0,0);pen.clearRect(
+winding+=1;if(y0>y&&y1<=y&&left<0)winding-=1});return winding!==0}var NEARLY_NOTHING="rgba(255, 255, 255, 0.004)";function painter(canvas,view,signal,draw){let due=0;
+signal.addEventListener("abort",()=>cancelAnimationFrame(due));return()=>{if(due)return;due=requestAnimationFrame(
+()=>{due=0;draw(clearedPen(canvas,view))})}}function clearedPen(canvas,{width,height}){const ratio=window.
+devicePixelRatio||1;const wide=Math.round(width*ratio);const high=Math.round(height*ratio);if(canvas.
+width!==wide||canvas.height!==high){canvas.width=wide;canvas.height=high}const pen=penOf(canvas);pen.
+setTransform(ratio,0,0,ratio,0,0);pen.clearRect(0,0,width,height);pen.fillStyle=NEARLY_NOTHING;pen.fillRect(
 0,0,width,height);return pen}function circle(pen,[x,y],radius,strokes,dash){pen.beginPath();pen.arc(
 x,y,radius,0,2*Math.PI);strokePath(pen,strokes,dash)}function disk(pen,place,radius,fill,stroke,width=1){
 circle(pen,place,radius,[]);pen.fillStyle=fill;pen.fill();if(stroke)strokePath(pen,[[width,stroke]])}
@@ -184,7 +189,10 @@ y],i)=>{if(i)pen.lineTo(x,y);else pen.moveTo(x,y)});if(closed)pen.closePath()}}f
 top],[right,bottom]){return[[left,top],[right,top],[right,bottom],[left,bottom]]}function fillPath(pen,lines,style,rule="\
 evenodd"){tracePath(pen,lines);pen.fillStyle=style;pen.fill(rule)}function strokePath(pen,strokes,dash=[]){
 pen.setLineDash(dash);for(const[width,style]of strokes){pen.lineWidth=width;pen.strokeStyle=style;pen.
-stroke()}pen.setLineDash([])}var CLICK=4;var LONG_PRESS=600;var LONG_PRESS_GRACE=100;var LONG_PRESS_SLACK=8;var PATH_STEP=3;var Pad=class{pointers=new Map;mode=null;grip=null;held=new Map;path=[];encloses=null;found=null;rests=null;#start=[
+stroke()}pen.setLineDash([])}function scaleOf(element){const{width,height}=element.getBoundingClientRect();const across=width/element.
+offsetWidth||1;return{across,down:height/element.offsetHeight||across}}function placeIn(element,{clientX,
+clientY}){const{left,top}=element.getBoundingClientRect();const{across,down}=scaleOf(element);return[
+(clientX-left)/across,(clientY-top)/down]}var CLICK=4;var LONG_PRESS=600;var LONG_PRESS_GRACE=100;var LONG_PRESS_SLACK=8;var PATH_STEP=3;var Pad=class{pointers=new Map;mode=null;grip=null;held=new Map;path=[];encloses=null;found=null;rests=null;#start=[
 0,0];#pans=false;#space=false;#tap=false;#longPress;constructor(element,view,link,behaviour){this.element=
 element;this.view=view;this.link=link;this.behaviour=behaviour;element.tabIndex=0;link.signal.addEventListener(
 "abort",()=>clearTimeout(this.#longPress));element.addEventListener("pointerdown",e=>this.#down(e));
@@ -195,53 +203,53 @@ null));element.addEventListener("wheel",e=>this.#wheel(e),{passive:false});eleme
 "contextmenu",e=>this.#contextMenu(e));element.addEventListener("keydown",e=>this.keydown(e));element.
 addEventListener("keyup",e=>this.#keyup(e));element.addEventListener("focus",()=>behaviour.changed());
 element.addEventListener("blur",()=>{this.#setSpace(false);behaviour.changed()})}get focused(){return this.
-element.matches(":focus")}place(e){const box=this.element.getBoundingClientRect();return[e.clientX-box.
-left,e.clientY-box.top]}send(type,place,e={},more={}){const[x,y]=this.view.toWorld(place);const{unit}=this.
-view;return this.link.put({type,x,y,unit,reach:this.#reach(e.pointerType)*unit,button:e.button??0,shift:Boolean(
-e.shiftKey),time:e.timeStamp??performance.now(),...more})}press(key,e){this.send("key",[this.view.width/
-2,this.view.height/2],e,{key})}hover(place=this.rests){this.rests=place;if(this.mode!==null)return;this.
-found=place&&this.#find(place,"mouse");this.#showCursor();this.behaviour.changed()}keydown(e){const command=e.
-ctrlKey||e.metaKey;const action=command?void 0:this.behaviour.actions[e.key.toLowerCase()];const history=undoOrRedo(
-e);if(!history&&!action&&e.key!==" "){if(e.altKey||!this.behaviour.keys.test(e.key)||command&&e.key!==
-"a")return}e.preventDefault();e.stopPropagation();if(e.key===" "){if(!e.repeat)this.#tap=true;this.#setSpace(
-true)}else if(action){action()}else{if(e.key==="Escape"||history)this.#drop();this.press(history??e.
-key,e)}}#keyup(e){if(e.key!==" ")return;this.#setSpace(false);if(this.#tap)this.behaviour.tapped?.()}#reach(type){
-return this.behaviour.reach[type??"mouse"]??this.behaviour.reach.mouse}#find(place,type){return this.
-behaviour.find(this.view.toWorld(place),this.#reach(type)*this.view.unit)}#down(e){if(this.pointers.
-has(e.pointerId)||this.pointers.size>1)return;e.preventDefault();this.element.focus({preventScroll:true});
-this.#tap=false;const place=this.place(e);this.pointers.set(e.pointerId,place);this.element.setPointerCapture(
-e.pointerId);const second=this.pointers.size===2;if(second)this.#takeBack(e);this.#start=place;this.
-mode=second||e.button===1||e.button===0&&this.#space?"pan":"hand";if(this.mode==="hand")this.#handDown(
-place,e);this.#showCursor()}#handDown(place,e){const{behaviour}=this;const found=this.#find(place,e.
-pointerType);const left=e.button===0;if(left&&!e.shiftKey&&found?.mark!==void 0){this.grip={from:this.
-view.toWorld(place),points:behaviour.held(found)}}this.#pans=left&&Boolean(behaviour.pans?.(found,e));
-this.encloses=left&&!behaviour.painting?behaviour.encloses?.(found,e):null;this.path=left?[this.view.
-toWorld(place)]:[];this.send("down",place,e,{part:found?.part});if(e.pointerType==="touch"&&behaviour.
-menu&&!behaviour.painting){this.#longPress=setTimeout(()=>this.#pressedLong(e,place),LONG_PRESS)}behaviour.
-changed()}#pressedLong(e,place){this.#longPress=setTimeout(()=>{this.#takeBack(e);this.mode=null;this.#menu(
-place,"touch")},LONG_PRESS_GRACE)}#menu(place,type){this.behaviour.menu?.(place,this.#find(place,type))}#contextMenu(e){
-e.preventDefault();e.stopPropagation();const touch=e instanceof PointerEvent&&e.pointerType==="touch";
-if(e.button===2&&!touch)this.#menu(this.place(e),"mouse")}#takeBack(e){if(this.mode==="hand")this.send(
-"cancel",this.#start,e);this.#drop()}#move(e){const place=this.place(e);const touch=e.pointerType===
-"touch";if(!this.pointers.has(e.pointerId)){if(!touch)this.hover(place);return}if(!touch)this.rests=
-place;const far=distance(place,this.#start);if(far>LONG_PRESS_SLACK)clearTimeout(this.#longPress);if(this.
-mode==="hand"&&this.#pans&&far>CLICK){this.#takeBack(e);this.mode="pan";this.#showCursor()}if(this.mode===
-"pan"){this.view.follow(this.pointers,e.pointerId,place);return}this.pointers.set(e.pointerId,place);
-if(this.mode==="hand")this.#handMoved(place,e,far)}#handMoved(place,e,far){const point=this.view.toWorld(
-place);this.#lengthenPath(place,point,far);if(!this.encloses&&!this.behaviour.painting){this.send("m\
-ove",place,e,{replaces:`move ${e.pointerId}`})}if(this.grip){const dx=point[0]-this.grip.from[0];const dy=point[1]-
-this.grip.from[1];for(const[mark,[x,y]]of this.grip.points)this.held.set(mark,[x+dx,y+dy])}this.behaviour.
-changed()}#lengthenPath(place,point,far){if(this.encloses==="box"){const[corner]=this.path;this.path=
-far>CLICK?rectangle(corner,point):[corner];return}const last=this.path.at(-1);if(last&&distance(place,
-this.view.toScreen(last))>=PATH_STEP)this.path.push(point)}#up(e,type){if(!this.pointers.has(e.pointerId))
-return;const place=this.place(e);this.pointers.delete(e.pointerId);if(this.mode==="hand"){const{path}=this;
-this.send(type,place,e,{path,encloses:Boolean(this.encloses)}).then(()=>{if(!this.grip)this.held.clear();
-if(this.path===path)this.path=[];this.behaviour.changed()})}this.#letGo();if(!this.pointers.size)this.
-mode=null;this.#showCursor()}#letGo(){clearTimeout(this.#longPress);this.grip=null;this.behaviour.changed()}#drop(){
-this.#letGo();this.held.clear();this.path=[]}#wheel(e){if(this.behaviour.wheelNeedsFocus&&!this.focused&&
-!e.ctrlKey)return;e.stopPropagation();this.view.wheel(e,this.place(e))}#setSpace(pressed){this.#space=
-pressed;this.#showCursor()}#showCursor(){this.element.style.cursor=this.#cursor()}#cursor(){if(this.
-mode==="pan"||this.grip)return"grabbing";return this.#space?"grab":this.behaviour.cursor(this.found)}};var HALO="rgba(255, 255, 255, 0.9)";var SPECK=12;var CHECK=8;function drawStage(pen,stage,scene,hover){
+element.matches(":focus")}place(e){return placeIn(this.element,e)}send(type,place,e={},more={}){const[
+x,y]=this.view.toWorld(place);const{unit}=this.view;return this.link.put({type,x,y,unit,reach:this.#reach(
+e.pointerType)*unit,button:e.button??0,shift:Boolean(e.shiftKey),time:e.timeStamp??performance.now(),
+...more})}press(key,e){this.send("key",[this.view.width/2,this.view.height/2],e,{key})}hover(place=this.
+rests){this.rests=place;if(this.mode!==null)return;this.found=place&&this.#find(place,"mouse");this.#showCursor();
+this.behaviour.changed()}keydown(e){const key=keyOf(e);const command=e.ctrlKey||e.metaKey;const action=command?
+void 0:this.behaviour.actions[key.toLowerCase()];const history=undoOrRedo(e);if(!history&&!action&&key!==
+" "){if(e.altKey||!this.behaviour.keys.test(key)||command&&key!=="a")return}e.preventDefault();e.stopPropagation();
+if(key===" "){if(!e.repeat)this.#tap=true;this.#setSpace(true)}else if(action){action()}else{if(key===
+"Escape"||history)this.#drop();this.press(history??key,e)}}#keyup(e){if(e.key!==" ")return;this.#setSpace(
+false);if(this.#tap)this.behaviour.tapped?.()}#reach(type){return this.behaviour.reach[type??"mouse"]??
+this.behaviour.reach.mouse}#find(place,type){return this.behaviour.find(this.view.toWorld(place),this.#reach(
+type)*this.view.unit)}#down(e){if(this.pointers.has(e.pointerId)||this.pointers.size>1)return;e.preventDefault();
+this.element.focus({preventScroll:true});this.#tap=false;const place=this.place(e);this.pointers.set(
+e.pointerId,place);this.element.setPointerCapture(e.pointerId);const second=this.pointers.size===2;if(second)
+this.#takeBack(e);this.#start=place;this.mode=second||e.button===1||e.button===0&&this.#space?"pan":
+"hand";if(this.mode==="hand")this.#handDown(place,e);this.#showCursor()}#handDown(place,e){const{behaviour}=this;
+const found=this.#find(place,e.pointerType);const left=e.button===0;if(left&&!e.shiftKey&&found?.mark!==
+void 0){this.grip={from:this.view.toWorld(place),points:behaviour.held(found)}}this.#pans=left&&Boolean(
+behaviour.pans?.(found,e));this.encloses=left&&!behaviour.painting?behaviour.encloses?.(found,e):null;
+this.path=left?[this.view.toWorld(place)]:[];this.send("down",place,e,{part:found?.part});if(e.pointerType===
+"touch"&&behaviour.menu&&!behaviour.painting){this.#longPress=setTimeout(()=>this.#pressedLong(e,place),
+LONG_PRESS)}behaviour.changed()}#pressedLong(e,place){this.#longPress=setTimeout(()=>{this.#takeBack(
+e);this.mode=null;this.#menu(place,"touch")},LONG_PRESS_GRACE)}#menu(place,type){this.behaviour.menu?.(
+place,this.#find(place,type))}#contextMenu(e){e.preventDefault();e.stopPropagation();const touch=e instanceof
+PointerEvent&&e.pointerType==="touch";if(e.button===2&&!touch)this.#menu(this.place(e),"mouse")}#takeBack(e){
+if(this.mode==="hand")this.send("cancel",this.#start,e);this.#drop()}#move(e){const place=this.place(
+e);const touch=e.pointerType==="touch";if(!this.pointers.has(e.pointerId)){if(!touch)this.hover(place);
+return}if(!touch)this.rests=place;const far=distance(place,this.#start);if(far>LONG_PRESS_SLACK)clearTimeout(
+this.#longPress);if(this.mode==="hand"&&this.#pans&&far>CLICK){this.#takeBack(e);this.mode="pan";this.#showCursor()}
+if(this.mode==="pan"){this.view.follow(this.pointers,e.pointerId,place);return}this.pointers.set(e.pointerId,
+place);if(this.mode==="hand")this.#handMoved(place,e,far)}#handMoved(place,e,far){const point=this.view.
+toWorld(place);this.#lengthenPath(place,point,far);if(!this.encloses&&!this.behaviour.painting){this.
+send("move",place,e,{replaces:`move ${e.pointerId}`})}if(this.grip){const dx=point[0]-this.grip.from[0];
+const dy=point[1]-this.grip.from[1];for(const[mark,[x,y]]of this.grip.points)this.held.set(mark,[x+dx,
+y+dy])}this.behaviour.changed()}#lengthenPath(place,point,far){if(this.encloses==="box"){const[corner]=this.
+path;this.path=far>CLICK?rectangle(corner,point):[corner];return}const last=this.path.at(-1);if(last&&
+distance(place,this.view.toScreen(last))>=PATH_STEP)this.path.push(point)}#up(e,type){if(!this.pointers.
+has(e.pointerId))return;const place=this.place(e);this.pointers.delete(e.pointerId);if(this.mode==="\
+hand"){const{path}=this;this.send(type,place,e,{path,encloses:Boolean(this.encloses)}).then(()=>{if(!this.
+grip)this.held.clear();if(this.path===path)this.path=[];this.behaviour.changed()})}this.#letGo();if(!this.
+pointers.size)this.mode=null;this.#showCursor()}#letGo(){clearTimeout(this.#longPress);this.grip=null;
+this.behaviour.changed()}#drop(){this.#letGo();this.held.clear();this.path=[]}#wheel(e){if(!this.behaviour.
+ownsWheel&&!this.focused&&!e.ctrlKey)return;e.stopPropagation();this.view.wheel(e,this.place(e))}#setSpace(pressed){
+this.#space=pressed;this.#showCursor()}#showCursor(){this.element.style.cursor=this.#cursor()}#cursor(){
+if(this.mode==="pan"||this.grip)return"grabbing";return this.#space?"grab":this.behaviour.cursor(this.
+found)}};var HALO="rgba(255, 255, 255, 0.9)";var SPECK=12;var CHECK=8;function drawStage(pen,stage,scene,hover){
 const{shown,colors,loops}=scene;const{view}=stage;const[width,height]=shown.size??[0,0];const corner=view.
 toScreen([0,0]);drawPicture(pen,stage,colors,corner,[width/view.unit,height/view.unit]);if(loops.length&&
 !stage.painting){const frame=rectangle(corner,view.toScreen([width,height]));fillPath(pen,[...loops,
@@ -325,9 +333,9 @@ this.view.zoom(closer?1/ZOOM:ZOOM)}#resize(){const{clientWidth,clientHeight}=thi
 this.changed()}get loops(){const loops=this.shown?.loops??[];const{held}=this.pad;if(!held.size)return loops;
 return loops.map((loop,i)=>loop.map((point,j)=>held.get(`${i}:${j}`)??point))}get brushing(){return this.
 tool==="foreground"||this.tool==="background"}get drawing(){return this.tool==="polygon"||this.tool===
-"rectangle"}reach=REACH;keys=KEYS;wheelNeedsFocus=true;actions={"+":()=>this.zoom(true),"=":()=>this.
-zoom(true),"-":()=>this.zoom(false),f:()=>this.fit()};get painting(){return this.brushing||this.drawing}find(point,reach){
-if(this.tool!=="edit"||!this.shown?.size)return null;const{holes,reach_shares:shares}=this.shown;const hole=holeAt(
+"rectangle"}reach=REACH;keys=KEYS;actions={"+":()=>this.zoom(true),"=":()=>this.zoom(true),"-":()=>this.
+zoom(false),f:()=>this.fit()};get painting(){return this.brushing||this.drawing}find(point,reach){if(this.
+tool!=="edit"||!this.shown?.size)return null;const{holes,reach_shares:shares}=this.shown;const hole=holeAt(
 holes,point);const near=hole<0?reach:shares.in_hole*reach;const vertex=nearestVertex(this.loops,point,
 near);if(vertex)return{vertex,mark:`${vertex.loop}:${vertex.index}`};const edge=nearestEdge(this.loops,
 point,shares.edge*near);if(edge)return{edge};return hole<0?null:{hole}}held({vertex,mark}){if(!vertex||

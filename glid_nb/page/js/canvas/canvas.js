@@ -3,7 +3,7 @@
 import { make, save } from "../pad/dom.js";
 import { help, shield } from "../pad/help.js";
 import { iconButton } from "../pad/icons.js";
-import { keysAround } from "../pad/keys.js";
+import { keyOf, keysAround } from "../pad/keys.js";
 import { Link } from "../pad/link.js";
 import { openMenu } from "../pad/menu.js";
 import { Pad } from "../pad/pad.js";
@@ -186,7 +186,8 @@ export class Canvas {
     };
     const capture = true;
     this.box.addEventListener("pointerdown", (e) => e.button !== 1 && goBack(e), { capture });
-    const ours = (/** @type {KeyboardEvent} */ e) => !e.ctrlKey && !e.metaKey && KEYS.test(e.key);
+    const ours = (/** @type {KeyboardEvent} */ e) =>
+      !e.ctrlKey && !e.metaKey && KEYS.test(keyOf(e));
     this.box.addEventListener("keydown", (e) => ours(e) && goBack(e), { capture });
     const followArrow = (/** @type {PointerEvent} */ e) => {
       const target = arrowAt(this.view, this.marks, this.pad.place(e));

@@ -58,6 +58,7 @@ const TURNS = {
 export class Hand {
   reach = REACH;
   keys = KEYS;
+  ownsWheel = true; // the page is as high as its window
   signal = new AbortController().signal;
   /** @type {Point | null} the keyboard's cursor */
   cursorAt = null;

@@ -220,7 +220,6 @@ export class Stage {
 
   reach = REACH;
   keys = KEYS;
-  wheelNeedsFocus = true;
   /** @type {Record<string, () => void>} */
   actions = {
     "+": () => this.zoom(true),
