@@ -124,8 +124,8 @@ addEventListener("keyup",e=>this.#keyup(e));element.addEventListener("focus",()=
 element.addEventListener("blur",()=>{this.#setSpace(false);behaviour.changed()})}get focused(){return this.
 element.matches(":focus")}place(e){return placeIn(this.element,e)}send(type,place,e={},more={}){const[
 x,y]=this.view.toWorld(place);const{unit}=this.view;return this.link.put({type,x,y,unit,reach:this.#reach(
-e.pointerType)*unit,button:e.button??0,shift:Boolean(e.shiftKey),time:e.timeStamp??performance.now(),
-...more})}press(key,e){this.send("key",[this.view.width/2,this.view.height/2],e,{key})}hover(place=this.
+e.pointerType)*unit,button:e.button??0,shift:Boolean(e.shiftKey),alt:Boolean(e.altKey),time:e.timeStamp??
+performance.now(),...more})}press(key,e){this.send("key",[this.view.width/2,this.view.height/2],e,{key})}hover(place=this.
 rests){this.rests=place;if(this.mode!==null)return;this.found=place&&this.#find(place,"mouse");this.#showCursor();
 this.behaviour.changed()}keydown(e){const key=keyOf(e);const command=e.ctrlKey||e.metaKey;const action=command?
 void 0:this.behaviour.actions[key.toLowerCase()];const history=undoOrRedo(e);if(!history&&!action&&key!==
@@ -139,36 +139,36 @@ this.element.focus({preventScroll:true});this.#tap=false;const place=this.place(
 e.pointerId,place);this.element.setPointerCapture(e.pointerId);const second=this.pointers.size===2;if(second)
 this.#takeBack(e);this.#start=place;this.mode=second||e.button===1||e.button===0&&this.#space?"pan":
 "hand";if(this.mode==="hand")this.#handDown(place,e);this.#showCursor()}#handDown(place,e){const{behaviour}=this;
-const found=this.#find(place,e.pointerType);const left=e.button===0;if(left&&!e.shiftKey&&found?.mark!==
-void 0){this.grip={from:this.view.toWorld(place),points:behaviour.held(found)}}this.#pans=left&&Boolean(
-behaviour.pans?.(found,e));this.encloses=left&&!behaviour.painting?behaviour.encloses?.(found,e):null;
-this.path=left?[this.view.toWorld(place)]:[];this.send("down",place,e,{part:found?.part});if(e.pointerType===
-"touch"&&behaviour.menu&&!behaviour.painting){this.#longPress=setTimeout(()=>this.#pressedLong(e,place),
-LONG_PRESS)}behaviour.changed()}#pressedLong(e,place){this.#longPress=setTimeout(()=>{this.#takeBack(
-e);this.mode=null;this.#menu(place,"touch")},LONG_PRESS_GRACE)}#menu(place,type){this.behaviour.menu?.(
-place,this.#find(place,type))}#contextMenu(e){e.preventDefault();e.stopPropagation();const touch=e instanceof
-PointerEvent&&e.pointerType==="touch";if(e.button===2&&!touch)this.#menu(this.place(e),"mouse")}#takeBack(e){
-if(this.mode==="hand")this.send("cancel",this.#start,e);this.#drop()}#move(e){const place=this.place(
-e);const touch=e.pointerType==="touch";if(!this.pointers.has(e.pointerId)){if(!touch)this.hover(place);
-return}if(!touch)this.rests=place;const far=distance(place,this.#start);if(far>LONG_PRESS_SLACK)clearTimeout(
-this.#longPress);if(this.mode==="hand"&&this.#pans&&far>CLICK){this.#takeBack(e);this.mode="pan";this.#showCursor()}
-if(this.mode==="pan"){this.view.follow(this.pointers,e.pointerId,place);return}this.pointers.set(e.pointerId,
-place);if(this.mode==="hand")this.#handMoved(place,e,far)}#handMoved(place,e,far){const point=this.view.
-toWorld(place);this.#lengthenPath(place,point,far);if(!this.encloses&&!this.behaviour.painting){this.
-send("move",place,e,{replaces:`move ${e.pointerId}`})}if(this.grip){const dx=point[0]-this.grip.from[0];
-const dy=point[1]-this.grip.from[1];for(const[mark,[x,y]]of this.grip.points)this.held.set(mark,[x+dx,
-y+dy])}this.behaviour.changed()}#lengthenPath(place,point,far){if(this.encloses==="box"){const[corner]=this.
-path;this.path=far>CLICK?rectangle(corner,point):[corner];return}const last=this.path.at(-1);if(last&&
-distance(place,this.view.toScreen(last))>=PATH_STEP)this.path.push(point)}#up(e,type){if(!this.pointers.
-has(e.pointerId))return;const place=this.place(e);this.pointers.delete(e.pointerId);if(this.mode==="\
-hand"){const{path}=this;this.send(type,place,e,{path,encloses:Boolean(this.encloses)}).then(()=>{if(!this.
-grip)this.held.clear();if(this.path===path)this.path=[];this.behaviour.changed()})}this.#letGo();if(!this.
-pointers.size)this.mode=null;this.#showCursor()}#letGo(){clearTimeout(this.#longPress);this.grip=null;
-this.behaviour.changed()}#drop(){this.#letGo();this.held.clear();this.path=[]}#wheel(e){if(!this.behaviour.
-ownsWheel&&!this.focused&&!e.ctrlKey)return;e.stopPropagation();this.view.wheel(e,this.place(e))}#setSpace(pressed){
-this.#space=pressed;this.#showCursor()}#showCursor(){this.element.style.cursor=this.#cursor()}#cursor(){
-if(this.mode==="pan"||this.grip)return"grabbing";return this.#space?"grab":this.behaviour.cursor(this.
-found)}};function menuRows(does,pin,covered){return[...pin?pinRows(does,pin.pinned):shapeRows(does,covered),[
+const found=this.#find(place,e.pointerType);const left=e.button===0;if(left&&!e.shiftKey&&!e.altKey&&
+found?.mark!==void 0){this.grip={from:this.view.toWorld(place),points:behaviour.held(found)}}this.#pans=
+left&&Boolean(behaviour.pans?.(found,e));this.encloses=left&&!behaviour.painting?behaviour.encloses?.(
+found,e):null;this.path=left?[this.view.toWorld(place)]:[];this.send("down",place,e,{part:found?.part,
+at:left?behaviour.pressedAt?.():void 0});if(e.pointerType==="touch"&&behaviour.menu&&!behaviour.painting){
+this.#longPress=setTimeout(()=>this.#pressedLong(e,place),LONG_PRESS)}behaviour.changed()}#pressedLong(e,place){
+this.#longPress=setTimeout(()=>{this.#takeBack(e);this.mode=null;this.#menu(place,"touch")},LONG_PRESS_GRACE)}#menu(place,type){
+this.behaviour.menu?.(place,this.#find(place,type))}#contextMenu(e){e.preventDefault();e.stopPropagation();
+const touch=e instanceof PointerEvent&&e.pointerType==="touch";if(e.button===2&&!touch)this.#menu(this.
+place(e),"mouse")}#takeBack(e){if(this.mode==="hand")this.send("cancel",this.#start,e);this.#drop()}#move(e){
+const place=this.place(e);const touch=e.pointerType==="touch";if(!this.pointers.has(e.pointerId)){if(!touch)
+this.hover(place);return}if(!touch)this.rests=place;const far=distance(place,this.#start);if(far>LONG_PRESS_SLACK)
+clearTimeout(this.#longPress);if(this.mode==="hand"&&this.#pans&&far>CLICK){this.#takeBack(e);this.mode=
+"pan";this.#showCursor()}if(this.mode==="pan"){this.view.follow(this.pointers,e.pointerId,place);return}
+this.pointers.set(e.pointerId,place);if(this.mode==="hand")this.#handMoved(place,e,far)}#handMoved(place,e,far){
+const point=this.view.toWorld(place);this.#lengthenPath(place,point,far);if(!this.encloses&&!this.behaviour.
+painting){this.send("move",place,e,{replaces:`move ${e.pointerId}`})}if(this.grip){const dx=point[0]-
+this.grip.from[0];const dy=point[1]-this.grip.from[1];for(const[mark,[x,y]]of this.grip.points)this.
+held.set(mark,[x+dx,y+dy])}this.behaviour.changed()}#lengthenPath(place,point,far){if(this.encloses===
+"box"){const[corner]=this.path;this.path=far>CLICK?rectangle(corner,point):[corner];return}const last=this.
+path.at(-1);if(last&&distance(place,this.view.toScreen(last))>=PATH_STEP)this.path.push(point)}#up(e,type){
+if(!this.pointers.has(e.pointerId))return;const place=this.place(e);this.pointers.delete(e.pointerId);
+if(this.mode==="hand"){const{path}=this;this.send(type,place,e,{path,encloses:Boolean(this.encloses)}).
+then(()=>{if(!this.grip)this.held.clear();if(this.path===path)this.path=[];this.behaviour.changed()})}
+this.#letGo();if(!this.pointers.size)this.mode=null;this.#showCursor()}#letGo(){clearTimeout(this.#longPress);
+this.grip=null;this.behaviour.changed()}#drop(){this.#letGo();this.held.clear();this.path=[]}#wheel(e){
+if(!this.behaviour.ownsWheel&&!this.focused&&!e.ctrlKey)return;e.stopPropagation();this.view.wheel(e,
+this.place(e))}#setSpace(pressed){this.#space=pressed;this.#showCursor()}#showCursor(){this.element.
+style.cursor=this.#cursor()}#cursor(){if(this.mode==="pan"||this.grip)return"grabbing";return this.#space?
+"grab":this.behaviour.cursor(this.found)}};function menuRows(does,pin,covered){return[...pin?pinRows(does,pin.pinned):shapeRows(does,covered),[
 "Copy the pose","Ctrl+C",does.press("copy")],["Paste a pose","Ctrl+V",does.paste],["Swap left and ri\
 ght","M",does.press("m")],["Select all pins","A",does.press("a")],["The undeformed shape","0",does.press(
 "0")],["See everything","F",does.press("f")],["Paint stiff areas","B",does.press("b")],["The picture\
@@ -177,24 +177,28 @@ press},count){const pins=count>1?` ${count} pins`:"";return[["Bring forward","Pa
 ["Send back","Page Down",press("PageDown")],null,[`Remove${pins}`,"Delete",press("Delete")],["Remove\
 , keep the shape","Shift+Delete",press("Delete",true)],["Leave angle and scale free","X",press("x")],
 null]}function shapeRows({pin},covered){return covered?[["Add a pin here","Click",pin],null]:[]}function nearest(things,reach){let best=null;let least=Infinity;for(const thing of things){const far=thing.
-d+(thing.loss??0);if(thing.d>reach||far>=least)continue;best=thing;least=far}return best}var KNOB=6;var KNOB_REACH=4;var RADIUS=42;var EDGE=14;var CORNER=[36,112];var ARROW_REACH=12;function dial(view,marks,held){
-const last=marks.selected.at(-1);const[angle,scale]=marks.ring;if(angle===void 0||scale===void 0)return null;
-if(last===void 0||!marks.targets[last])return null;const centre=view.toScreen(held?.get(last)??marks.
-targets[last]);const radius=RADIUS*Math.min(2.5,Math.max(.5,scale));const x=centre[0]+radius*Math.cos(
-angle);const y=centre[1]-radius*Math.sin(angle);return{centre,radius,knob:[x,y]}}function knobInCorner(view,marks,held){
-const[x,y]=dial(view,marks,held)?.knob??[0,0];return x>view.width-CORNER[0]-KNOB&&y<CORNER[1]+KNOB}function ringAt(view,marks,place,reach){
-const ring=dial(view,marks);if(!ring)return null;if(distance(place,ring.knob)<=Math.max(KNOB+KNOB_REACH,
-reach))return{part:"scale"};const far=Math.abs(distance(place,ring.centre)-ring.radius);return far<=
-reach?{part:"turn"}:null}function markAt(marks,point,reach){return pinAt(marks,false,point,reach)??pinAt(
-marks,true,point,reach)}function pinAt(marks,reached,point,reach){const places=reached?marks.images:
-marks.targets;const pins=places.map((place,mark)=>{const loss=marks.hidden.includes(mark)?reach/3:0;
-return{mark,reached,d:distance(place,point),loss}});return nearest(pins,reach)}function arrowsTo(view,targets){
-return targets.filter(target=>!inSight(view,target)).map(target=>{const[x,y]=view.toScreen(target);const height=within2(
-y,view.height);const besideButtons=height<CORNER[1]?CORNER[0]:0;const width=within2(x,view.width-besideButtons);
-return{at:[width,height],target,angle:Math.atan2(y-height,x-width)}})}function arrowAt(view,marks,place){
-const arrow=arrowsTo(view,marks.targets).find(({at})=>distance(at,place)<ARROW_REACH);return arrow?.
-target??null}function inSight(view,point){const[x,y]=view.toScreen(point);return x>=0&&y>=0&&x<=view.
-width&&y<=view.height}function within2(at,size){return Math.min(size-EDGE,Math.max(EDGE,at))}var TARGET=7.5;var IMAGE=3.5;var RING=12;var APART=2;var BORDER="rgba(255,255,255,0.85)";var PALE="r\
+d+(thing.loss??0);if(thing.d>reach||far>=least)continue;best=thing;least=far}return best}var KNOB=6;var KNOB_REACH=4;var RADIUS=42;var LEAST_RADIUS=24;var EDGE=14;var CORNER=[36,112];var ARROW_REACH=12;
+function dial(view,marks,held){const last=marks.selected.at(-1);const[angle,scale]=marks.ring;if(angle===
+void 0||scale===void 0)return null;if(last===void 0||!marks.targets[last])return null;const centre=view.
+toScreen(held?.get(last)??marks.targets[last]);const radius=RADIUS*Math.min(2.5,Math.max(.5,scale));
+return{centre,radius,knob:knobInside(view,centre,radius,angle)}}function knobInside(view,centre,radius,angle){
+const places=[0,1,-1,2,-2,3,-3,4].map(eighths=>{const direction=angle+eighths*Math.PI/4;const x=centre[0]+
+radius*Math.cos(direction);const y=centre[1]-radius*Math.sin(direction);return[within2(x,view.width),
+within2(y,view.height)]});return places.find(place=>distance(place,centre)>=LEAST_RADIUS)??places[0]}
+function knobInCorner(view,marks,held){const[x,y]=dial(view,marks,held)?.knob??[0,0];return x>view.width-
+CORNER[0]-KNOB&&y<CORNER[1]+KNOB}function ringAt(view,marks,place,reach){const ring=dial(view,marks);
+if(!ring)return null;if(distance(place,ring.knob)<=Math.max(KNOB+KNOB_REACH,reach))return{part:"knob"};
+const far=Math.abs(distance(place,ring.centre)-ring.radius);return far<=reach?{part:"turn"}:null}function markAt(marks,point,reach){
+return pinAt(marks,false,point,reach)??pinAt(marks,true,point,reach)}function pinAt(marks,reached,point,reach){
+const places=reached?marks.images:marks.targets;const pins=places.map((place,mark)=>{const loss=marks.
+hidden.includes(mark)?reach/3:0;return{mark,reached,d:distance(place,point),loss}});return nearest(pins,
+reach)}function arrowsTo(view,targets){return targets.filter(target=>!inSight(view,target)).map(target=>{
+const[x,y]=view.toScreen(target);const height=within2(y,view.height);const besideButtons=height<CORNER[1]?
+CORNER[0]:0;const width=within2(x,view.width-besideButtons);return{at:[width,height],target,angle:Math.
+atan2(y-height,x-width)}})}function arrowAt(view,marks,place){const arrow=arrowsTo(view,marks.targets).
+find(({at})=>distance(at,place)<ARROW_REACH);return arrow?.target??null}function inSight(view,point){
+const[x,y]=view.toScreen(point);return x>=0&&y>=0&&x<=view.width&&y<=view.height}function within2(at,size){
+return Math.min(size-EDGE,Math.max(EDGE,at))}var TARGET=7.5;var IMAGE=3.5;var RING=12;var APART=2;var BORDER="rgba(255,255,255,0.85)";var PALE="r\
 gba(255,255,255,0.9)";var INK="#2b2b2b";var TARGET_FILL="#00d5e0";var TARGET_EDGE="#063f45";var HIDDEN="\
 #067a82";var CHOSEN="#0072b2";var WANTED="#d55e00";var FREE="rgba(40,40,40,0.75)";var STIFF="#4b0f7a";
 function lines(pen,pairs,strokes){pen.lineCap="round";tracePath(pen,pairs,false);strokePath(pen,strokes)}
@@ -231,21 +235,21 @@ pen,[[corner(0,11),corner(2.4,9),corner(-2.4,9)]],TARGET_FILL);strokePath(pen,[[
 function drawCursor(pen,[x,y]){const arm=(dx,dy)=>[[x+4*dx,y+4*dy],[x+13*dx,y+13*dy]];lines(pen,[arm(
 1,0),arm(-1,0),arm(0,1),arm(0,-1)],[[4,PALE],[1.6,WANTED]])}var HELP=[["Pins",[["Click the shape","pin a point"],["Drag a pin, or the shape","move it there; the\
  shape follows, and never folds"],["Right-click, long touch, Menu key","a menu for the pin or the sh\
-ape there"],["Delete","remove the selected pins; with Shift keep the shape"],["Ring around a pin: dr\
-ag it, or its knob","turn the shape there, scale it there"],["< >, + -, X","turn, scale; free both a\
-gain"],["Page Down, Page Up, [ ]","send selected pins and their surroundings back, forward"],["Arrow\
- keys","nudge selected pins, with Shift farther; else move a cursor"],["Enter","show the cursor; pin\
- or select there"]]],["Selecting",[["Shift-click, A","select several pins, all pins"],["Shift and dr\
-ag, Ctrl and drag","select the pins in a box, in a lasso"],[", .","select the pin before, the next p\
-in, and bring it into view; so does a click on an arrow at the edge"],["Esc","cancel a drag; select \
-nothing"]]],["Poses",[["Ctrl+Z, Ctrl+Shift+Z","undo, redo"],["Ctrl+C, Ctrl+V","copy the pose, put it\
- on this or a similar shape"],["M","swap left and right"],["0","back to the undeformed shape"]]],["S\
-tiff areas",[["B, E","paint stiff areas, erase them; Esc ends painting"]]],["View",[["Wheel, two fin\
-gers","zoom"],["Middle button, Space and drag","move the view"],["F","see everything"],["P","the pic\
-ture alone, for lectures; Esc brings the rest back"],["W","the whole screen"]]],["Timeline",[["Space",
-"play the motion through the poses, pause; on the canvas too"],["Arrow keys, Home, End","step in tim\
-e, with Shift to the next pose; first, last pose"],["Alt and arrow keys","move the pose in time; Del\
-ete removes it"]]]];var Legend=class{element=make("div",{className:"glid-legend"});show(model,moving){const bars=[model.
+ape there"],["Delete","remove the selected pins; with Shift keep the shape"],["Ring around a pin; Al\
+t on the pin","turn the shape there; the ring's knob scales it too"],["< >, + -, X","turn, scale; fr\
+ee both again"],["Page Down, Page Up, [ ]","send selected pins and their surroundings back, forward"],
+["Arrow keys","nudge selected pins, with Shift farther; else move a cursor"],["Enter","show the curs\
+or; pin or select there"]]],["Selecting",[["Shift-click, A","select several pins, all pins"],["Shift\
+ and drag, Ctrl and drag","select the pins in a box, in a lasso"],[", .","select the pin before, the\
+ next pin, and bring it into view; so does a click on an arrow at the edge"],["Esc","cancel a drag; \
+select nothing"]]],["Poses",[["Ctrl+Z, Ctrl+Shift+Z","undo, redo"],["Ctrl+C, Ctrl+V","copy the pose,\
+ put it on this or a similar shape"],["M","swap left and right"],["0","back to the undeformed shape"]]],
+["Stiff areas",[["B, E","paint stiff areas, erase them; Esc ends painting"]]],["View",[["Wheel, two \
+fingers","zoom"],["Middle button, Space and drag","move the view"],["F","see everything"],["P","the \
+picture alone, for lectures; Esc brings the rest back"],["W","the whole screen"]]],["Timeline",[["Sp\
+ace","play the motion through the poses, pause; on the canvas too"],["Arrow keys, Home, End","step i\
+n time, with Shift to the next pose; first, last pose"],["Alt and arrow keys","move the pose in time\
+; Delete removes it"]]]];var Legend=class{element=make("div",{className:"glid-legend"});show(model,moving){const bars=[model.
 get("legend"),model.get("panel_legend")].filter(bar=>bar.title);this.element.replaceChildren(...bars.
 map(bar=>colorBar(bar,moving)));this.element.hidden=!bars.length;this.element.dataset.corner=model.get(
 "legend_corner")}};function colorBar({title,moving,colors,ticks,about},moves){const gradient=`backgr\
@@ -259,23 +263,24 @@ const advice=painting?PAINT:first&&FIRST;const{notice}=this;notice.textContent=r
 hidden=!notice.textContent;notice.classList.toggle("glid-first",!refusal)}prepare(share){const{prepared}=this;
 prepared.hidden=share>=1;prepared.textContent=`Warming up: ${Math.round(100*share)} %`;prepared.style.
 backgroundSize=`${100*share}% 100%, auto`}};var REACH={mouse:13,pen:16,touch:26};var KEYS=/^(Arrow\w+|Page\w+|Delete|Backspace|Escape|Enter|[0fa,.[\]<>+=xmbe-])$/i;
-var TARGET_TIP="where it should be. Drag it; a right click shows more; Shift-click selects several";
-var IMAGE_TIP="where the shape is now. The cyan disk is where it should be";var COVERED=". Another p\
-art of the shape covers it";var RING_TIPS={turn:"Drag around the pin to turn the shape there; X free\
-s it again",scale:"Drag away from the pin or towards it to scale the shape there; X frees it again"};
-var PinBehaviour=class{reach=REACH;keys=KEYS;constructor(canvas){this.canvas=canvas;this.actions={"?":canvas.
-help.toggle,contextmenu:()=>canvas.openMenu(),p:()=>canvas.room?.alone(),w:()=>canvas.room?.fullScreen()}}get painting(){
-return this.canvas.painting}changed(){this.canvas.redraw()}menu(place,found){this.canvas.openMenu(place,
-found)}tapped(){this.canvas.box.dispatchEvent(new CustomEvent("glid:play",{bubbles:true}))}find(point,reach){
-const{view,marks,shapes,painting}=this.canvas;if(shapes.motion||painting)return null;const mark=markAt(
-marks,point,reach);return mark??ringAt(view,marks,view.toScreen(point),reach/view.unit/2)}encloses(found,e){
-if(found)return null;if(e.shiftKey)return"box";return e.ctrlKey||e.metaKey?"lasso":null}held({mark}){
-const{selected,targets}=this.canvas.marks;const pressed=Number(mark);const moved=selected.includes(pressed)?
-selected:[pressed];return new Map(moved.map(i=>[i,targets[i]]))}cursor(found){this.canvas.box.title=
-this.#tip(found);return found?"grab":"crosshair"}#tip(found){if(!found)return"";if(found.part)return RING_TIPS[found.
-part];const{marks,model}=this.canvas;const mark=Number(found.mark);const name=["Pin",mark+1,model.get(
-"names")[mark]].join(" ").trim();const tip=found.reached?IMAGE_TIP:TARGET_TIP;return`${name}: ${tip}${marks.
-hidden.includes(mark)?COVERED:""}`}};async function copied(text){try{await navigator.clipboard.writeText(text);return true}catch{return copiedBySelection(
+var TARGET_TIP="where it should be. Drag it; Alt turns it; a right click shows more; Shift-click sel\
+ects several";var IMAGE_TIP="where the shape is now. The cyan disk is where it should be";var COVERED="\
+. Another part of the shape covers it";var RING_TIPS={turn:"Drag around the pin to turn the shape th\
+ere; X frees it again",knob:"Drag around the pin to turn the shape there, away from it to scale it; \
+X frees it again"};var PinBehaviour=class{reach=REACH;keys=KEYS;constructor(canvas){this.canvas=canvas;
+this.actions={"?":canvas.help.toggle,contextmenu:()=>canvas.openMenu(),p:()=>canvas.room?.alone(),w:()=>canvas.
+room?.fullScreen()}}get painting(){return this.canvas.painting}changed(){this.canvas.redraw()}menu(place,found){
+this.canvas.openMenu(place,found)}pressedAt(){return this.canvas.pressedAt()}tapped(){this.canvas.box.
+dispatchEvent(new CustomEvent("glid:play",{bubbles:true}))}find(point,reach){const{view,marks,shapes,
+painting}=this.canvas;if(shapes.motion||painting)return null;const mark=markAt(marks,point,reach);return mark??
+ringAt(view,marks,view.toScreen(point),reach/view.unit/2)}encloses(found,e){if(found)return null;if(e.
+shiftKey)return"box";return e.ctrlKey||e.metaKey?"lasso":null}held({mark}){const{selected,targets}=this.
+canvas.marks;const pressed=Number(mark);const moved=selected.includes(pressed)?selected:[pressed];return new Map(
+moved.map(i=>[i,targets[i]]))}cursor(found){this.canvas.box.title=this.#tip(found);return found?"gra\
+b":"crosshair"}#tip(found){if(!found)return"";if(found.part)return RING_TIPS[found.part];const{marks,
+model}=this.canvas;const mark=Number(found.mark);const name=["Pin",mark+1,model.get("names")[mark]].
+join(" ").trim();const tip=found.reached?IMAGE_TIP:TARGET_TIP;return`${name}: ${tip}${marks.hidden.includes(
+mark)?COVERED:""}`}};async function copied(text){try{await navigator.clipboard.writeText(text);return true}catch{return copiedBySelection(
 text)}}function copiedBySelection(text){const focused=document.activeElement;const area=document.createElement(
 "textarea");area.value=text;area.setAttribute("readonly","");Object.assign(area.style,{position:"fix\
 ed",top:"0",left:"0",opacity:"0"});document.body.append(area);area.select();try{return document.execCommand(
@@ -291,29 +296,42 @@ clientX,clientY})=>{const{across,down}=scaleOf(grip);return[clientX/across,clien
 "pointerdown",e=>{e.preventDefault();grip.setPointerCapture(e.pointerId);const[x,y]=place(e);beyond=
 {width:model.get("width")-x,height:model.get("height")-y}});grip.addEventListener("pointermove",e=>{
 if(!beyond)return;const[x,y]=place(e);save(model,{width:side(beyond.width+x),height:side(beyond.height+
-y)})});grip.addEventListener("lostpointercapture",()=>{beyond=null});return shield(grip)}var PAGE=120;var PARTS=330;var LEAST=480;var GAP=16;var SLACK=20;var SETTLE=80;var Room=class{#root=null;#last={
-width:0,height:0,alone:0};#timer;constructor(pad,model,signal){this.pad=pad;this.model=model;this.observer=
-new ResizeObserver(()=>this.#measureSoon());this.observer.observe(pad);window.addEventListener("resi\
-ze",()=>this.#measureSoon(),{signal});window.addEventListener("keydown",e=>this.#escape(e),{signal,capture:true});
-const left=()=>{if(!document.fullscreenElement)this.alone(false)};document.addEventListener("fullscr\
-eenchange",left,{signal});signal.addEventListener("abort",()=>{clearTimeout(this.#timer);this.observer.
-disconnect()})}alone(on=!this.#last.alone){const root=this.#root;if(!root||!on&&!this.#last.alone){this.#measureSoon();
-return}root.classList.toggle("glid-alone",on);this.#measure();root.scrollIntoView({block:on?"start":
-"nearest"});this.pad.focus({preventScroll:true});if(!on&&document.fullscreenElement)document.exitFullscreen()}fullScreen(){
-if(document.fullscreenElement){document.exitFullscreen();return}this.#root?.requestFullscreen().catch(
-error=>{save(this.model,{notice:`Full screen is not possible here: ${error.message}`})})}#escape(e){
-if(e.key!=="Escape"||!this.#last.alone)return;if(this.pad.matches(":active, :has(.glid-menu, :popove\
-r-open)"))return;e.stopPropagation();this.alone(false)}#measureSoon(){clearTimeout(this.#timer);this.#timer=
-setTimeout(()=>this.#measure(),SETTLE)}#measure(){const root=this.pad.closest(".glid-editor");const column=this.
-pad.closest(".glid-column");const around=column?.parentElement;if(!root||!around||!column.clientWidth)
-return;if(!this.#root)this.observer.observe(around);this.#root=root;const room=this.#roomIn(root,column,
-around);const last=this.#last;const wider=room.width-last.width;const same=room.height===last.height&&
-room.alone===last.alone;if(same&&wider>=0&&wider<SLACK)return;this.#last=room;const numbers=[room.width,
-room.height,room.alone];save(this.model,{room:numbers.map(Math.floor)})}#roomIn(root,column,around){
-const page=document.fullscreenElement===root?0:PAGE;const below=window.innerHeight-page;if(root.classList.
-contains("glid-alone")){return{width:root.clientWidth,height:below,alone:1}}const plots=column.nextElementSibling;
-const beside=around.clientWidth-(plots?.offsetWidth??0)-GAP;const width=beside>=LEAST?beside:around.
-clientWidth;return{width,height:Math.max(LEAST,below-PARTS),alone:0}}};var NEAR=8;var N_TIMED=3;var Shapes=class{motion=null;#materials=[];#camera=null;#renderer=null;#loading=0;#lifted=null;#resting=null;constructor(model,view){
+y)})});grip.addEventListener("lostpointercapture",()=>{beyond=null});return shield(grip)}var CONTROLS="button, select, input, img, [role=slider]";var SAYS_SOMETHING=/[\p{L}\p{N}]/u;function nameControls(root,signal){
+const name=()=>{for(const control of root.querySelectorAll(CONTROLS))nameOne(control)};const observer=new MutationObserver(
+name);const what={childList:true,subtree:true,attributes:true,attributeFilter:["title"]};observer.observe(
+root,what);signal.addEventListener("abort",()=>observer.disconnect());name()}function nameOne(control){
+const isImage=control instanceof HTMLImageElement;const attribute=isImage?"alt":"aria-label";const given=control.
+getAttribute(attribute);if(given!==null&&control.getAttribute("data-glid-name")!==given)return;if(isNamed(
+control))return;const name=nameAround(control);if(!name||name===given)return;control.setAttribute(attribute,
+name);control.setAttribute("data-glid-name",name)}function isNamed(control){if(control instanceof HTMLButtonElement)
+return SAYS_SOMETHING.test(control.textContent??"");const labels="labels"in control?control.labels:null;
+return[...labels??[]].some(label=>SAYS_SOMETHING.test(label.textContent??""))}function nameAround(control){
+const own=control.getAttribute("title");if(own)return own;const widget=control.closest(".jupyter-wid\
+gets");const label=widget?.querySelector(".widget-label")?.textContent?.trim();return label||widget?.
+getAttribute("title")||""}var PAGE=120;var PARTS=330;var LEAST=480;var GAP=16;var SLACK=20;var SETTLE=80;var Room=class{#root=null;#last={
+width:0,height:0,alone:0};#timer;constructor(pad,model,signal){this.pad=pad;this.model=model;this.signal=
+signal;this.observer=new ResizeObserver(()=>this.#measureSoon());this.observer.observe(pad);window.addEventListener(
+"resize",()=>this.#measureSoon(),{signal});window.addEventListener("keydown",e=>this.#escape(e),{signal,
+capture:true});const left=()=>{if(!document.fullscreenElement)this.alone(false)};document.addEventListener(
+"fullscreenchange",left,{signal});signal.addEventListener("abort",()=>{clearTimeout(this.#timer);this.
+observer.disconnect()})}alone(on=!this.#last.alone){const root=this.#root;if(!root||!on&&!this.#last.
+alone){this.#measureSoon();return}root.classList.toggle("glid-alone",on);this.#measure();root.scrollIntoView(
+{block:on?"start":"nearest"});this.pad.focus({preventScroll:true});if(!on&&document.fullscreenElement)
+document.exitFullscreen()}fullScreen(){if(document.fullscreenElement){document.exitFullscreen();return}
+this.#root?.requestFullscreen().catch(error=>{save(this.model,{notice:`Full screen is not possible h\
+ere: ${error.message}`})})}#escape(e){if(e.key!=="Escape"||!this.#last.alone)return;if(this.pad.matches(
+":active, :has(.glid-menu, :popover-open)"))return;e.stopPropagation();this.alone(false)}#measureSoon(){
+clearTimeout(this.#timer);this.#timer=setTimeout(()=>this.#measure(),SETTLE)}#measure(){const root=this.
+pad.closest(".glid-editor");const column=this.pad.closest(".glid-column");const around=column?.parentElement;
+if(!root||!around||!column.clientWidth)return;if(!this.#root){this.observer.observe(around);nameControls(
+root,this.signal)}this.#root=root;const room=this.#roomIn(root,column,around);const last=this.#last;
+const wider=room.width-last.width;const same=room.height===last.height&&room.alone===last.alone;if(same&&
+wider>=0&&wider<SLACK)return;this.#last=room;const numbers=[room.width,room.height,room.alone];save(
+this.model,{room:numbers.map(Math.floor)})}#roomIn(root,column,around){const page=document.fullscreenElement===
+root?0:PAGE;const below=window.innerHeight-page;if(root.classList.contains("glid-alone")){return{width:root.
+clientWidth,height:below,alone:1}}const plots=column.nextElementSibling;const beside=around.clientWidth-
+(plots?.offsetWidth??0)-GAP;const width=beside>=LEAST?beside:around.clientWidth;return{width,height:Math.
+max(LEAST,below-PARTS),alone:0}}};var NEAR=8;var N_TIMED=3;var Shapes=class{motion=null;#materials=[];#camera=null;#renderer=null;#loading=0;#lifted=null;#resting=null;constructor(model,view){
 this.model=model;this.view=view;model.on("change:materials change:camera change:renderer",()=>this.load())}async load(){
 this.#loading+=1;const turn=this.#loading;const{model}=this;const references=[model.get("camera"),model.
 get("renderer"),...model.get("materials")];const[camera,renderer,...materials]=await Promise.all(references.
@@ -348,28 +366,29 @@ function uniformVectors(){const canvas=make("canvas");const gl=canvas.getContext
 for(let i=0;i<=N_TIMED;i++){shapes.redraw();await new Promise(go=>requestAnimationFrame(go));const canvas=drawnBelow(
 pad);const gl=canvas?.getContext("webgl")||canvas?.getContext("webgl2");if(!gl)continue;const start=performance.
 now();gl.readPixels(0,0,1,1,gl.RGBA,gl.UNSIGNED_BYTE,new Uint8Array(4));times.push(performance.now()-
-start)}return times.length>1?Math.min(...times.slice(1)):0}var SAVE_VIEW_AFTER=250;var Canvas=class{legend=new Legend;notices=new Notices;help=help(HELP);#chosen;#saving;#release=()=>{};constructor({
-model,el,signal}){this.model=model;this.interactive=model.get("interactive");const paper=make("canva\
-s",{className:"glid-paper"});this.box=make("div",{className:"glid-pad",role:"application","aria-labe\
-l":"Deformation canvas: arrow keys move, Enter pins a point",inert:!this.interactive},paper,this.legend.
-element,this.notices.notice,this.notices.prepared);this.box.dataset.lmSuppressShortcuts="true";el.classList.
-add("glid-host","glid-pad-host");el.append(this.box);this.view=new View(()=>this.#viewMoved(),{nearest:1e-4,
-farthest:1});this.shapes=new Shapes(model,this.view);this.redraw=painter(paper,this.view,signal,pen=>this.#draw(
-pen));this.link=new Link(model,this.box,signal,()=>this.#report());this.room=this.interactive?new Room(
-this.box,model,signal):null;this.pad=new Pad(this.box,this.view,this.link,new PinBehaviour(this));this.
-clipboard=new PoseClipboard(this);this.corner=this.#makeCorner();if(this.interactive){this.box.append(
-shield(this.corner),this.help.table,resizeGrip(model));keysAround(this.box,e=>this.pad.keydown(e),signal)}
-this.#takeFirst()}close(){clearTimeout(this.#saving);this.shapes.close()}get marks(){return this.model.
-get("marks")}get brush(){const brush=this.model.get("brush");return"radius"in brush?brush:null}get painting(){
-return this.brush!==null}say(notice){save(this.model,{notice})}openMenu(place,found={mark:this.marks.
-selected.at(-1)}){const{selected,targets}=this.marks;const mark=found?.mark===void 0?null:Number(found.
-mark);const centre=[this.view.x,this.view.y];const point=mark===null?this.model.get("cursor")??centre:
-targets[mark];const at=place??this.view.toScreen(point);const does={press:(key,shift=false)=>{return()=>this.
-pad.press(key,{shiftKey:shift})},pin:()=>void this.pad.send("pin",at),paste:()=>void this.clipboard.
-paste(),alone:()=>this.room?.alone(),fullScreen:()=>this.room?.fullScreen(),showKeys:this.help.toggle};
-const pinned=mark!==null&&selected.includes(mark)?selected.length:1;const covered=mark===null&&coveredNear(
-this.box,at);openMenu(this.box,at,menuRows(does,mark===null?null:{pinned},covered))}showMotion(motion=null,release=()=>{},heights=null){
-this.#release=release;this.shapes.motion=motion;this.shapes.lift(heights);this.showLegend();this.shapes.
+start)}return times.length>1?Math.min(...times.slice(1)):0}var SAVE_VIEW_AFTER=250;var STILL={release(){},pause:()=>void 0};var Canvas=class{legend=new Legend;notices=new Notices;help=help(
+HELP);#chosen;#saving;#playing=STILL;#presses=false;constructor({model,el,signal}){this.model=model;
+this.interactive=model.get("interactive");const paper=make("canvas",{className:"glid-paper"});this.box=
+make("div",{className:"glid-pad",role:"application","aria-label":"Deformation canvas: arrow keys mov\
+e, Enter pins a point",inert:!this.interactive},paper,this.legend.element,this.notices.notice,this.notices.
+prepared);this.box.dataset.lmSuppressShortcuts="true";el.classList.add("glid-host","glid-pad-host");
+el.append(this.box);this.view=new View(()=>this.#viewMoved(),{nearest:1e-4,farthest:1});this.shapes=
+new Shapes(model,this.view);this.redraw=painter(paper,this.view,signal,pen=>this.#draw(pen));this.link=
+new Link(model,this.box,signal,()=>this.#report());this.room=this.interactive?new Room(this.box,model,
+signal):null;this.pad=new Pad(this.box,this.view,this.link,new PinBehaviour(this));this.clipboard=new PoseClipboard(
+this);this.corner=this.#makeCorner();if(this.interactive){this.box.append(shield(this.corner),this.help.
+table,resizeGrip(model));keysAround(this.box,e=>this.pad.keydown(e),signal)}this.#takeFirst()}close(){
+clearTimeout(this.#saving);this.shapes.close()}get marks(){return this.model.get("marks")}get brush(){
+const brush=this.model.get("brush");return"radius"in brush?brush:null}get painting(){return this.brush!==
+null}say(notice){save(this.model,{notice})}openMenu(place,found={mark:this.marks.selected.at(-1)}){const{
+selected,targets}=this.marks;const mark=found?.mark===void 0?null:Number(found.mark);const centre=[this.
+view.x,this.view.y];const point=mark===null?this.model.get("cursor")??centre:targets[mark];const at=place??
+this.view.toScreen(point);const does={press:(key,shift=false)=>{return()=>this.pad.press(key,{shiftKey:shift})},
+pin:()=>void this.pad.send("pin",at),paste:()=>void this.clipboard.paste(),alone:()=>this.room?.alone(),
+fullScreen:()=>this.room?.fullScreen(),showKeys:this.help.toggle};const pinned=mark!==null&&selected.
+includes(mark)?selected.length:1;const covered=mark===null&&coveredNear(this.box,at);openMenu(this.box,
+at,menuRows(does,mark===null?null:{pinned},covered))}showMotion(motion=null,playing=STILL,heights=null){
+this.#playing=playing;this.shapes.motion=motion;this.shapes.lift(heights);this.showLegend();this.shapes.
 refresh();this.redraw()}showLegend(){this.legend.show(this.model,Boolean(this.shapes.motion))}showNotice(){
 const first=this.interactive&&!this.marks.targets.length;this.notices.tell(this.model.get("notice"),
 this.painting,first)}fit(){const{model,view,box}=this;view.width=model.get("width");view.height=model.
@@ -377,23 +396,24 @@ get("height");[view.x,view.y,view.unit]=model.get("view");box.style.width=`${vie
 height=`${view.height}px`;this.#see()}reveal(){const{selected,targets,images}=this.marks;const now=selected.
 length===1?selected[0]:void 0;if(now===this.#chosen)return;this.#chosen=now;if(now===void 0||this.pad.
 mode)return;if(inSight(this.view,targets[now])||inSight(this.view,images[now]))return;this.view.centreOn(
-targets[now])}#takeFirst(){const goBack=e=>{if(!this.shapes.motion)return;e.stopImmediatePropagation();
-e.preventDefault();this.#release()};const capture=true;this.box.addEventListener("pointerdown",e=>e.
-button!==1&&goBack(e),{capture});const ours=e=>!e.ctrlKey&&!e.metaKey&&KEYS.test(keyOf(e));this.box.
-addEventListener("keydown",e=>ours(e)&&goBack(e),{capture});const followArrow=e=>{const target=arrowAt(
-this.view,this.marks,this.pad.place(e));if(!target||e.target!==this.box)return;this.view.centreOn(target);
-e.stopImmediatePropagation()};this.box.addEventListener("pointerdown",followArrow,{capture})}#makeCorner(){
-const look="glid-help-button";return make("div",{className:"glid-corner"},this.help.button,iconButton(
-"fit","Full screen (W)",()=>this.room?.fullScreen(),look),iconButton("rectangle","The picture alone \
-(P)",()=>this.room?.alone(),look))}#report(){const{busy,refusal}=this.link;if(!busy&&refusal&&refusal!==
-this.model.get("notice"))this.say(refusal)}#viewMoved(){this.#see();clearTimeout(this.#saving);this.#saving=
-setTimeout(()=>{const{x,y,unit}=this.view;save(this.model,{view:[x,y,unit]})},SAVE_VIEW_AFTER)}#see(){
-this.shapes.see();this.redraw()}#draw(pen){const{model,view,pad,marks,brush}=this;const{motion}=this.
-shapes;const through=!motion&&knobInCorner(view,marks,pad.held);this.corner.classList.toggle("glid-t\
-hrough",through);if(motion)return;drawOnion(pen,view,model.get("onion"));drawStiff(pen,view,model.get(
-"stiff"),this.painting);const cursor=pad.focused?model.get("cursor"):null;drawMarks(pen,view,marks,{
-hovered:pad.found?.mark,held:pad.held,cursor});if(brush)drawBrush(pen,view,brush,pad);if(pad.encloses&&
-pad.path.length>2)drawLasso(pen,view,pad.path)}};function render(context){const{model,signal}=context;const canvas=new Canvas(context);follow(model,{
+targets[now])}pressedAt(){if(!this.shapes.motion)return void 0;this.#presses=true;return this.#playing.
+pause()}#takeFirst(){const goBack=e=>{if(!this.shapes.motion)return;e.stopImmediatePropagation();e.preventDefault();
+this.#playing.release()};const capture=true;this.box.addEventListener("pointerdown",e=>e.button===2&&
+goBack(e),{capture});const ours=e=>!e.ctrlKey&&!e.metaKey&&KEYS.test(keyOf(e));this.box.addEventListener(
+"keydown",e=>ours(e)&&goBack(e),{capture});const followArrow=e=>{const target=arrowAt(this.view,this.
+marks,this.pad.place(e));if(!target||e.target!==this.box)return;this.view.centreOn(target);e.stopImmediatePropagation()};
+this.box.addEventListener("pointerdown",followArrow,{capture})}#makeCorner(){const look="glid-help-b\
+utton";return make("div",{className:"glid-corner"},this.help.button,iconButton("fit","Full screen (W\
+)",()=>this.room?.fullScreen(),look),iconButton("rectangle","The picture alone (P)",()=>this.room?.alone(),
+look))}#report(){const{busy,refusal}=this.link;if(this.#presses&&this.link.idle&&this.pad.mode===null){
+this.#presses=false;this.#playing.release()}if(!busy&&refusal&&refusal!==this.model.get("notice"))this.
+say(refusal)}#viewMoved(){this.#see();clearTimeout(this.#saving);this.#saving=setTimeout(()=>{const{
+x,y,unit}=this.view;save(this.model,{view:[x,y,unit]})},SAVE_VIEW_AFTER)}#see(){this.shapes.see();this.
+redraw()}#draw(pen){const{model,view,pad,marks,brush}=this;const{motion}=this.shapes;const through=!motion&&
+knobInCorner(view,marks,pad.held);this.corner.classList.toggle("glid-through",through);if(motion)return;
+drawOnion(pen,view,model.get("onion"));drawStiff(pen,view,model.get("stiff"),this.painting);const cursor=pad.
+focused?model.get("cursor"):null;drawMarks(pen,view,marks,{hovered:pad.found?.mark,held:pad.held,cursor});
+if(brush)drawBrush(pen,view,brush,pad);if(pad.encloses&&pad.path.length>2)drawLasso(pen,view,pad.path)}};function render(context){const{model,signal}=context;const canvas=new Canvas(context);follow(model,{
 "change:width change:height change:view":()=>canvas.fit(),"change:coefficients":()=>canvas.shapes.refresh(),
 "change:marks change:cursor change:onion change:stiff change:brush":()=>canvas.redraw(),"glid:motion":(...shown)=>canvas.
 showMotion(...shown),"change:legend change:panel_legend change:legend_corner":()=>canvas.showLegend(),

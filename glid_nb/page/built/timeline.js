@@ -85,23 +85,23 @@ const does=playing?"pause":"play";if(this.play.dataset.does!==does)this.play.inn
 play.dataset.does=does;this.clock.textContent=`${place.toFixed(2)} / ${seconds(end)}`;this.keep.textContent=
 between?"Keep it":"Keep"}};function gap(){return make("span",{className:"glid-gap"})}function menu(label,choices,act){
 const options=choices.map(([value,text])=>new Option(text,value));const select=make("select",{"aria-\
-label":label,title:label},...options);select.addEventListener("change",()=>act(select.value));return select}var Player=class{clock=null;time=0;seen=false;#intervals=[];#frame=0;constructor(show,moved){this.show=
-show;this.moved=moved}set(intervals,repeat){this.#intervals=intervals.map(({end,times:times2,floats})=>({
-end,motion:floats.length?new Motion({times:times2,repeat:"once"},floats):null}));const first=intervals[0];
-const last=intervals.at(-1);const times=first&&last?[first.start,last.end]:null;this.clock=times&&new Motion(
-{times,repeat},new Float32Array(0));if(this.seen&&!this.playing)this.#seek(this.time)}get playing(){
-return this.#frame!==0}get place(){const last=this.clock?.last??Infinity;return this.time>last?2*last-
-this.time:this.time}scrub(time){this.pause();if(this.clock)this.#seek(Math.min(Math.max(time,this.clock.
-start),this.clock.last))}play(){const{clock}=this;if(this.playing||!clock){this.pause();return}const once=clock.
-repeat==="once";if(once&&this.time>=clock.end)this.time=clock.start;let last=null;const step=async now=>{
-const time=this.time+(last===null?0:(now-last)/1e3);last=now;await this.#seek(time);if(!this.playing)
-return;if(once&&time>=clock.end)this.pause();else this.#frame=requestAnimationFrame(step)};this.#frame=
-requestAnimationFrame(step);this.moved()}pause(){cancelAnimationFrame(this.#frame);this.#frame=0;this.
-moved()}release(time){this.pause();this.time=time;if(this.seen){this.seen=false;this.show(null)}this.
-moved()}#seek(time){const{clock}=this;if(!clock){this.release(0);return}this.time=time===clock.end?time:
-clock.within(time);this.seen=true;const{place}=this;const interval=this.#intervals.find(({end})=>place<=
-end)??this.#intervals.at(-1);const shown=this.show(interval?.motion?.at(place)??null,place);this.moved();
-return shown}};var LATER=1.15;var LEAST=1;var MOST_LABELS=12;var STEPS=[.1,.2,.5,1,2,5,10,30,60,300,600];var LONGEST_STEP=1800;
+label":label,title:label},...options);select.addEventListener("change",()=>act(select.value));return select}var Player=class{clock=null;time=0;seen=false;#intervals=[];#frame=0;constructor(show,moved,ended=()=>{}){
+this.show=show;this.moved=moved;this.ended=ended}set(intervals,repeat){this.#intervals=intervals.map(
+({end,times:times2,floats})=>({end,motion:floats.length?new Motion({times:times2,repeat:"once"},floats):
+null}));const first=intervals[0];const last=intervals.at(-1);const times=first&&last?[first.start,last.
+end]:null;this.clock=times&&new Motion({times,repeat},new Float32Array(0));if(this.seen&&!this.playing)
+this.#seek(this.time)}get playing(){return this.#frame!==0}get place(){const last=this.clock?.last??
+Infinity;return this.time>last?2*last-this.time:this.time}scrub(time){this.pause();if(this.clock)this.#seek(
+Math.min(Math.max(time,this.clock.start),this.clock.last))}play(){const{clock}=this;if(this.playing||
+!clock){this.pause();return}const once=clock.repeat==="once";if(once&&this.time>=clock.end)this.time=
+clock.start;let last=null;const step=async now=>{const time=this.time+(last===null?0:(now-last)/1e3);
+last=now;await this.#seek(time);if(!this.playing)return;if(once&&time>=clock.end){this.pause();this.
+ended()}else this.#frame=requestAnimationFrame(step)};this.#frame=requestAnimationFrame(step);this.moved()}pause(){
+cancelAnimationFrame(this.#frame);this.#frame=0;this.moved()}release(time){this.pause();this.time=time;
+if(this.seen){this.seen=false;this.show(null)}this.moved()}#seek(time){const{clock}=this;if(!clock){
+this.release(0);return}this.time=time===clock.end?time:clock.within(time);this.seen=true;const{place}=this;
+const interval=this.#intervals.find(({end})=>place<=end)??this.#intervals.at(-1);const shown=this.show(
+interval?.motion?.at(place)??null,place);this.moved();return shown}};var LATER=1.15;var LEAST=1;var MOST_LABELS=12;var STEPS=[.1,.2,.5,1,2,5,10,30,60,300,600];var LONGEST_STEP=1800;
 var SAME=1e-9;var ROUNDING=.006;function withReturn({keyframes,repeat,back}){const last=keyframes.at(
 -1);if(repeat!=="loop"||keyframes.length<2||!last)return keyframes;const[first]=keyframes;return[...keyframes,
 {...first,time:last.time+back,name:`Back to ${first.name}`}]}function spanOf(keyframes){return Math.
@@ -166,18 +166,19 @@ e.pointerId);this.#scrub(e)}#scrub(e){if(this.#scrubbing!==e.pointerId)return;co
 const time=(e.clientX-left)/width*this.span;const near=SNAP/width*this.span;const key=this.#shown?.keyframes.
 find(one=>Math.abs(one.time-time)<near);this.hand.scrub(key?.time??time)}#up(e){if(this.#scrubbing!==
 e.pointerId)return;this.drop();this.hand.scrubbed()}};var STEP=1/30;var NUDGE=.1;var Timeline=class{note=make("div",{className:"glid-timeline-note",role:"\
-status","aria-live":"polite"});stage=null;#layers=null;#hovered="";constructor({model,el,signal}){this.
-model=model;this.root=make("div",{className:"glid-skin glid-timeline",role:"group","aria-label":"Tim\
-eline"});this.root.dataset.lmSuppressShortcuts="true";this.link=new Link(model,this.root,signal,()=>this.
-tell());this.player=new Player((floats,time)=>this.#show(floats,time),()=>this.showHead());this.bar=
-new Bar({play:()=>this.player.play(),keep:()=>this.#keep(),act:(type,content)=>void this.act(type,content),
-edit:(type,content)=>void this.edit(type,content)});this.track=new Track({scrubs:()=>this.player.clock!==
-null,scrub:time=>this.player.scrub(time),scrubbed:()=>this.#selectHere(),select:index=>this.select(index),
-move:(index,time)=>void this.act("move_pose",{index,time}),hover:text=>{this.#hovered=text;this.tell()},
-dropped:()=>{this.showKeys();this.showHead()}});this.root.append(this.bar.element,this.track.element,
-this.note);this.root.addEventListener("keydown",e=>this.#keydown(e));this.root.addEventListener("key\
-up",e=>{if(e.key===" "&&!this.#typing(e))e.preventDefault()});this.bar.element.addEventListener("cli\
-ck",e=>{const target=e.target;if(e.detail&&target.closest("button"))this.track.focus()});el.classList.
+status","aria-live":"polite"});stage=null;#layers=null;#hovered="";#playing={release:()=>this.release(),
+pause:()=>{this.player.pause();return this.player.place}};constructor({model,el,signal}){this.model=
+model;this.root=make("div",{className:"glid-skin glid-timeline",role:"group","aria-label":"Timeline"});
+this.root.dataset.lmSuppressShortcuts="true";this.link=new Link(model,this.root,signal,()=>this.tell());
+this.player=new Player((floats,time)=>this.#show(floats,time),()=>this.showHead(),()=>this.#selectHere());
+this.bar=new Bar({play:()=>this.player.play(),keep:()=>this.#keep(),act:(type,content)=>void this.act(
+type,content),edit:(type,content)=>void this.edit(type,content)});this.track=new Track({scrubs:()=>this.
+player.clock!==null,scrub:time=>this.player.scrub(time),scrubbed:()=>this.#selectHere(),select:index=>this.
+select(index),move:(index,time)=>void this.act("move_pose",{index,time}),hover:text=>{this.#hovered=
+text;this.tell()},dropped:()=>{this.showKeys();this.showHead()}});this.root.append(this.bar.element,
+this.track.element,this.note);this.root.addEventListener("keydown",e=>this.#keydown(e));this.root.addEventListener(
+"keyup",e=>{if(e.key===" "&&!this.#typing(e))e.preventDefault()});this.bar.element.addEventListener(
+"click",e=>{const target=e.target;if(e.detail&&target.closest("button"))this.track.focus()});el.classList.
 add("glid-host");el.append(this.root)}get shown(){return this.model.get("shown")}get spans(){return this.
 model.get("motion").spans}get active(){return this.shown.keyframes[this.shown.active]}act(type,content={}){
 return this.link.put({type,...content})}edit(type,content={}){return this.act(type,{index:this.shown.
@@ -197,7 +198,7 @@ kernel&&!player.playing&&player.seen&&computing)this.release();this.tell();this.
 this.note.textContent??"");this.showHead()}showHeights(){const{times,floats}=this.model.get("heights");
 this.#layers=times.length?new Motion({times,repeat:"once"},toFloats(floats)):null}#show(floats,time){
 const{stage}=this;if(!stage)return;const moving=time!==void 0;const heights=moving?this.#layers?.at(
-time)??null:null;stage.trigger("glid:motion",moving?floats??true:null,this.release,heights);if(this.
+time)??null:null;stage.trigger("glid:motion",moving?floats??true:null,this.#playing,heights);if(this.
 shown.kernel)return this.act("frame",{time:time??null,replaces:"frame"})}#keep(){const{player}=this;
 this.act("keep",{time:player.seen?player.place:this.active.time})}#selectHere(){const index=keyAt(this.
 shown.keyframes,this.player.place);if(index>=0)this.select(index)}#typing(e){return this.bar.element.

@@ -1,6 +1,7 @@
 // The room that an editor has for its canvas, full screen, and the picture alone.
 
 import { save } from "../pad/dom.js";
+import { nameControls } from "./names.js";
 
 /** @import { Model } from "../types.js" */
 /** @import { CanvasTraits } from "./traits.js" */
@@ -28,6 +29,7 @@ export class Room {
   constructor(pad, model, signal) {
     this.pad = pad;
     this.model = model;
+    this.signal = signal;
     this.observer = new ResizeObserver(() => this.#measureSoon());
     this.observer.observe(pad);
     window.addEventListener("resize", () => this.#measureSoon(), { signal });
@@ -90,7 +92,10 @@ export class Room {
     const column = this.pad.closest(".glid-column");
     const around = column?.parentElement;
     if (!root || !around || !column.clientWidth) return;
-    if (!this.#root) this.observer.observe(around);
+    if (!this.#root) {
+      this.observer.observe(around);
+      nameControls(root, this.signal);
+    }
     this.#root = root;
     const room = this.#roomIn(root, column, around);
     const last = this.#last;

@@ -25,6 +25,7 @@ import { distance } from "./view.js";
  * @property {(found: Found | null, e: PointerEvent) => boolean} [pans] whether the left button moves the view
  * @property {(found: Found | null, e: PointerEvent) => "box" | "lasso" | null} [encloses] what the
  *   left button draws around things
+ * @property {() => number | undefined} [pressedAt] the time of the motion that is pressed, if one is
  * @property {() => void} [tapped] the space bar was pressed and let go, and nothing was dragged
  * @property {(place: Point, found: Found | null) => void} [menu] opens the menu of what is there,
  *   by the right button or a long touch
@@ -137,6 +138,7 @@ export class Pad {
       reach: this.#reach(e.pointerType) * unit,
       button: e.button ?? 0,
       shift: Boolean(e.shiftKey),
+      alt: Boolean(e.altKey),
       time: e.timeStamp ?? performance.now(),
       ...more,
     });
@@ -232,13 +234,13 @@ export class Pad {
     const { behaviour } = this;
     const found = this.#find(place, e.pointerType);
     const left = e.button === 0;
-    if (left && !e.shiftKey && found?.mark !== undefined) {
+    if (left && !e.shiftKey && !e.altKey && found?.mark !== undefined) {
       this.grip = { from: this.view.toWorld(place), points: behaviour.held(found) };
     }
     this.#pans = left && Boolean(behaviour.pans?.(found, e));
     this.encloses = left && !behaviour.painting ? behaviour.encloses?.(found, e) : null;
     this.path = left ? [this.view.toWorld(place)] : [];
-    this.send("down", place, e, { part: found?.part });
+    this.send("down", place, e, { part: found?.part, at: left ? behaviour.pressedAt?.() : undefined });
     if (e.pointerType === "touch" && behaviour.menu && !behaviour.painting) {
       this.#longPress = setTimeout(() => this.#pressedLong(e, place), LONG_PRESS);
     }
