@@ -21,7 +21,7 @@ _KEY = """(pad, key) => {
   pad.dispatchEvent(new KeyboardEvent('keydown', {bubbles: true, cancelable: true, ...key}));
 }"""
 _UNNAMED = r"""(editor) => [...editor.querySelectorAll('button, select, input, img, [role=slider]')]
-  .filter((one) => one.checkVisibility())
+  .filter((one) => one.checkVisibility() && one.getAttribute('alt') !== '')
   .filter((one) => {
     const labels = [...(one.labels ?? [])].map((label) => label.textContent).join('');
     const text = one.matches('button') ? one.textContent : '';
@@ -162,6 +162,8 @@ def test_a_drag_between_keyframes_is_kept(open_notebook: OpenNotebook) -> None:
 
     # Scrub to the middle, then drag the shape as it is seen there.
     book.value("None", setup="model.go_to_pose(0)")
+    timeline.scroll_into_view_if_needed()
+    hand.wait_until_still()
     keys = timeline.locator(".glid-key")
     first, last = (center(keys.nth(i)) for i in (0, 1))
     ruler = timeline.locator(".glid-ruler").bounding_box()

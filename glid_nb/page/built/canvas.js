@@ -306,9 +306,9 @@ control))return;const name=nameAround(control);if(!name||name===given)return;con
 name);control.setAttribute("data-glid-name",name)}function isNamed(control){if(control instanceof HTMLButtonElement)
 return SAYS_SOMETHING.test(control.textContent??"");const labels="labels"in control?control.labels:null;
 return[...labels??[]].some(label=>SAYS_SOMETHING.test(label.textContent??""))}function nameAround(control){
-const own=control.getAttribute("title");if(own)return own;const widget=control.closest(".jupyter-wid\
-gets");const label=widget?.querySelector(".widget-label")?.textContent?.trim();return label||widget?.
-getAttribute("title")||""}var PAGE=120;var PARTS=330;var LEAST=480;var GAP=16;var SLACK=20;var SETTLE=80;var Room=class{#root=null;#last={
+const own=control.getAttribute("title");if(own)return own;if(control.matches(".glid-plots, .glid-plo\
+ts *"))return"Plots of the solve";const widget=control.closest(".jupyter-widgets");const label=widget?.
+querySelector(".widget-label")?.textContent?.trim();return label||widget?.getAttribute("title")||""}var PAGE=120;var PARTS=330;var LEAST=480;var GAP=16;var SLACK=20;var SETTLE=80;var Room=class{#root=null;#last={
 width:0,height:0,alone:0};#timer;constructor(pad,model,signal){this.pad=pad;this.model=model;this.signal=
 signal;this.observer=new ResizeObserver(()=>this.#measureSoon());this.observer.observe(pad);window.addEventListener(
 "resize",()=>this.#measureSoon(),{signal});window.addEventListener("keydown",e=>this.#escape(e),{signal,

@@ -49,6 +49,7 @@ function isNamed(control) {
 function nameAround(control) {
   const own = control.getAttribute("title");
   if (own) return own;
+  if (control.matches(".glid-plots, .glid-plots *")) return "Plots of the solve";
   const widget = control.closest(".jupyter-widgets");
   const label = widget?.querySelector(".widget-label")?.textContent?.trim();
   return label || widget?.getAttribute("title") || "";
