@@ -308,30 +308,41 @@ return SAYS_SOMETHING.test(control.textContent??"");const labels="labels"in cont
 return[...labels??[]].some(label=>SAYS_SOMETHING.test(label.textContent??""))}function nameAround(control){
 const own=control.getAttribute("title");if(own)return own;if(control.matches(".glid-plots, .glid-plo\
 ts *"))return"Plots of the solve";const widget=control.closest(".jupyter-widgets");const label=widget?.
-querySelector(".widget-label")?.textContent?.trim();return label||widget?.getAttribute("title")||""}var PAGE=120;var PARTS=330;var LEAST=480;var GAP=16;var SLACK=20;var SETTLE=80;var Room=class{#root=null;#last={
-width:0,height:0,alone:0};#timer;constructor(pad,model,signal){this.pad=pad;this.model=model;this.signal=
-signal;this.observer=new ResizeObserver(()=>this.#measureSoon());this.observer.observe(pad);window.addEventListener(
-"resize",()=>this.#measureSoon(),{signal});window.addEventListener("keydown",e=>this.#escape(e),{signal,
-capture:true});const left=()=>{if(!document.fullscreenElement)this.alone(false)};document.addEventListener(
-"fullscreenchange",left,{signal});signal.addEventListener("abort",()=>{clearTimeout(this.#timer);this.
-observer.disconnect()})}alone(on=!this.#last.alone){const root=this.#root;if(!root||!on&&!this.#last.
-alone){this.#measureSoon();return}root.classList.toggle("glid-alone",on);this.#measure();root.scrollIntoView(
-{block:on?"start":"nearest"});this.pad.focus({preventScroll:true});if(!on&&document.fullscreenElement)
-document.exitFullscreen()}fullScreen(){if(document.fullscreenElement){document.exitFullscreen();return}
-this.#root?.requestFullscreen().catch(error=>{save(this.model,{notice:`Full screen is not possible h\
-ere: ${error.message}`})})}#escape(e){if(e.key!=="Escape"||!this.#last.alone)return;if(this.pad.matches(
-":active, :has(.glid-menu, :popover-open)"))return;e.stopPropagation();this.alone(false)}#measureSoon(){
-clearTimeout(this.#timer);this.#timer=setTimeout(()=>this.#measure(),SETTLE)}#measure(){const root=this.
-pad.closest(".glid-editor");const column=this.pad.closest(".glid-column");const around=column?.parentElement;
-if(!root||!around||!column.clientWidth)return;if(!this.#root){this.observer.observe(around);nameControls(
-root,this.signal)}this.#root=root;const room=this.#roomIn(root,column,around);const last=this.#last;
-const wider=room.width-last.width;const same=room.height===last.height&&room.alone===last.alone;if(same&&
-wider>=0&&wider<SLACK)return;this.#last=room;const numbers=[room.width,room.height,room.alone];save(
-this.model,{room:numbers.map(Math.floor)})}#roomIn(root,column,around){const page=document.fullscreenElement===
-root?0:PAGE;const below=window.innerHeight-page;if(root.classList.contains("glid-alone")){return{width:root.
-clientWidth,height:below,alone:1}}const plots=column.nextElementSibling;const beside=around.clientWidth-
-(plots?.offsetWidth??0)-GAP;const width=beside>=LEAST?beside:around.clientWidth;return{width,height:Math.
-max(LEAST,below-PARTS),alone:0}}};var NEAR=8;var N_TIMED=3;var Shapes=class{motion=null;#materials=[];#camera=null;#renderer=null;#loading=0;#lifted=null;#resting=null;constructor(model,view){
+querySelector(".widget-label")?.textContent?.trim();return label||widget?.getAttribute("title")||labelBefore(
+widget??control)}function labelBefore(one){let before=one.previousElementSibling;while(before&&!before.
+matches(".widget-label"))before=before.previousElementSibling;return before?.textContent?.trim()??""}var PAGE=120;var PARTS=330;var LEAST=480;var GAP=16;var SLACK=20;var SETTLE=80;var Room=class{#root=null;#last={
+width:0,height:0,alone:0};#decides=false;#told="";#room=null;#timer;constructor(pad,model,signal){this.
+pad=pad;this.model=model;this.signal=signal;this.observer=new ResizeObserver(()=>this.#measureSoon());
+this.observer.observe(pad);window.addEventListener("resize",()=>this.#measureSoon(),{signal});window.
+addEventListener("keydown",e=>this.#escape(e),{signal,capture:true});model.on("change:room",()=>{if(String(
+model.get("room"))!==this.#told)this.#decides=false});const left=()=>{if(!document.fullscreenElement)
+this.alone(false)};document.addEventListener("fullscreenchange",left,{signal});signal.addEventListener(
+"abort",()=>{clearTimeout(this.#timer);this.observer.disconnect()})}alone(on=!this.#last.alone){const root=this.#root;
+if(!root||!on&&!this.#last.alone){this.#measureSoon();return}root.classList.toggle("glid-alone",on);
+this.#decides=true;this.#measure();root.scrollIntoView({block:on?"start":"nearest"});this.pad.focus(
+{preventScroll:true});if(!on&&document.fullscreenElement)document.exitFullscreen()}fullScreen(){if(document.
+fullscreenElement){document.exitFullscreen();return}this.#root?.requestFullscreen().catch(error=>{save(
+this.model,{notice:`Full screen is not possible here: ${error.message}`})})}#escape(e){if(e.key!=="E\
+scape"||!this.#last.alone)return;if(this.pad.matches(":active, :has(.glid-menu, :popover-open)"))return;
+e.stopPropagation();this.alone(false)}#measureSoon(){clearTimeout(this.#timer);this.#timer=setTimeout(
+()=>this.#measure(),SETTLE)}#measure(){const root=this.pad.closest(".glid-editor");const column=this.
+pad.closest(".glid-column");const around=column?.parentElement;if(!root||!around||!column.clientWidth)
+return;const room=this.#roomIn(root,column,around);if(!this.#root)this.#begin(root,around,room);this.#room=
+room;this.shrink();if(!this.#decides)return;const last=this.#last;const wider=room.width-last.width;
+const same=room.height===last.height&&room.alone===last.alone;if(same&&wider>=0&&wider<SLACK)return;
+this.#last=room;const numbers=[room.width,room.height,room.alone].map(Math.floor);this.#told=String(
+numbers);save(this.model,{room:numbers})}#begin(root,around,room){this.#root=root;this.observer.observe(
+around);nameControls(root,this.signal);const[width=0]=this.model.get("room");this.#decides=room.width>
+width;root.addEventListener("pointerup",()=>this.#decide(),{signal:this.signal})}#decide(){if(this.#decides)
+return;this.#decides=true;this.#last={width:0,height:0,alone:0};this.#measureSoon()}shrink(){const whole=this.
+pad.closest(".glid-deform");if(!whole||!this.#room)return;const panes=whole.querySelectorAll(".glid-\
+pane");const widths=[...panes].map(pane=>Number.parseFloat(pane.style.width)||0);const share=this.#room.
+width/widths.reduce((sum,width)=>sum+width,0);whole.style.zoom=share<1&&!this.#decides?String(share):
+""}#roomIn(root,column,around){const page=document.fullscreenElement===root?0:PAGE;const below=window.
+innerHeight-page;if(root.classList.contains("glid-alone")){return{width:root.clientWidth,height:below,
+alone:1}}const plots=column.nextElementSibling;const beside=around.clientWidth-(plots?.offsetWidth??
+0)-GAP;const width=beside>=LEAST?beside:around.clientWidth;return{width,height:Math.max(LEAST,below-
+PARTS),alone:0}}};var NEAR=8;var N_TIMED=3;var Shapes=class{motion=null;#materials=[];#camera=null;#renderer=null;#loading=0;#lifted=null;#resting=null;constructor(model,view){
 this.model=model;this.view=view;model.on("change:materials change:camera change:renderer",()=>this.load())}async load(){
 this.#loading+=1;const turn=this.#loading;const{model}=this;const references=[model.get("camera"),model.
 get("renderer"),...model.get("materials")];const[camera,renderer,...materials]=await Promise.all(references.
@@ -393,27 +404,28 @@ refresh();this.redraw()}showLegend(){this.legend.show(this.model,Boolean(this.sh
 const first=this.interactive&&!this.marks.targets.length;this.notices.tell(this.model.get("notice"),
 this.painting,first)}fit(){const{model,view,box}=this;view.width=model.get("width");view.height=model.
 get("height");[view.x,view.y,view.unit]=model.get("view");box.style.width=`${view.width}px`;box.style.
-height=`${view.height}px`;this.#see()}reveal(){const{selected,targets,images}=this.marks;const now=selected.
-length===1?selected[0]:void 0;if(now===this.#chosen)return;this.#chosen=now;if(now===void 0||this.pad.
-mode)return;if(inSight(this.view,targets[now])||inSight(this.view,images[now]))return;this.view.centreOn(
-targets[now])}pressedAt(){if(!this.shapes.motion)return void 0;this.#presses=true;return this.#playing.
-pause()}#takeFirst(){const goBack=e=>{if(!this.shapes.motion)return;e.stopImmediatePropagation();e.preventDefault();
-this.#playing.release()};const capture=true;this.box.addEventListener("pointerdown",e=>e.button===2&&
-goBack(e),{capture});const ours=e=>!e.ctrlKey&&!e.metaKey&&KEYS.test(keyOf(e));this.box.addEventListener(
-"keydown",e=>ours(e)&&goBack(e),{capture});const followArrow=e=>{const target=arrowAt(this.view,this.
-marks,this.pad.place(e));if(!target||e.target!==this.box)return;this.view.centreOn(target);e.stopImmediatePropagation()};
-this.box.addEventListener("pointerdown",followArrow,{capture})}#makeCorner(){const look="glid-help-b\
-utton";return make("div",{className:"glid-corner"},this.help.button,iconButton("fit","Full screen (W\
-)",()=>this.room?.fullScreen(),look),iconButton("rectangle","The picture alone (P)",()=>this.room?.alone(),
-look))}#report(){const{busy,refusal}=this.link;if(this.#presses&&this.link.idle&&this.pad.mode===null){
-this.#presses=false;this.#playing.release()}if(!busy&&refusal&&refusal!==this.model.get("notice"))this.
-say(refusal)}#viewMoved(){this.#see();clearTimeout(this.#saving);this.#saving=setTimeout(()=>{const{
-x,y,unit}=this.view;save(this.model,{view:[x,y,unit]})},SAVE_VIEW_AFTER)}#see(){this.shapes.see();this.
-redraw()}#draw(pen){const{model,view,pad,marks,brush}=this;const{motion}=this.shapes;const through=!motion&&
-knobInCorner(view,marks,pad.held);this.corner.classList.toggle("glid-through",through);if(motion)return;
-drawOnion(pen,view,model.get("onion"));drawStiff(pen,view,model.get("stiff"),this.painting);const cursor=pad.
-focused?model.get("cursor"):null;drawMarks(pen,view,marks,{hovered:pad.found?.mark,held:pad.held,cursor});
-if(brush)drawBrush(pen,view,brush,pad);if(pad.encloses&&pad.path.length>2)drawLasso(pen,view,pad.path)}};function render(context){const{model,signal}=context;const canvas=new Canvas(context);follow(model,{
+height=`${view.height}px`;this.room?.shrink();this.#see()}reveal(){const{selected,targets,images}=this.
+marks;const now=selected.length===1?selected[0]:void 0;if(now===this.#chosen)return;this.#chosen=now;
+if(now===void 0||this.pad.mode)return;if(inSight(this.view,targets[now])||inSight(this.view,images[now]))
+return;this.view.centreOn(targets[now])}pressedAt(){if(!this.shapes.motion)return void 0;this.#presses=
+true;return this.#playing.pause()}#takeFirst(){const goBack=e=>{if(!this.shapes.motion)return;e.stopImmediatePropagation();
+e.preventDefault();this.#playing.release()};const capture=true;this.box.addEventListener("pointerdow\
+n",e=>e.button===2&&goBack(e),{capture});const ours=e=>!e.ctrlKey&&!e.metaKey&&KEYS.test(keyOf(e));this.
+box.addEventListener("keydown",e=>ours(e)&&goBack(e),{capture});const followArrow=e=>{const target=arrowAt(
+this.view,this.marks,this.pad.place(e));if(!target||e.target!==this.box)return;this.view.centreOn(target);
+e.stopImmediatePropagation()};this.box.addEventListener("pointerdown",followArrow,{capture})}#makeCorner(){
+const look="glid-help-button";return make("div",{className:"glid-corner"},this.help.button,iconButton(
+"fit","Full screen (W)",()=>this.room?.fullScreen(),look),iconButton("rectangle","The picture alone \
+(P)",()=>this.room?.alone(),look))}#report(){const{busy,refusal}=this.link;if(this.#presses&&this.link.
+idle&&this.pad.mode===null){this.#presses=false;this.#playing.release()}if(!busy&&refusal&&refusal!==
+this.model.get("notice"))this.say(refusal)}#viewMoved(){this.#see();clearTimeout(this.#saving);this.#saving=
+setTimeout(()=>{const{x,y,unit}=this.view;save(this.model,{view:[x,y,unit]})},SAVE_VIEW_AFTER)}#see(){
+this.shapes.see();this.redraw()}#draw(pen){const{model,view,pad,marks,brush}=this;const{motion}=this.
+shapes;const through=!motion&&knobInCorner(view,marks,pad.held);this.corner.classList.toggle("glid-t\
+hrough",through);if(motion)return;drawOnion(pen,view,model.get("onion"));drawStiff(pen,view,model.get(
+"stiff"),this.painting);const cursor=pad.focused?model.get("cursor"):null;drawMarks(pen,view,marks,{
+hovered:pad.found?.mark,held:pad.held,cursor});if(brush)drawBrush(pen,view,brush,pad);if(pad.encloses&&
+pad.path.length>2)drawLasso(pen,view,pad.path)}};function render(context){const{model,signal}=context;const canvas=new Canvas(context);follow(model,{
 "change:width change:height change:view":()=>canvas.fit(),"change:coefficients":()=>canvas.shapes.refresh(),
 "change:marks change:cursor change:onion change:stiff change:brush":()=>canvas.redraw(),"glid:motion":(...shown)=>canvas.
 showMotion(...shown),"change:legend change:panel_legend change:legend_corner":()=>canvas.showLegend(),

@@ -255,8 +255,8 @@ toScreen([0,0]);drawPicture(pen,stage,colors,corner,[width/view.unit,height/view
 !stage.painting){const frame=rectangle(corner,view.toScreen([width,height]));fillPath(pen,[...loops,
 frame],colors.veil)}drawHoles(pen,stage,scene,hover);if(stage.brushing||shown.options.method==="scri\
 bbles")drawStrokes(pen,stage,scene);if(loops.length&&!(stage.drawing&&shown.doubt))drawCage(pen,stage,
-scene,hover);if(stage.drawing)drawOutline(pen,stage,scene);for(const{point}of shown.problems){if(!point)
-continue;circle(pen,view.toScreen(point),13,[[5,HALO],[2.25,colors.warn]])}}function drawPicture(pen,{
+scene,hover);if(stage.drawing||shown.inside.length)drawOutline(pen,stage,scene);for(const{point}of shown.
+problems){if(!point)continue;circle(pen,view.toScreen(point),13,[[5,HALO],[2.25,colors.warn]])}}function drawPicture(pen,{
 bitmap,view},colors,corner,extent){pen.fillStyle=checks(pen,colors);pen.fillRect(...corner,...extent);
 if(!bitmap)return;pen.imageSmoothingEnabled=6*view.unit>1;pen.imageSmoothingQuality="high";pen.drawImage(
 bitmap,...corner,...extent)}function checks(pen,colors){const tile=make("canvas",{width:2*CHECK,height:2*
@@ -296,9 +296,9 @@ V","edit: drag a vertex, double-click an edge to add one, click a hole to drop o
 click, Delete","remove a vertex"],["[ ]","select the vertex before, the next vertex"],["Arrow keys",
 "nudge the selected vertex, with Shift farther"],["Ctrl+Z, Ctrl+Shift+Z","undo, redo"]]],["By hand",
 [["B, N","paint over the shape, over the background"],["I, C","pick the background's colour, the com\
-ponent"],["P, R","draw the outline, a rectangle; Enter closes an outline, Esc discards it"]]],["View",
-[["Wheel, + -, F","zoom after a click on the picture, fit the picture"],["Drag beside the outline","\
-move the view"]]]];var REACH={mouse:9,pen:12,touch:18};var ZOOM=1.25;var MARGIN=24;var HINT=8;var CALLOUT=24;var EDGE=8;
+ponent"],["P, R","draw the outline or a hole in it, a rectangle; Enter closes it, Esc discards it"]]],
+["View",[["Wheel, + -, F","zoom after a click on the picture, fit the picture"],["Drag beside the ou\
+tline","move the view"]]]];var REACH={mouse:9,pen:12,touch:18};var ZOOM=1.25;var MARGIN=24;var HINT=8;var CALLOUT=24;var EDGE=8;
 var MOST_ZOOM=40;var FARTHEST=1e3;var COLORS=["accent","accent-soft","warn","warn-soft","faint","vei\
 l","foreground","background","check-light","check-dark"];var KEYS=/^(Arrow\w+|Delete|Backspace|Escape|Enter|[[\]vbnicpr])$/i;
 var Stage=class{canvas=make("canvas",{className:"glid-canvas",role:"application","aria-label":"Pictu\
@@ -347,21 +347,21 @@ this.colors??=this.#readColors();const below=pad.mode==="pan"?null:pad.found;con
 below;if(shown.size)drawStage(pen,this,this.#scene(shown,this.colors),hover);const[left,top]=view.toScreen(
 [0,0]);this.element.dataset.viewport=`${1/view.unit} ${left} ${top}`;this.#placeCallout(shown);this.
 hintText.textContent=shown.size?this.#hint(hover):""}#scene(shown,colors){return{shown,colors,loops:this.
-loops.map(loop=>this.view.line(loop))}}drawn(){const{path,rests}=this.pad;const now=rests?[this.view.
-toWorld(rests)]:[];if(this.tool==="polygon"){const corners=this.shown?.corners??[];return corners.concat(
-path.length?path:now)}if(!path.length||!now.length)return[];return[...rectangle(path[0],now[0]),path[0]]}#hint(hover){
-const hole=hover?.hole===void 0?void 0:this.shown?.holes[hover.hole];if(hole)return hole.kept?"Click\
- to drop this hole":"Click to keep this hole";if(hover?.edge)return"Double-click to add a vertex her\
-e";if(hover?.vertex)return"Drag to move · right-click or Delete to delete";return TOOLS[this.tool].
-hint}#readColors(){const probe=this.root.appendChild(make("span"));const color=name=>{probe.style.color=
-`var(--glid-${name})`;return getComputedStyle(probe).color};const colors=Object.fromEntries(COLORS.map(
-name=>[name,color(name)]));probe.remove();return colors}#placeCallout(shown){const{callout,view}=this;
-const problem=shown.problems[0];callout.hidden=!problem||this.pad.mode==="pan";if(!problem)return;callout.
-textContent=problem.message;const{offsetWidth:w,offsetHeight:h}=callout;const[x,y]=problem.point?view.
-toScreen(problem.point):[view.width/2,-16];const fitsBelow=!problem.point||y+CALLOUT+h<=view.height;
-const beside=fitsBelow?y+CALLOUT:y-CALLOUT-h;const left=Math.min(Math.max(x-w/2,EDGE),view.width-w-EDGE);
-const top=Math.min(Math.max(beside,EDGE),view.height-h-EDGE);callout.style.transform=`translate(${left}\
-px, ${top}px)`}};var PART=1<<20;var Tracer=class{root=make("div",{className:"glid-skin glid-tracer"});status=make("di\
+loops.map(loop=>this.view.line(loop))}}drawn(){const{path,rests}=this.pad;const inside=this.shown?.inside??
+[];if(inside.length)return[...inside,inside[0]];const now=rests?[this.view.toWorld(rests)]:[];if(this.
+tool==="polygon"){const corners=this.shown?.corners??[];return corners.concat(path.length?path:now)}
+if(!path.length||!now.length)return[];return[...rectangle(path[0],now[0]),path[0]]}#hint(hover){const hole=hover?.
+hole===void 0?void 0:this.shown?.holes[hover.hole];if(hole)return hole.kept?"Click to drop this hole":
+"Click to keep this hole";if(hover?.edge)return"Double-click to add a vertex here";if(hover?.vertex)
+return"Drag to move · right-click or Delete to delete";return TOOLS[this.tool].hint}#readColors(){const probe=this.
+root.appendChild(make("span"));const color=name=>{probe.style.color=`var(--glid-${name})`;return getComputedStyle(
+probe).color};const colors=Object.fromEntries(COLORS.map(name=>[name,color(name)]));probe.remove();return colors}#placeCallout(shown){
+const{callout,view}=this;const problem=shown.problems[0];callout.hidden=!problem||this.pad.mode==="p\
+an";if(!problem)return;callout.textContent=problem.message;const{offsetWidth:w,offsetHeight:h}=callout;
+const[x,y]=problem.point?view.toScreen(problem.point):[view.width/2,-16];const fitsBelow=!problem.point||
+y+CALLOUT+h<=view.height;const beside=fitsBelow?y+CALLOUT:y-CALLOUT-h;const left=Math.min(Math.max(x-
+w/2,EDGE),view.width-w-EDGE);const top=Math.min(Math.max(beside,EDGE),view.height-h-EDGE);callout.style.
+transform=`translate(${left}px, ${top}px)`}};var PART=1<<20;var Tracer=class{root=make("div",{className:"glid-skin glid-tracer"});status=make("di\
 v",{className:"glid-status",role:"status","aria-live":"polite"});constructor({model,el,signal}){this.
 model=model;this.link=new Link(model,this.root,signal,()=>{this.showStatus();if(this.link.idle&&this.
 shown)this.#showTool(this.shown.tool)});this.stage=new Stage(this.root,this.link,file=>this.upload(file),
@@ -369,23 +369,28 @@ signal);this.panel=new Panel((type,content)=>void this.act(type,content),this.st
 map(name=>{const button=iconButton(name,TOOLS[name].label,void 0);button.dataset.tool=name;return button});
 this.undo=iconButton("undo","Undo (Ctrl+Z)",()=>this.act("undo"));this.redo=iconButton("redo","Redo \
 (Ctrl+Shift+Z)",()=>this.act("redo"));this.discard=make("button",{title:"Go back to the outline as t\
-raced",onclick:()=>this.act("discard_edits")},"Discard edits");const keys=help(HELP);this.stage.element.
-append(keys.table);this.stage.actions["?"]=keys.toggle;this.root.append(this.#toolbar(keys.button),make(
-"div",{className:"glid-body"},this.stage.element,this.panel.element),this.status);keysAround(this.stage.
-element,e=>this.stage.pad.keydown(e),signal,this.root);this.root.addEventListener("click",e=>this.#chooseTool(
-e));el.classList.add("glid-host");el.append(this.root)}close(){this.stage.close()}get shown(){const shown=this.
-model.get("shown");return shown.loops?shown:null}act(type,content={},buffers=[]){return this.link.put(
-{type,...content},buffers)}async upload(file){const name=file.name||"the picture";let start=0;let refused=null;
+raced",onclick:()=>this.act("discard_edits")},"Discard edits");this.question=this.#askAbout();this.stage.
+element.append(this.question);const keys=help(HELP);this.stage.element.append(keys.table);this.stage.
+actions["?"]=keys.toggle;this.root.append(this.#toolbar(keys.button),make("div",{className:"glid-bod\
+y"},this.stage.element,this.panel.element),this.status);keysAround(this.stage.element,e=>this.stage.
+pad.keydown(e),signal,this.root);this.root.addEventListener("click",e=>this.#chooseTool(e));el.classList.
+add("glid-host");el.append(this.root)}close(){this.stage.close()}get shown(){const shown=this.model.
+get("shown");return shown.loops?shown:null}act(type,content={},buffers=[]){return this.link.put({type,
+...content},buffers)}async upload(file){const name=file.name||"the picture";let start=0;let refused=null;
 do{const data=await file.slice(start,start+PART).arrayBuffer();const part={name,size:file.size,start,
 buffered:true};refused=await this.act("upload",part,[data]);start+=PART}while(!refused&&start<file.size)}showState(){
 const{shown,stage}=this;if(!shown)return;stage.update(shown);this.panel.update(shown);this.undo.disabled=
-!shown.can_undo;this.redo.disabled=!shown.can_redo;this.discard.hidden=!shown.edited;for(const button of this.
-tools)button.disabled=!shown.size;if(this.link.idle)this.#showTool(shown.tool);this.showStatus()}showStatus(){
-const{shown}=this;if(!shown)return;const{kind,text}=statusOf(shown,this.link.refusal,this.link.busy);
-this.root.dataset.status=kind;this.status.textContent=text}async showPicture(){try{await this.stage.
-setPicture(this.model.get("picture"))}catch(error){const why=error instanceof Error?error.message:error;
-this.link.refusal=`The picture cannot be shown: ${why}`;this.showStatus()}}showHeight(){const height=this.
-model.get("height");this.root.style.setProperty("--glid-height",height?`${height}px`:"")}#toolbar(help2){
+!shown.can_undo;this.redo.disabled=!shown.can_redo;this.discard.hidden=!shown.edited;this.question.hidden=
+!shown.inside.length;for(const button of this.tools)button.disabled=!shown.size;if(this.link.idle)this.#showTool(
+shown.tool);this.showStatus()}showStatus(){const{shown}=this;if(!shown)return;const{kind,text}=statusOf(
+shown,this.link.refusal,this.link.busy);this.root.dataset.status=kind;this.status.textContent=text}async showPicture(){
+try{await this.stage.setPicture(this.model.get("picture"))}catch(error){const why=error instanceof Error?
+error.message:error;this.link.refusal=`The picture cannot be shown: ${why}`;this.showStatus()}}showHeight(){
+const height=this.model.get("height");this.root.style.setProperty("--glid-height",height?`${height}p\
+x`:"")}#askAbout(){const answer=(label,what)=>{const onclick=()=>{this.act("drawn_as",{what});this.stage.
+canvas.focus({preventScroll:true})};return make("button",{onclick},label)};return make("div",{className:"\
+glid-question",role:"group","aria-label":"What you drew",hidden:true},"What you drew lies inside the\
+ shape. It is ",answer("a hole","hole"),answer("the new outline","outline"),answer("nothing",""))}#toolbar(help2){
 const input=make("input",{type:"file",accept:"image/*",hidden:true});input.addEventListener("change",
 ()=>{if(input.files?.[0])this.upload(input.files[0])});const open=iconButton("open","Open a picture",
 ()=>{input.value="";input.click()});const{stage}=this;return make("div",{className:"glid-toolbar",role:"\

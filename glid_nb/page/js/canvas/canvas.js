@@ -172,6 +172,7 @@ export class Canvas {
     [view.x, view.y, view.unit] = model.get("view");
     box.style.width = `${view.width}px`;
     box.style.height = `${view.height}px`;
+    this.room?.shrink();
     this.#see();
   }
 

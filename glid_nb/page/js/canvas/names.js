@@ -42,7 +42,7 @@ function isNamed(control) {
 }
 
 /**
- * The tooltip of a control, or the label or the tooltip of its widget.
+ * The tooltip of a control, or the label or the tooltip of its widget, or a label before the widget.
  *
  * @param {Element} control
  */
@@ -52,5 +52,12 @@ function nameAround(control) {
   if (control.matches(".glid-plots, .glid-plots *")) return "Plots of the solve";
   const widget = control.closest(".jupyter-widgets");
   const label = widget?.querySelector(".widget-label")?.textContent?.trim();
-  return label || widget?.getAttribute("title") || "";
+  return label || widget?.getAttribute("title") || labelBefore(widget ?? control);
+}
+
+/** @param {Element} one */
+function labelBefore(one) {
+  let before = one.previousElementSibling;
+  while (before && !before.matches(".widget-label")) before = before.previousElementSibling;
+  return before?.textContent?.trim() ?? "";
 }

@@ -240,7 +240,10 @@ export class Pad {
     this.#pans = left && Boolean(behaviour.pans?.(found, e));
     this.encloses = left && !behaviour.painting ? behaviour.encloses?.(found, e) : null;
     this.path = left ? [this.view.toWorld(place)] : [];
-    this.send("down", place, e, { part: found?.part, at: left ? behaviour.pressedAt?.() : undefined });
+    this.send("down", place, e, {
+      part: found?.part,
+      at: left ? behaviour.pressedAt?.() : undefined,
+    });
     if (e.pointerType === "touch" && behaviour.menu && !behaviour.painting) {
       this.#longPress = setTimeout(() => this.#pressedLong(e, place), LONG_PRESS);
     }
