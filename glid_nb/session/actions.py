@@ -55,19 +55,22 @@ def add_handles(state: EditState, points: ArrayLike, targets: ArrayLike | None =
 
 
 def remove_handles(state: EditState, indices: Iterable[int], keep_shape: bool = False) -> EditState:
-    """Remove some handles. With ``keep_shape`` the map stays, and the pose counts as solved."""
+    """Remove some handles. The last one leaves the undeformed shape behind.
+
+    With ``keep_shape`` the map stays, and the pose counts as solved.
+    """
     kept = np.setdiff1d(np.arange(len(state.pose)), _checked_indices(state, indices))
     pose = state.pose.only(kept)
     if not keep_shape:
-        return state.changed(pose=pose)
+        return _relaxed(state, pose)
     if not state.current.solved:
         raise EditError("the shape is still moving; wait until it has come to rest to keep it")
     return state.with_current(replace(state.current, pose=pose))
 
 
 def clear_handles(state: EditState) -> EditState:
-    """Remove all handles; the shape relaxes."""
-    return state.changed(pose=state.pose.only([]))
+    """Remove all handles; the shape is the undeformed one again."""
+    return _relaxed(state, state.pose.only([]))
 
 
 def move_targets(state: EditState, indices: Iterable[int], targets: ArrayLike) -> EditState:
@@ -300,6 +303,11 @@ def _with_inserted(
     poses = (*state.poses[:index], copy, *state.poses[index:])
     timeline = state.timeline.inserted(index, time)
     return replace(state, poses=poses, active=index, timeline=timeline)
+
+
+def _relaxed(state: EditState, pose: Pose) -> EditState:
+    """The state with fewer handles. Without any, nothing would say where the shape is."""
+    return state.changed(pose=pose) if len(pose) else state.changed(pose=pose, map=state.identity)
 
 
 def _points(values: ArrayLike, name: str) -> Array:

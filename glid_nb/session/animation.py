@@ -18,7 +18,7 @@ from glid_nb.session.deformation import Deformation
 from glid_nb.session.document import AS_SEEN, NamedPose
 from glid_nb.session.edit_state import EditError, EditState, Moment
 from glid_nb.session.model import Observed
-from glid_nb.session.timeline import on_grid, thinned
+from glid_nb.session.timeline import LEAST_GAP, on_grid, thinned
 from glid_nb.session.worker import LatestWins, weakly
 
 _THINNED = 0.02  # largest error of a recorded target, as a share of the cage's longer side
@@ -106,6 +106,16 @@ class Animation(Observed):
         if piece is None:
             raise EditError(f"nothing is proved at {time:.2f} s, so there is no shape to keep")
         return self.deformation.keep_between(time, piece.at(time))
+
+    def go_to(self, time: float) -> None:
+        """Edit the pose at a time: that of a keyframe, or else a new one, as `keep` makes it."""
+        state = self.deformation.state
+        far = np.abs(np.subtract(state.timeline.closed_times, round(time, 2)))
+        nearest = int(far.argmin())
+        if far[nearest] < LEAST_GAP:
+            self.deformation.go_to_pose(nearest % len(state.poses))
+        else:
+            self.keep(time)
 
     def record(self, on: bool) -> None:
         """Set whether the next drag becomes keyframes."""

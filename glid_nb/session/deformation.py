@@ -200,7 +200,10 @@ class Deformation(Undoable[EditState], AbstractContextManager["Deformation"]):
             return tuple(range(before, len(self.pose)))
 
     def remove_handles(self, *indices: int, keep_shape: bool = False) -> None:
-        """Remove handles. Then the shape relaxes; with ``keep_shape`` it stays until a change."""
+        """Remove handles. Then the shape relaxes, without handles to the undeformed one.
+
+        With ``keep_shape`` it stays until a change.
+        """
         self.apply(actions.remove_handles, indices, keep_shape)
 
     def set_domain(self, domain: Domain) -> None:

@@ -288,6 +288,22 @@ class TracingModel(Undoable[TracingState]):
         loop = frame.to_world(loop_edits.drawn(outline, size))
         self.set_loops((read_only(loop),))
 
+    def draw_hole(self, outline: ArrayLike) -> None:
+        """Cut a hole drawn by hand, (k, 2) pixels, out of the shown shape."""
+        frame = self._frame_of_picture()
+        loop = frame.to_world(loop_edits.drawn(outline, (frame.width, frame.height)))
+        self._edit(lambda loops: (*loops, read_only(loop)))
+
+    def holds(self, outline: ArrayLike) -> bool:
+        """Whether an outline drawn by hand, (k, 2) pixels, lies inside the shape, which is no
+        guess."""
+        frame, (exterior, *holes) = self._frame_of_picture(), self.outcome.loops or ((),)
+        if not len(exterior) or self.doubt or self.outcome.problems:
+            return False
+        loop = frame.to_world(loop_edits.drawn(outline, (frame.width, frame.height)))
+        whole = shapely.Polygon(exterior, holes)
+        return bool(shapely.contains_properly(whole, shapely.Polygon(loop)))
+
     def return_to(self, state: TracingState) -> None:
         """Restore an earlier state, with its fallback, as a new step."""
         with self.locked():

@@ -52,6 +52,7 @@ class BrushGestures(PinGestures):
 
     def _up(self, event: Event) -> None:
         if self.brush.tool and self._press is None and event.get("path"):
+            self._enter_motion()
             self._paint(np.array(event["path"], dtype=float), event["unit"])
         else:
             super()._up(event)

@@ -28,6 +28,9 @@ _DEPTHS = {"PageUp": 1, "]": 1, "PageDown": -1, "[": -1}
 _TURNS = {"<": (np.radians(5), 1.0), ">": (np.radians(-5), 1.0)}  # angle and scale
 _TURNS |= {"+": (0.0, 1.05), "=": (0.0, 1.05), "-": (0.0, 1 / 1.05)}
 _LEAST_SCALE, _LARGEST_SCALE = 0.05, 20.0  # limits of scales set by dragging
+_LEVER = 12.0  # pixels from a pin: nearer to it, the pointer gives no direction
+# A knob's drag turns, or scales, only beyond these: an angle, and the logarithm of a ratio.
+_LEAST_TURN, _LEAST_SCALING = 0.06, 0.12
 
 
 class Gestures:
@@ -70,9 +73,12 @@ class _PinPress:
     targets: Array | None
     """The dragged targets when the pointer was at ``start``; None without a handle."""
     dragging: bool = False
-    part: str = ""  # the pressed part of the ring around a handle: "turn" or "scale"
+    part: str = ""
+    """The pressed part of the ring around a handle: "turn", or "knob", which scales too."""
     turned: tuple[Array, Array] | None = None
     """Angles and scales of the selected handles when the pointer was at ``start``."""
+    turns: bool = False
+    scales: bool = False
 
 
 class PinGestures(Gestures):
@@ -83,12 +89,17 @@ class PinGestures(Gestures):
         self, deformation: Deformation, fit: Callable[[], None], image: Array | None = None
     ) -> None:
         actions = {kind: getattr(self, f"_{kind}") for kind in (*OF_A_HAND, "pin")}
+        actions["down"] = self._down_at
         actions["paste_pose"] = asked(deformation.paste_pose, "text")
         super().__init__(deformation, actions)
         self.deformation, self._image = deformation, image
         self._fit = fit
         self._press: _PinPress | None = None
         self.copy: Callable[[str], None] = lambda _: None  # copies text to the clipboard
+        self.go_to: Callable[[float, Array], bool] = lambda _time, _point: True
+        """Edits the pose that the timeline shows at a time, if it is drawn at a point (2,). Returns
+        whether it is. The timeline sets this."""
+        self._waiting: Event | None = None  # a press into a motion, until it is a drag
         self.cursor: list[float] | None = None  # the place of the keyboard's cursor
 
     def hit(self, point: Array, reach: float) -> int | None:
@@ -107,6 +118,18 @@ class PinGestures(Gestures):
                 return nearest
         return None
 
+    def _down_at(self, event: Event) -> None:
+        """Press. While a motion is shown, a press tells its time, and waits for a drag."""
+        self._waiting = None if event.get("at") is None else event
+        if self._waiting is None:
+            self._down(event)
+
+    def _enter_motion(self) -> None:
+        """Edit the pose that was shown when a waiting press came, and press there."""
+        event, self._waiting = self._waiting, None
+        if event is not None and self.go_to(float(event["at"]), place(event)):
+            self._down(event)
+
     def _source(self, point: Array) -> Array | None:
         return self.deformation.sheets(self._image).source(point)
 
@@ -121,10 +144,9 @@ class PinGestures(Gestures):
         if event["button"] != LEFT:
             return
         if hit is None and (part := event.get("part")) and model.selection:
-            turned = turned_now(model.state, model.selection)
             # A click on the ring's line without a turn pins the point below it.
             source = self._source(point) if part == "turn" else None
-            self._press = _PinPress(point, source, None, part=part, turned=turned)
+            self._press = self._turning(point, source, part)
         elif hit is None:
             source = None if event["shift"] else self._source(point)
             self._press = _PinPress(point, source, None)
@@ -134,17 +156,29 @@ class PinGestures(Gestures):
         else:
             if hit not in model.selection:
                 model.select([hit])
-            self._press = _PinPress(point, None, model.pose.targets[list(model.selection)])
+            if event.get("alt"):
+                self._press = self._turning(point, None, "turn")
+            else:
+                self._press = _PinPress(point, None, model.pose.targets[list(model.selection)])
+
+    def _turning(self, point: Array, source: Array | None, part: str) -> _PinPress:
+        turned = turned_now(self.deformation.state, self.deformation.selection)
+        return _PinPress(point, source, None, part=part, turned=turned, turns=part == "turn")
 
     def _move(self, event: Event) -> None:
-        press, model, point = self._press, self.deformation, place(event)
+        model, point = self.deformation, place(event)
+        if self._waiting is not None:
+            far = np.linalg.norm(point - place(self._waiting))
+            if far > _SLOP_ON_SHAPE * event["unit"]:
+                self._enter_motion()
+        press = self._press
         if press is None:
             return
         slop = _SLOP if press.part or press.targets is not None else _SLOP_ON_SHAPE
         if not press.dragging and np.linalg.norm(point - press.start) <= slop * event["unit"]:
             return
         if press.part:
-            self._turn(press, point)
+            self._turn(press, point, _LEVER * event["unit"])
             return
         if press.targets is None and press.source is not None:
             # Dragging the shape itself pins the point below the pointer.
@@ -166,20 +200,28 @@ class PinGestures(Gestures):
             self._press = None
         return self._press is not None
 
-    def _turn(self, press: _PinPress, point: Array) -> None:
-        """Turn or scale the selected handles when the pointer moves around the last of them."""
+    def _turn(self, press: _PinPress, point: Array, lever: float) -> None:
+        """Turn and scale the selected handles when the pointer moves around the last of them."""
         model = self.deformation
         if not self._drags(press):
             return
         assert press.turned is not None
         centre, (angles, scales) = model.pose.targets[model.dragged[-1]], press.turned
         before, now = ((place - centre) @ [1, 1j] for place in (press.start, point))
+        if abs(before) < lever:  # pressed on the pin itself: the drag begins beside it
+            press.start = point
+            return
         if abs(now) == 0 or len(angles) != len(model.dragged):
             return
-        wanted = {"angles": wrapped(angles + np.angle(now / before))}
-        if press.part == "scale":
-            scales = (scales * abs(now / before)).clip(_LEAST_SCALE, _LARGEST_SCALE)
-            wanted = {"scales": scales}
+        angle, ratio = np.angle(now / before), abs(now / before)
+        if press.part == "knob":
+            press.turns |= abs(angle) > _LEAST_TURN
+            press.scales |= abs(np.log(ratio)) > _LEAST_SCALING
+        wanted = {"angles": wrapped(angles + angle)} if press.turns else {}
+        if press.scales:
+            wanted["scales"] = (scales * ratio).clip(_LEAST_SCALE, _LARGEST_SCALE)
+        if not wanted:
+            return
         try:
             model.drag_pins(**wanted)
         except InputError:  # the method cannot
@@ -187,7 +229,7 @@ class PinGestures(Gestures):
             raise
 
     def _up(self, event: Event) -> None:
-        press, self._press = self._press, None
+        press, self._press, self._waiting = self._press, None, None
         path = event.get("path") or ()
         if event.get("encloses") and len(path) > 2:  # a box or a lasso
             inside = shapely.make_valid(shapely.Polygon(path))
@@ -205,7 +247,7 @@ class PinGestures(Gestures):
                 self.deformation.select([])
 
     def _cancel(self, _: Event) -> None:
-        self._press = None
+        self._press = self._waiting = None
         self.deformation.cancel_drag()
 
     def _pin(self, event: Event) -> None:

@@ -11,6 +11,7 @@ from glid_nb.session.deformation import Deformation
 from glid_nb.session.edit_state import EditError
 from glid_nb.widgets.controls import EditControls, button
 
+_NO_PIN, _SEVERAL = -1, -2  # in the list, where pins have their indices
 _NOTHING = Pose([(0, 0)], [(0, 0)])  # shown in the fields while nothing is selected
 # For each field: what to type, the limits, and whether an empty field means free.
 _PLACE = "a coordinate, such as 7.5", -1e9, 1e9, False
@@ -41,7 +42,7 @@ class PinBar(EditControls):
         style = {"description_width": "initial"}
         late: dict[str, Any] = {"style": style, "continuous_update": False}
         shown: Any = {"tooltip": "The selected pin", "layout": {"width": "94px"}}
-        self.list = ipywidgets.Dropdown(options=[("No pin", -1)], **shown)
+        self.list = ipywidgets.Dropdown(options=[("No pin", _NO_PIN)], **shown)
         shown = {"tooltip": "The selected pin's name", "layout": {"width": "90px"}}
         self.name = ipywidgets.Text(placeholder="name", **shown, **late)
 
@@ -71,7 +72,11 @@ class PinBar(EditControls):
             target[axis] = _number(text, *_PLACE)
             model.move_target(model.selection[-1], target)
 
-        self._bind(self.list, lambda chosen: model.select([] if chosen == -1 else [chosen]))
+        def choose(chosen: int) -> None:
+            if chosen != _SEVERAL:
+                model.select([] if chosen == _NO_PIN else [chosen])
+
+        self._bind(self.list, choose)
         self._bind(self.name, lambda name: model.name_pin(model.selection[-1], name))
         self._bind(self.x, lambda text: move(0, text))
         self._bind(self.y, lambda text: move(1, text))
@@ -105,10 +110,11 @@ class PinBar(EditControls):
     def _show(self) -> None:
         pose, selection = self.deformation.pose, self.deformation.selection
         pins = (f"{i} {name}" if name else f"Pin {i}" for i, name in enumerate(pose.names, 1))
-        names = (("No pin", -1), *((pin, i) for i, pin in enumerate(pins)))
+        several = ((f"{len(selection)} pins", _SEVERAL),) if len(selection) > 1 else ()
+        names = (("No pin", _NO_PIN), *several, *((pin, i) for i, pin in enumerate(pins)))
         if self.list.options != names:
             self.list.options = names
-        self.list.value = selection[-1] if selection else -1
+        self.list.value = _SEVERAL if several else next(iter(selection), _NO_PIN)
         for control in self._of_a_pin:
             control.disabled = not selection
         self.mirror.disabled = not len(pose)

@@ -10,7 +10,9 @@ import numpy as np
 import traitlets
 from PIL import Image
 
+from glid_nb._arrays import Array
 from glid_nb.harmonic import HarmonicMap
+from glid_nb.imaging.order import Sheets
 from glid_nb.imaging.render import render
 from glid_nb.imaging.texture import Texture
 from glid_nb.page import bundle, stylesheet
@@ -79,6 +81,7 @@ class TimelinePanel(Pad):
         actions |= {k: asked(getattr(model, k), "index") for k in _OF_A_POSE}
         actions |= {"undo": asked(model.undo), "redo": asked(model.redo)}
         self._gestures = Gestures(model, actions)
+        canvas.gestures.go_to = self._go_to
         self.serve(model, self._on_events)
         canvas.observe(lambda _: self._show("state"), ["show_onion"])
         canvas.pane.stage.observe(lambda _: self._show("motion"), ["materials"])
@@ -106,6 +109,17 @@ class TimelinePanel(Pad):
             self.canvas.show_between(None)
         else:
             self.canvas.show_between(map_, self.animation.order(time))
+
+    def _go_to(self, time: float, point: Array) -> bool:
+        """Edit the pose at a time, if it is drawn at a point (2,). Returns whether it is."""
+        animation = self.animation
+        if (map_ := animation.at(time)) is None:
+            return True
+        drawn = Sheets(map_, animation.order(time), self.canvas.image)
+        if drawn.source(point) is None:
+            return False  # a press beside the shape makes no keyframe
+        animation.go_to(time)
+        return True
 
     def _show(self, what: str) -> None:
         with self.canvas.deformation.locked():

@@ -164,6 +164,7 @@ def _of_hand(gestures: TraceGestures) -> dict[str, Any]:
     return {
         "tool": gestures.tool,
         "corners": [list(corner) for corner in gestures.corners],
+        "inside": gestures.inside,
         "selected": [list(vertex) for vertex in gestures.selected],
     }
 

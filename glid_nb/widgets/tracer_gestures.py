@@ -55,12 +55,15 @@ class TraceGestures(Gestures):
         plain = ("clear_scribbles", "discard_edits", "redo", "draw")
         actions = {kind: getattr(self, f"_{kind}") for kind in own}
         actions |= {kind: asked(getattr(model, kind)) for kind in plain}
+        actions["drawn_as"] = self._drawn_as
         actions["toggle_hole"] = asked(model.toggle_hole, "number")
         actions["set_options"] = lambda e: model.set_options(e.get("gesture"), **e["changes"])
         super().__init__(model, actions)
         self.model = model
         self.tool = "edit"  # the tool of the left button, one of the values of _TOOLS
         self.corners: tuple[tuple[float, float], ...] = ()  # of an unfinished polygon
+        self.inside: list[Any] = []
+        """An outline that was drawn inside the shape; the page asks what it should be."""
         self._selected: tuple[Vertex, ...] = ()
         self._press: _TracerPress | None = None
         self._last_click = (-np.inf, np.zeros(2))
@@ -95,6 +98,7 @@ class TraceGestures(Gestures):
     def _down(self, event: Event) -> None:
         if self.model.image is None:
             return
+        self.inside = []
         point = place(event)
         found = self.find(point, event["reach"]) if self.tool == "edit" else Found()
         vertex = found.vertex
@@ -156,8 +160,19 @@ class TraceGestures(Gestures):
 
     def _draw(self, outline: Sequence[Any]) -> None:
         self.corners = ()
-        self.model.draw(outline)
+        if self.model.holds(outline):
+            self.inside = np.asarray(outline, dtype=float).tolist()
+        else:
+            self.model.draw(outline)
         self.tool = "edit"
+
+    def _drawn_as(self, event: Event) -> None:
+        """The outline inside the shape is a "hole", or the new "outline"; else it is dropped."""
+        outline, self.inside = self.inside, []
+        if outline and event["what"] == "hole":
+            self.model.draw_hole(outline)
+        elif outline and event["what"] == "outline":
+            self.model.draw(outline)
 
     def _click(self, found: Found, event: Event) -> None:
         point, (before, at) = place(event), self._last_click
@@ -187,6 +202,8 @@ class TraceGestures(Gestures):
         if key == "Escape":
             if self._press is not None:
                 self._cancel(event)
+            elif self.inside:
+                self.inside = []
             elif self.corners:
                 self.corners = ()
             elif self.tool != "edit":
@@ -206,7 +223,7 @@ class TraceGestures(Gestures):
         elif key == "redo":
             self.model.redo()
         elif key.lower() in _TOOLS:
-            self.tool, self.corners = _TOOLS[key.lower()], ()
+            self.tool, self.corners, self.inside = _TOOLS[key.lower()], (), []
 
     def _nudge(self, event: Event) -> None:
         """Move the selected vertex. Keys in quick succession are one step for undo."""
@@ -231,11 +248,13 @@ class TraceGestures(Gestures):
     def _tool(self, event: Event) -> None:
         if event["name"] not in _TOOLS.values():
             raise TraceError(f"there is no tool {event['name']!r}")
-        self.tool, self.corners = event["name"], ()
+        self.tool, self.corners, self.inside = event["name"], (), []
 
     def _undo(self, event: Event) -> None:
         if self._press is not None:
             self._cancel(event)
+        elif self.inside:
+            self.inside = []
         elif self.corners:
             self.corners = self.corners[:-1]
         else:

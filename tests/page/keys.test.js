@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { menuRows } from "../../glid_nb/page/js/canvas/context_menu.js";
-import { undoOrRedo } from "../../glid_nb/page/js/pad/keys.js";
+import { keyOf, undoOrRedo } from "../../glid_nb/page/js/pad/keys.js";
 
 const PLAIN = { ctrlKey: false, metaKey: false, shiftKey: false };
 
@@ -13,6 +13,26 @@ test("Ctrl or Cmd with Z undoes, with Shift and Z or with Y redoes", () => {
   assert.equal(undoOrRedo({ ...PLAIN, key: "y", ctrlKey: true }), "redo");
   assert.equal(undoOrRedo({ ...PLAIN, key: "z" }), null);
   assert.equal(undoOrRedo({ ...PLAIN, key: "a", ctrlKey: true }), null);
+});
+
+test("keyboards of other scripts have the shortcuts of Latin ones, by the place of a key", () => {
+  for (const key of ["я", "ζ", "ז", "ئ"]) {
+    assert.equal(undoOrRedo({ ...PLAIN, key, code: "KeyZ", ctrlKey: true }), "undo");
+  }
+  assert.equal(
+    undoOrRedo({ ...PLAIN, key: "Я", code: "KeyZ", ctrlKey: true, shiftKey: true }),
+    "redo",
+  );
+  assert.equal(keyOf({ key: "х", code: "BracketLeft" }), "[");
+  assert.equal(keyOf({ key: "Ю", code: "Period", shiftKey: true }), ">");
+  assert.equal(keyOf({ key: "٠", code: "Digit0" }), "0");
+});
+
+test("Latin keyboards of any arrangement say themselves what they type", () => {
+  assert.equal(keyOf({ key: "w", code: "KeyZ" }), "w"); // French
+  assert.equal(keyOf({ key: "ö", code: "Semicolon" }), "ö");
+  assert.equal(keyOf({ key: "Escape", code: "Escape" }), "Escape");
+  assert.equal(keyOf({ key: "Dead", code: "Equal" }), "Dead");
 });
 
 /**

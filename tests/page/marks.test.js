@@ -13,6 +13,7 @@ import {
 } from "../../glid_nb/page/js/canvas/marks.js";
 import { View } from "../../glid_nb/page/js/pad/view.js";
 
+/** @import { Point } from "../../glid_nb/page/js/types.js" */
 /** @import { Marks } from "../../glid_nb/page/js/canvas/traits.js" */
 
 function view() {
@@ -67,13 +68,30 @@ test("the ring is around the pin that was selected last, where the hand holds it
   assert.equal(dial(view(), marks({ ring: [] })), null);
 });
 
-test("the knob scales, the ring turns, and inside it is nothing", () => {
+test("the knob turns and scales, the ring turns, and inside it is nothing", () => {
   const ring = dial(view(), marks());
   assert.ok(ring);
   assert.deepEqual(ring.knob, [242, 150]);
-  assert.deepEqual(ringAt(view(), marks(), ring.knob, 5), { part: "scale" });
+  assert.deepEqual(ringAt(view(), marks(), ring.knob, 5), { part: "knob" });
   assert.deepEqual(ringAt(view(), marks(), [200, 108], 5), { part: "turn" });
   assert.equal(ringAt(view(), marks(), [200, 150], 5), null);
+});
+
+test("the knob stays inside the view, and off its pin", () => {
+  for (const target of /** @type {Point[]} */ ([
+    [19, 0],
+    [-19.9, 14.9],
+    [19.9, -14.9],
+    [0, 14.9],
+  ])) {
+    for (let angle = -3; angle <= 3; angle += 0.25) {
+      const ring = dial(view(), marks({ targets: [target], ring: [angle, 1, true, false] }));
+      assert.ok(ring);
+      const [x, y] = ring.knob;
+      assert.ok(x >= 10 && x <= 390 && y >= 10 && y <= 290, `${target} ${angle}: ${x} ${y}`);
+      assert.ok(Math.hypot(x - ring.centre[0], y - ring.centre[1]) > 20);
+    }
+  }
 });
 
 test("the corner's buttons let the knob below them through", () => {

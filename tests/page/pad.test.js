@@ -24,8 +24,11 @@ class FakeElement extends EventTarget {
   matches() {
     return true;
   }
+  offsetWidth = 400;
+  offsetHeight = 300;
+  box = { left: 0, top: 0, width: 400, height: 300 };
   getBoundingClientRect() {
-    return { left: 0, top: 0 };
+    return this.box;
   }
 }
 
@@ -211,13 +214,34 @@ test("the cursor tells what is below the pointer, and what is held", () => {
   assert.equal(element.style.cursor, "grabbing");
 });
 
-test("a wheel zooms, but where it needs the focus only with it", () => {
-  const focused = padWith({ wheelNeedsFocus: true });
+test("a wheel zooms with the focus; else it scrolls the page, unless the pad is the page", () => {
   const wheel = { deltaY: 100, deltaMode: 0, clientX: 0, clientY: 0 };
-  focused.fire("wheel", wheel);
-  assert.ok(focused.view.unit > 0.1);
-  const elsewhere = padWith({ wheelNeedsFocus: true });
-  elsewhere.element.matches = () => false;
-  elsewhere.fire("wheel", wheel);
-  assert.equal(elsewhere.view.unit, 0.1);
+  const wheeled = (/** @type {boolean} */ focused, /** @type {boolean} */ ownsWheel, more = {}) => {
+    const { element, fire, view } = padWith({ ownsWheel });
+    element.matches = () => focused;
+    const { defaultPrevented } = fire("wheel", { ...wheel, ...more });
+    assert.equal(view.unit > 0.1, defaultPrevented);
+    return defaultPrevented;
+  };
+  assert.equal(wheeled(true, false), true);
+  assert.equal(wheeled(false, false), false);
+  assert.equal(wheeled(false, false, { ctrlKey: true }), true); // a pinch on a touchpad
+  assert.equal(wheeled(false, true), true);
+});
+
+test("a pad that the page has zoomed or scaled finds the pointer in its own pixels", () => {
+  const { element, pointer, sent } = padWith();
+  element.box = { left: 50, top: 20, width: 500, height: 150 };
+  pointer("down", 50 + 1.25 * 220, 20 + 0.5 * 140);
+  assert.deepEqual([sent[0].x, sent[0].y], [2, 1]);
+});
+
+test("keys of other scripts go to the kernel by their places", () => {
+  const { fire, sent } = padWith();
+  fire("keydown", { key: "ф", code: "KeyA" });
+  fire("keydown", { key: "я", code: "KeyZ", ctrlKey: true });
+  assert.deepEqual(
+    sent.map(({ key }) => key),
+    ["a", "undo"],
+  );
 });

@@ -1,7 +1,7 @@
 // Playing a motion, frame by frame.
 
 import assert from "node:assert/strict";
-import { beforeEach, test } from "node:test";
+import { beforeEach, mock, test } from "node:test";
 import { Player } from "../../glid_nb/page/js/timeline/player.js";
 import { Frames } from "./fakes.js";
 
@@ -18,14 +18,16 @@ beforeEach(() => {
 function playing(repeat) {
   /** @type {[number[] | null, number | undefined][]} */
   const shown = [];
+  const ended = mock.fn();
   const player = new Player(
     (floats, time) => void shown.push([floats && [...floats], time]),
     () => {},
+    ended,
   );
   const first = { start: 0, end: 1, times: [0, 1], floats: new Float32Array([0, 10]) };
   const half = { start: 1, end: 2, times: [1, 1.5], floats: new Float32Array([10, 20]) };
   player.set([first, half], repeat);
-  return { player, shown };
+  return { player, shown, ended };
 }
 
 /** @param {number} now */
@@ -51,13 +53,14 @@ test("beyond what is proved the last proved instant stays", () => {
 });
 
 test("a motion that plays once ends at its end, and then begins anew", async () => {
-  const { player } = playing("once");
+  const { player, ended } = playing("once");
   player.play();
   await frame(0);
   await frame(1500);
   assert.ok(player.playing);
   await frame(2500);
   assert.ok(!player.playing);
+  assert.equal(ended.mock.callCount(), 1); // its last keyframe is selected
   assert.equal(player.time, 2);
   player.play();
   assert.equal(player.time, 0);

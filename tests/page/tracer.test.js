@@ -41,6 +41,7 @@ function shown(changes = {}) {
     discarded: false,
     tool: "edit",
     corners: [],
+    inside: [],
     selected: [],
     ...changes,
   };

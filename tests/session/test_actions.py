@@ -89,6 +89,17 @@ def test_handles_are_removed_and_cleared(state: EditState) -> None:
     assert len(actions.clear_handles(state).pose) == 0
 
 
+def test_a_shape_without_pins_is_at_rest(state: EditState) -> None:
+    ring = state.domain
+    phi = state.map.phi.copy()
+    phi[: len(ring.offset_cage.exterior)] += 10
+    aside = HarmonicMap(ring, phi, state.map.psi)
+    moved = state.changed(map=aside)
+    assert actions.remove_handles(moved, [0]).map is aside
+    assert actions.remove_handles(moved, [0, 1]).map is moved.identity
+    assert actions.clear_handles(moved).map is moved.identity
+
+
 def test_targets_move_and_are_nudged(state: EditState) -> None:
     moved = actions.move_targets(state, [1], (-3, 1))
     assert moved.pose.targets.tolist() == [[2.5, 0], [-3, 1]]

@@ -60,6 +60,9 @@ CHROMIUM_FLAGS = (
     "--host-resolver-rules=MAP * ~NOTFOUND, EXCLUDE 127.0.0.1",
 )
 
+# As a user's browser draws, which shows other frames. With it the tests would take longer.
+GPU_RASTER_FLAGS = tuple(flag for flag in CHROMIUM_FLAGS if not flag.startswith("--disable-gpu-"))
+
 # Messages of pages that are not our fault. Every other message of the kind "error" fails a test.
 _HARMLESS = (
     # A server without jupyter-lsp, which JupyterLab asks for.

@@ -585,11 +585,13 @@ def test_the_numbers_of_pins_and_the_model_show_each_other() -> None:
         assert bar.x.disabled
         model.add_handles([(2, 0), (-2, 0.25)])
         model.select([0, 1])
-        assert [name for name, _ in bar.list.options] == ["No pin", "Pin 1", "Pin 2"]
-        assert (bar.list.value, bar.x.value, bar.y.value, bar.depth.value) == (1, "-2", "0.25", "0")
+        assert [name for name, _ in bar.list.options] == ["No pin", "2 pins", "Pin 1", "Pin 2"]
+        assert bar.list.label == "2 pins"
+        assert (bar.x.value, bar.y.value, bar.depth.value) == ("-2", "0.25", "0")
         bar.name.value = "tail"
         assert model.pose.names.tolist() == ["", "tail"]
-        assert [name for name, _ in bar.list.options] == ["No pin", "Pin 1", "2 tail"]
+        names = ["No pin", "2 pins", "Pin 1", "2 tail"]
+        assert [name for name, _ in bar.list.options] == names
         bar.back.click()
         assert model.pose.depths.tolist() == [-1, -1]
         assert bar.depth.value == "-1"

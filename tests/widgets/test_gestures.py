@@ -190,8 +190,9 @@ def test_the_ring_turns_and_scales_in_one_step_each(hand: Hand) -> None:
     hand.drag((3, 0), (2, 1), (1, 0.001), part="turn")
     np.testing.assert_allclose(model.pose.angles, [np.pi - 0.001], atol=1e-6)
     assert np.isnan(model.pose.scales).all()
-    hand.drag((2, 1), (2, 2), (2, 1.5), part="scale")
+    hand.drag((2, 1), (2, 2), (2, 1.5), part="knob")
     np.testing.assert_allclose(model.pose.scales, [1.5])
+    np.testing.assert_allclose(model.pose.angles, [np.pi - 0.001], atol=1e-6)
     np.testing.assert_allclose(model.pose.targets, [[2, 0]], atol=1e-9)
     hand.click(3, 0, part="turn")  # nothing is pinned on the ring, nothing moves
     assert len(model.pose) == 1
@@ -202,6 +203,22 @@ def test_the_ring_turns_and_scales_in_one_step_each(hand: Hand) -> None:
     assert not model.pose.oriented.any()
     model.undo()
     assert not len(model.pose)
+
+
+@pytest.mark.slow
+def test_one_knob_turns_and_scales_and_alt_turns_a_pin(hand: Hand) -> None:
+    model = hand.model
+    hand.click(2, 0)
+    hand.drag((3, 0), (2, 1.02), part="knob")  # nearly a circle
+    np.testing.assert_allclose(model.pose.angles, [np.pi / 2])
+    assert np.isnan(model.pose.scales).all()
+    hand.drag((3, 0), (2, 2), part="knob")
+    np.testing.assert_allclose(model.pose.angles, [np.pi])
+    np.testing.assert_allclose(model.pose.scales, [2])
+    # From the pin itself: its first direction is where the turn begins.
+    hand.drag((2, 0), (2.5, 0), (2, 1), alt=True)
+    np.testing.assert_allclose(abs(model.pose.angles), [np.pi / 2])
+    np.testing.assert_allclose(model.pose.targets, [[2, 0]], atol=1e-9)
 
 
 def test_a_method_on_a_mesh_refuses_the_ring(hand: Hand) -> None:

@@ -98,6 +98,44 @@ def test_the_page_is_given_what_is_proved_and_its_events_act(panel: TimelinePane
     assert "which this canvas cannot do" in str(act(panel, "close"))
 
 
+def test_a_drag_between_keyframes_makes_one_and_goes_on(panel: TimelinePanel) -> None:
+    canvas, model = panel.canvas, panel.canvas.deformation
+    model.add_handle((-6, 0))
+    act(panel, "keep", time=0)
+    model.drag(0, (-6, 2))
+    assert panel.animation.wait(TIMEOUT)
+    model.go_to_pose(0)
+
+    def press(kind: str, x: float, y: float, **more: Any) -> str | None:
+        event = {"type": kind, "x": x, "y": y, "button": 0, "shift": False}
+        return canvas.handle([{**event, "reach": 0.3, "unit": 0.05, **more}])
+
+    steps = len(model.history.past)
+    press("down", 0, 9, at=0.5)  # beside the shape
+    press("move", 0, 8)
+    press("up", 0, 8)
+    press("down", 0, 0, at=0.5)  # a click goes back to the edited pose, which the page does
+    press("up", 0, 0)
+    assert len(model.history.past) == steps
+    between = panel.animation.at(0.5)
+    assert between is not None
+    place = between([[-6, 0]])[0]
+    beside = np.add(place, [1, 0])
+    press("down", *place, at=0.5)
+    press("move", *beside)
+    press("up", *beside)
+    assert model.state.timeline.times == (0.0, 0.5, 1.0)
+    assert model.state.active == 1
+    np.testing.assert_allclose(model.pose.targets, [beside])
+    press("down", *place, at=1.0)  # on a keyframe: that one is edited
+    press("move", *beside)
+    press("up", *beside)
+    assert (model.state.active, len(model.state.poses)) == (2, 3)
+    while len(model.history.past) > steps:
+        model.undo()
+    assert model.state.timeline.times == (0.0, 1.0)
+
+
 def test_a_finer_cage_is_not_shown_the_motion_of_the_coarser(panel: TimelinePanel) -> None:
     """The bug was an IndexError in the shader's coefficients."""
     model, coarse = panel.canvas.deformation, panel.canvas.deformation.state.domain

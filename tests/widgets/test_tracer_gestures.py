@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+import shapely
 
 from glid_nb.session.tracing import TracingModel
 from glid_nb.widgets.tracer_gestures import TraceGestures
@@ -222,3 +223,30 @@ def test_escape_gives_a_polygon_up_and_too_few_corners_are_refused(hand: Hand) -
     hand.click(20, 20)
     assert "encloses nothing" in str(hand.key("Enter"))
     assert not hand.model.edited
+
+
+@pytest.mark.parametrize("what", ["hole", "outline", "", "Escape", "undo"])
+def test_an_outline_inside_the_shape_is_a_hole_or_a_new_one(hand: Hand, what: str) -> None:
+    model, before = hand.model, hand.model.state
+    count = len(model.loops)
+    middle = shapely.Polygon(model.loops[0], model.loops[1:]).buffer(-12).representative_point()
+    x, y = middle.x, middle.y
+    hand.key("r")
+    hand.send("down", x - 8, y - 8)
+    hand.send("up", x + 8, y + 8)
+    assert model.state is before  # nothing yet: the page asks
+    assert len(hand.gestures.inside) == 4
+    if what in ("Escape", "undo"):
+        hand.key(what)
+    else:
+        hand.send("drawn_as", what=what)
+    assert hand.gestures.inside == []
+    if what == "hole":
+        assert len(model.loops) == count + 1
+        assert not model.outcome.problems
+        np.testing.assert_allclose(model.loops[-1].max(axis=0), [x + 8, y + 8])
+    elif what == "outline":
+        assert len(model.loops) == 1
+        np.testing.assert_allclose(model.loops[0].max(axis=0), [x + 8, y + 8])
+    else:
+        assert model.state is before

@@ -27,9 +27,13 @@ M3 8h10",open:"M2 12.5v-9h4l1.5 2H14v7z",play:"M5 3l8 5-8 5z",pause:"M5.5 3v10 M
 4 0 1 1 0 8",copy:"M5.5 5.5h8v8h-8z M3 10.5v-8h8",export:"M8 2v8 M4.8 6.8L8 10l3.2-3.2 M3 13.5h10",trash:"\
 M3 4.5h10 M6.5 4.5v-2h3v2 M4.5 4.5l.6 9h5.8l.6-9"};function icon(name){return`<svg viewBox="0 0 16 1\
 6" aria-hidden="true"><path d="${PATHS[name]}"/></svg>`}function iconButton(name,title,onclick,className="\
-glid-icon"){return make("button",{title,"aria-label":title,className,onclick,innerHTML:icon(name)})}var TEXT="textarea, [contenteditable], input:not([type=checkbox], [type=range], [type=radio])";function undoOrRedo(e){
-if(!e.ctrlKey&&!e.metaKey)return null;const key=e.key.toLowerCase();if(key==="z")return e.shiftKey?"\
-redo":"undo";return key==="y"?"redo":null}function keysAround(element,act,signal,whole=element){const editorAround=e=>{
+glid-icon"){return make("button",{title,"aria-label":title,className,onclick,innerHTML:icon(name)})}var TEXT="textarea, [contenteditable], input:not([type=checkbox], [type=range], [type=radio])";var LAST_LATIN="\
+ɏ";var LATIN={Comma:",<",Period:".>",Slash:"/?",Minus:"-_",Equal:"=+",BracketLeft:"[{",BracketRight:"\
+]}"};function keyOf({key,code="",shiftKey=false}){if(key.length>1||key<=LAST_LATIN)return key;const[
+,letter,digit]=code.match(/^(?:Key([A-Z])|(?:Digit|Numpad)([0-9]))$/)??[];if(letter)return shiftKey?
+letter:letter.toLowerCase();return digit??LATIN[code]?.[Number(shiftKey)]??key}function undoOrRedo(e){
+if(!e.ctrlKey&&!e.metaKey)return null;const key=keyOf(e).toLowerCase();if(key==="z")return e.shiftKey?
+"redo":"undo";return key==="y"?"redo":null}function keysAround(element,act,signal,whole=element){const editorAround=e=>{
 const editor=element.closest(".glid-editor")??whole;const inside=editor.contains(e.target)&&element.
 checkVisibility();return inside?editor:null};const refocus=e=>{const editor=editorAround(e);if(!editor)
 return;editor.tabIndex=-1;const target=e.target;const lost=e.type==="focusout"?target.disabled:target.
@@ -41,7 +45,7 @@ bubbled=>bubbled.stopPropagation():null;if(outside&&!target.matches(TEXT)&&isFor
 e)};const options={capture:true,signal};window.addEventListener("pointerdown",refocus,options);window.
 addEventListener("focusout",refocus,options);window.addEventListener("keydown",keydown,options)}function isForThePad(e,target){
 if(undoOrRedo(e))return!e.altKey;if(e.ctrlKey||e.metaKey||target.matches("select"))return false;const free=target.
-closest(".glid-timeline")?/^[^ ]$/:/^([^ ]|Escape|Delete)$/;return free.test(e.key)}var BUSY_AFTER=250;var ACKNOWLEDGE_TIMEOUT=2e3;var Link=class{busy=false;refusal=null;view=Math.random().
+closest(".glid-timeline")?/^[^ ]$/:/^([^ ]|Escape|Delete)$/;return free.test(keyOf(e))}var BUSY_AFTER=250;var ACKNOWLEDGE_TIMEOUT=2e3;var Link=class{busy=false;refusal=null;view=Math.random().
 toString(36).slice(2);#queue=[];#buffers=[];#promised=[];#waiting=false;#awaited=0;#number=0;#acknowledged=0;#overdue;#timeout;#drawing=0;constructor(model,element,signal,report){
 this.model=model;this.element=element;this.signal=signal;this.report=report;connectNoMoreComms(model.
 widget_manager.kernel);element.dataset.idle="true";signal.addEventListener("abort",()=>this.#stop());
@@ -77,11 +81,12 @@ style.left=within(x,element.clientWidth-menu.offsetWidth);menu.style.top=within(
 menu.offsetHeight);const pressedElsewhere=e=>{const target=e.target;if(menu.contains(target))return;
 close();if(e.button===0&&element.contains(target))e.stopPropagation()};window.addEventListener("poin\
 terdown",pressedElsewhere,{capture:true,signal:ending.signal});step(1)}function within(at,room){return`${Math.
-max(0,Math.min(at,room))}px`}function painter(canvas,view,signal,draw){let due=0;signal.addEventListener("abort",()=>cancelAnimationFrame(
-due));return()=>{if(due)return;due=requestAnimationFrame(()=>{due=0;draw(clearedPen(canvas,view))})}}
-function clearedPen(canvas,{width,height}){const ratio=window.devicePixelRatio||1;const wide=Math.round(
-width*ratio);const high=Math.round(height*ratio);if(canvas.width!==wide||canvas.height!==high){canvas.
-width=wide;canvas.height=high}const pen=penOf(canvas);pen.setTransform(ratio,0,0,ratio,0,0);pen.clearRect(
+max(0,Math.min(at,room))}px`}var NEARLY_NOTHING="rgba(255, 255, 255, 0.004)";function painter(canvas,view,signal,draw){let due=0;
+signal.addEventListener("abort",()=>cancelAnimationFrame(due));return()=>{if(due)return;due=requestAnimationFrame(
+()=>{due=0;draw(clearedPen(canvas,view))})}}function clearedPen(canvas,{width,height}){const ratio=window.
+devicePixelRatio||1;const wide=Math.round(width*ratio);const high=Math.round(height*ratio);if(canvas.
+width!==wide||canvas.height!==high){canvas.width=wide;canvas.height=high}const pen=penOf(canvas);pen.
+setTransform(ratio,0,0,ratio,0,0);pen.clearRect(0,0,width,height);pen.fillStyle=NEARLY_NOTHING;pen.fillRect(
 0,0,width,height);return pen}function circle(pen,[x,y],radius,strokes,dash){pen.beginPath();pen.arc(
 x,y,radius,0,2*Math.PI);strokePath(pen,strokes,dash)}function disk(pen,place,radius,fill,stroke,width=1){
 circle(pen,place,radius,[]);pen.fillStyle=fill;pen.fill();if(stroke)strokePath(pen,[[width,stroke]])}
@@ -90,7 +95,10 @@ x,y],i)=>{if(i)pen.lineTo(x,y);else pen.moveTo(x,y)});if(closed)pen.closePath()}
 left,top],[right,bottom]){return[[left,top],[right,top],[right,bottom],[left,bottom]]}function fillPath(pen,lines2,style,rule="\
 evenodd"){tracePath(pen,lines2);pen.fillStyle=style;pen.fill(rule)}function strokePath(pen,strokes,dash=[]){
 pen.setLineDash(dash);for(const[width,style]of strokes){pen.lineWidth=width;pen.strokeStyle=style;pen.
-stroke()}pen.setLineDash([])}var WHEEL_SPEED=.0015;var WHEEL_LINE=33;var LINES=1;var PINCH=5;function distance([x,y],[u,v]){return Math.
+stroke()}pen.setLineDash([])}function scaleOf(element){const{width,height}=element.getBoundingClientRect();const across=width/element.
+offsetWidth||1;return{across,down:height/element.offsetHeight||across}}function placeIn(element,{clientX,
+clientY}){const{left,top}=element.getBoundingClientRect();const{across,down}=scaleOf(element);return[
+(clientX-left)/across,(clientY-top)/down]}var WHEEL_SPEED=.0015;var WHEEL_LINE=33;var LINES=1;var PINCH=5;function distance([x,y],[u,v]){return Math.
 hypot(x-u,y-v)}var View=class{x=0;y=0;unit=1;width=0;height=0;constructor(changed,{up=1,nearest:nearest2,
 farthest}){this.changed=changed;this.up=up;this.nearest=nearest2;this.farthest=farthest}toWorld([px,
 py]){const x=this.x+(px-this.width/2)*this.unit;const y=this.y-this.up*(py-this.height/2)*this.unit;
@@ -115,53 +123,53 @@ null));element.addEventListener("wheel",e=>this.#wheel(e),{passive:false});eleme
 "contextmenu",e=>this.#contextMenu(e));element.addEventListener("keydown",e=>this.keydown(e));element.
 addEventListener("keyup",e=>this.#keyup(e));element.addEventListener("focus",()=>behaviour.changed());
 element.addEventListener("blur",()=>{this.#setSpace(false);behaviour.changed()})}get focused(){return this.
-element.matches(":focus")}place(e){const box=this.element.getBoundingClientRect();return[e.clientX-box.
-left,e.clientY-box.top]}send(type,place,e={},more={}){const[x,y]=this.view.toWorld(place);const{unit}=this.
-view;return this.link.put({type,x,y,unit,reach:this.#reach(e.pointerType)*unit,button:e.button??0,shift:Boolean(
-e.shiftKey),time:e.timeStamp??performance.now(),...more})}press(key,e){this.send("key",[this.view.width/
-2,this.view.height/2],e,{key})}hover(place=this.rests){this.rests=place;if(this.mode!==null)return;this.
-found=place&&this.#find(place,"mouse");this.#showCursor();this.behaviour.changed()}keydown(e){const command=e.
-ctrlKey||e.metaKey;const action=command?void 0:this.behaviour.actions[e.key.toLowerCase()];const history=undoOrRedo(
-e);if(!history&&!action&&e.key!==" "){if(e.altKey||!this.behaviour.keys.test(e.key)||command&&e.key!==
-"a")return}e.preventDefault();e.stopPropagation();if(e.key===" "){if(!e.repeat)this.#tap=true;this.#setSpace(
-true)}else if(action){action()}else{if(e.key==="Escape"||history)this.#drop();this.press(history??e.
-key,e)}}#keyup(e){if(e.key!==" ")return;this.#setSpace(false);if(this.#tap)this.behaviour.tapped?.()}#reach(type){
-return this.behaviour.reach[type??"mouse"]??this.behaviour.reach.mouse}#find(place,type){return this.
-behaviour.find(this.view.toWorld(place),this.#reach(type)*this.view.unit)}#down(e){if(this.pointers.
-has(e.pointerId)||this.pointers.size>1)return;e.preventDefault();this.element.focus({preventScroll:true});
-this.#tap=false;const place=this.place(e);this.pointers.set(e.pointerId,place);this.element.setPointerCapture(
-e.pointerId);const second=this.pointers.size===2;if(second)this.#takeBack(e);this.#start=place;this.
-mode=second||e.button===1||e.button===0&&this.#space?"pan":"hand";if(this.mode==="hand")this.#handDown(
-place,e);this.#showCursor()}#handDown(place,e){const{behaviour}=this;const found=this.#find(place,e.
-pointerType);const left=e.button===0;if(left&&!e.shiftKey&&found?.mark!==void 0){this.grip={from:this.
-view.toWorld(place),points:behaviour.held(found)}}this.#pans=left&&Boolean(behaviour.pans?.(found,e));
-this.encloses=left&&!behaviour.painting?behaviour.encloses?.(found,e):null;this.path=left?[this.view.
-toWorld(place)]:[];this.send("down",place,e,{part:found?.part});if(e.pointerType==="touch"&&behaviour.
-menu&&!behaviour.painting){this.#longPress=setTimeout(()=>this.#pressedLong(e,place),LONG_PRESS)}behaviour.
-changed()}#pressedLong(e,place){this.#longPress=setTimeout(()=>{this.#takeBack(e);this.mode=null;this.#menu(
-place,"touch")},LONG_PRESS_GRACE)}#menu(place,type){this.behaviour.menu?.(place,this.#find(place,type))}#contextMenu(e){
-e.preventDefault();e.stopPropagation();const touch=e instanceof PointerEvent&&e.pointerType==="touch";
-if(e.button===2&&!touch)this.#menu(this.place(e),"mouse")}#takeBack(e){if(this.mode==="hand")this.send(
-"cancel",this.#start,e);this.#drop()}#move(e){const place=this.place(e);const touch=e.pointerType===
-"touch";if(!this.pointers.has(e.pointerId)){if(!touch)this.hover(place);return}if(!touch)this.rests=
-place;const far=distance(place,this.#start);if(far>LONG_PRESS_SLACK)clearTimeout(this.#longPress);if(this.
-mode==="hand"&&this.#pans&&far>CLICK){this.#takeBack(e);this.mode="pan";this.#showCursor()}if(this.mode===
-"pan"){this.view.follow(this.pointers,e.pointerId,place);return}this.pointers.set(e.pointerId,place);
-if(this.mode==="hand")this.#handMoved(place,e,far)}#handMoved(place,e,far){const point=this.view.toWorld(
-place);this.#lengthenPath(place,point,far);if(!this.encloses&&!this.behaviour.painting){this.send("m\
-ove",place,e,{replaces:`move ${e.pointerId}`})}if(this.grip){const dx=point[0]-this.grip.from[0];const dy=point[1]-
-this.grip.from[1];for(const[mark,[x,y]]of this.grip.points)this.held.set(mark,[x+dx,y+dy])}this.behaviour.
-changed()}#lengthenPath(place,point,far){if(this.encloses==="box"){const[corner]=this.path;this.path=
-far>CLICK?rectangle(corner,point):[corner];return}const last=this.path.at(-1);if(last&&distance(place,
-this.view.toScreen(last))>=PATH_STEP)this.path.push(point)}#up(e,type){if(!this.pointers.has(e.pointerId))
-return;const place=this.place(e);this.pointers.delete(e.pointerId);if(this.mode==="hand"){const{path}=this;
-this.send(type,place,e,{path,encloses:Boolean(this.encloses)}).then(()=>{if(!this.grip)this.held.clear();
-if(this.path===path)this.path=[];this.behaviour.changed()})}this.#letGo();if(!this.pointers.size)this.
-mode=null;this.#showCursor()}#letGo(){clearTimeout(this.#longPress);this.grip=null;this.behaviour.changed()}#drop(){
-this.#letGo();this.held.clear();this.path=[]}#wheel(e){if(this.behaviour.wheelNeedsFocus&&!this.focused&&
-!e.ctrlKey)return;e.stopPropagation();this.view.wheel(e,this.place(e))}#setSpace(pressed){this.#space=
-pressed;this.#showCursor()}#showCursor(){this.element.style.cursor=this.#cursor()}#cursor(){if(this.
-mode==="pan"||this.grip)return"grabbing";return this.#space?"grab":this.behaviour.cursor(this.found)}};function menuRows(does,pin,covered){return[...pin?pinRows(does,pin.pinned):shapeRows(does,covered),[
+element.matches(":focus")}place(e){return placeIn(this.element,e)}send(type,place,e={},more={}){const[
+x,y]=this.view.toWorld(place);const{unit}=this.view;return this.link.put({type,x,y,unit,reach:this.#reach(
+e.pointerType)*unit,button:e.button??0,shift:Boolean(e.shiftKey),alt:Boolean(e.altKey),time:e.timeStamp??
+performance.now(),...more})}press(key,e){this.send("key",[this.view.width/2,this.view.height/2],e,{key})}hover(place=this.
+rests){this.rests=place;if(this.mode!==null)return;this.found=place&&this.#find(place,"mouse");this.#showCursor();
+this.behaviour.changed()}keydown(e){const key=keyOf(e);const command=e.ctrlKey||e.metaKey;const action=command?
+void 0:this.behaviour.actions[key.toLowerCase()];const history=undoOrRedo(e);if(!history&&!action&&key!==
+" "){if(e.altKey||!this.behaviour.keys.test(key)||command&&key!=="a")return}e.preventDefault();e.stopPropagation();
+if(key===" "){if(!e.repeat)this.#tap=true;this.#setSpace(true)}else if(action){action()}else{if(key===
+"Escape"||history)this.#drop();this.press(history??key,e)}}#keyup(e){if(e.key!==" ")return;this.#setSpace(
+false);if(this.#tap)this.behaviour.tapped?.()}#reach(type){return this.behaviour.reach[type??"mouse"]??
+this.behaviour.reach.mouse}#find(place,type){return this.behaviour.find(this.view.toWorld(place),this.#reach(
+type)*this.view.unit)}#down(e){if(this.pointers.has(e.pointerId)||this.pointers.size>1)return;e.preventDefault();
+this.element.focus({preventScroll:true});this.#tap=false;const place=this.place(e);this.pointers.set(
+e.pointerId,place);this.element.setPointerCapture(e.pointerId);const second=this.pointers.size===2;if(second)
+this.#takeBack(e);this.#start=place;this.mode=second||e.button===1||e.button===0&&this.#space?"pan":
+"hand";if(this.mode==="hand")this.#handDown(place,e);this.#showCursor()}#handDown(place,e){const{behaviour}=this;
+const found=this.#find(place,e.pointerType);const left=e.button===0;if(left&&!e.shiftKey&&!e.altKey&&
+found?.mark!==void 0){this.grip={from:this.view.toWorld(place),points:behaviour.held(found)}}this.#pans=
+left&&Boolean(behaviour.pans?.(found,e));this.encloses=left&&!behaviour.painting?behaviour.encloses?.(
+found,e):null;this.path=left?[this.view.toWorld(place)]:[];this.send("down",place,e,{part:found?.part,
+at:left?behaviour.pressedAt?.():void 0});if(e.pointerType==="touch"&&behaviour.menu&&!behaviour.painting){
+this.#longPress=setTimeout(()=>this.#pressedLong(e,place),LONG_PRESS)}behaviour.changed()}#pressedLong(e,place){
+this.#longPress=setTimeout(()=>{this.#takeBack(e);this.mode=null;this.#menu(place,"touch")},LONG_PRESS_GRACE)}#menu(place,type){
+this.behaviour.menu?.(place,this.#find(place,type))}#contextMenu(e){e.preventDefault();e.stopPropagation();
+const touch=e instanceof PointerEvent&&e.pointerType==="touch";if(e.button===2&&!touch)this.#menu(this.
+place(e),"mouse")}#takeBack(e){if(this.mode==="hand")this.send("cancel",this.#start,e);this.#drop()}#move(e){
+const place=this.place(e);const touch=e.pointerType==="touch";if(!this.pointers.has(e.pointerId)){if(!touch)
+this.hover(place);return}if(!touch)this.rests=place;const far=distance(place,this.#start);if(far>LONG_PRESS_SLACK)
+clearTimeout(this.#longPress);if(this.mode==="hand"&&this.#pans&&far>CLICK){this.#takeBack(e);this.mode=
+"pan";this.#showCursor()}if(this.mode==="pan"){this.view.follow(this.pointers,e.pointerId,place);return}
+this.pointers.set(e.pointerId,place);if(this.mode==="hand")this.#handMoved(place,e,far)}#handMoved(place,e,far){
+const point=this.view.toWorld(place);this.#lengthenPath(place,point,far);if(!this.encloses&&!this.behaviour.
+painting){this.send("move",place,e,{replaces:`move ${e.pointerId}`})}if(this.grip){const dx=point[0]-
+this.grip.from[0];const dy=point[1]-this.grip.from[1];for(const[mark,[x,y]]of this.grip.points)this.
+held.set(mark,[x+dx,y+dy])}this.behaviour.changed()}#lengthenPath(place,point,far){if(this.encloses===
+"box"){const[corner]=this.path;this.path=far>CLICK?rectangle(corner,point):[corner];return}const last=this.
+path.at(-1);if(last&&distance(place,this.view.toScreen(last))>=PATH_STEP)this.path.push(point)}#up(e,type){
+if(!this.pointers.has(e.pointerId))return;const place=this.place(e);this.pointers.delete(e.pointerId);
+if(this.mode==="hand"){const{path}=this;this.send(type,place,e,{path,encloses:Boolean(this.encloses)}).
+then(()=>{if(!this.grip)this.held.clear();if(this.path===path)this.path=[];this.behaviour.changed()})}
+this.#letGo();if(!this.pointers.size)this.mode=null;this.#showCursor()}#letGo(){clearTimeout(this.#longPress);
+this.grip=null;this.behaviour.changed()}#drop(){this.#letGo();this.held.clear();this.path=[]}#wheel(e){
+if(!this.behaviour.ownsWheel&&!this.focused&&!e.ctrlKey)return;e.stopPropagation();this.view.wheel(e,
+this.place(e))}#setSpace(pressed){this.#space=pressed;this.#showCursor()}#showCursor(){this.element.
+style.cursor=this.#cursor()}#cursor(){if(this.mode==="pan"||this.grip)return"grabbing";return this.#space?
+"grab":this.behaviour.cursor(this.found)}};function menuRows(does,pin,covered){return[...pin?pinRows(does,pin.pinned):shapeRows(does,covered),[
 "Copy the pose","Ctrl+C",does.press("copy")],["Paste a pose","Ctrl+V",does.paste],["Swap left and ri\
 ght","M",does.press("m")],["Select all pins","A",does.press("a")],["The undeformed shape","0",does.press(
 "0")],["See everything","F",does.press("f")],["Paint stiff areas","B",does.press("b")],["The picture\
@@ -170,24 +178,28 @@ press},count){const pins=count>1?` ${count} pins`:"";return[["Bring forward","Pa
 ["Send back","Page Down",press("PageDown")],null,[`Remove${pins}`,"Delete",press("Delete")],["Remove\
 , keep the shape","Shift+Delete",press("Delete",true)],["Leave angle and scale free","X",press("x")],
 null]}function shapeRows({pin},covered){return covered?[["Add a pin here","Click",pin],null]:[]}function nearest(things,reach){let best=null;let least=Infinity;for(const thing of things){const far=thing.
-d+(thing.loss??0);if(thing.d>reach||far>=least)continue;best=thing;least=far}return best}var KNOB=6;var KNOB_REACH=4;var RADIUS=42;var EDGE=14;var CORNER=[36,112];var ARROW_REACH=12;function dial(view,marks,held){
-const last=marks.selected.at(-1);const[angle,scale]=marks.ring;if(angle===void 0||scale===void 0)return null;
-if(last===void 0||!marks.targets[last])return null;const centre=view.toScreen(held?.get(last)??marks.
-targets[last]);const radius=RADIUS*Math.min(2.5,Math.max(.5,scale));const x=centre[0]+radius*Math.cos(
-angle);const y=centre[1]-radius*Math.sin(angle);return{centre,radius,knob:[x,y]}}function knobInCorner(view,marks,held){
-const[x,y]=dial(view,marks,held)?.knob??[0,0];return x>view.width-CORNER[0]-KNOB&&y<CORNER[1]+KNOB}function ringAt(view,marks,place,reach){
-const ring=dial(view,marks);if(!ring)return null;if(distance(place,ring.knob)<=Math.max(KNOB+KNOB_REACH,
-reach))return{part:"scale"};const far=Math.abs(distance(place,ring.centre)-ring.radius);return far<=
-reach?{part:"turn"}:null}function markAt(marks,point,reach){return pinAt(marks,false,point,reach)??pinAt(
-marks,true,point,reach)}function pinAt(marks,reached,point,reach){const places=reached?marks.images:
-marks.targets;const pins=places.map((place,mark)=>{const loss=marks.hidden.includes(mark)?reach/3:0;
-return{mark,reached,d:distance(place,point),loss}});return nearest(pins,reach)}function arrowsTo(view,targets){
-return targets.filter(target=>!inSight(view,target)).map(target=>{const[x,y]=view.toScreen(target);const height=within2(
-y,view.height);const besideButtons=height<CORNER[1]?CORNER[0]:0;const width=within2(x,view.width-besideButtons);
-return{at:[width,height],target,angle:Math.atan2(y-height,x-width)}})}function arrowAt(view,marks,place){
-const arrow=arrowsTo(view,marks.targets).find(({at})=>distance(at,place)<ARROW_REACH);return arrow?.
-target??null}function inSight(view,point){const[x,y]=view.toScreen(point);return x>=0&&y>=0&&x<=view.
-width&&y<=view.height}function within2(at,size){return Math.min(size-EDGE,Math.max(EDGE,at))}var TARGET=7.5;var IMAGE=3.5;var RING=12;var APART=2;var BORDER="rgba(255,255,255,0.85)";var PALE="r\
+d+(thing.loss??0);if(thing.d>reach||far>=least)continue;best=thing;least=far}return best}var KNOB=6;var KNOB_REACH=4;var RADIUS=42;var LEAST_RADIUS=24;var EDGE=14;var CORNER=[36,112];var ARROW_REACH=12;
+function dial(view,marks,held){const last=marks.selected.at(-1);const[angle,scale]=marks.ring;if(angle===
+void 0||scale===void 0)return null;if(last===void 0||!marks.targets[last])return null;const centre=view.
+toScreen(held?.get(last)??marks.targets[last]);const radius=RADIUS*Math.min(2.5,Math.max(.5,scale));
+return{centre,radius,knob:knobInside(view,centre,radius,angle)}}function knobInside(view,centre,radius,angle){
+const places=[0,1,-1,2,-2,3,-3,4].map(eighths=>{const direction=angle+eighths*Math.PI/4;const x=centre[0]+
+radius*Math.cos(direction);const y=centre[1]-radius*Math.sin(direction);return[within2(x,view.width),
+within2(y,view.height)]});return places.find(place=>distance(place,centre)>=LEAST_RADIUS)??places[0]}
+function knobInCorner(view,marks,held){const[x,y]=dial(view,marks,held)?.knob??[0,0];return x>view.width-
+CORNER[0]-KNOB&&y<CORNER[1]+KNOB}function ringAt(view,marks,place,reach){const ring=dial(view,marks);
+if(!ring)return null;if(distance(place,ring.knob)<=Math.max(KNOB+KNOB_REACH,reach))return{part:"knob"};
+const far=Math.abs(distance(place,ring.centre)-ring.radius);return far<=reach?{part:"turn"}:null}function markAt(marks,point,reach){
+return pinAt(marks,false,point,reach)??pinAt(marks,true,point,reach)}function pinAt(marks,reached,point,reach){
+const places=reached?marks.images:marks.targets;const pins=places.map((place,mark)=>{const loss=marks.
+hidden.includes(mark)?reach/3:0;return{mark,reached,d:distance(place,point),loss}});return nearest(pins,
+reach)}function arrowsTo(view,targets){return targets.filter(target=>!inSight(view,target)).map(target=>{
+const[x,y]=view.toScreen(target);const height=within2(y,view.height);const besideButtons=height<CORNER[1]?
+CORNER[0]:0;const width=within2(x,view.width-besideButtons);return{at:[width,height],target,angle:Math.
+atan2(y-height,x-width)}})}function arrowAt(view,marks,place){const arrow=arrowsTo(view,marks.targets).
+find(({at})=>distance(at,place)<ARROW_REACH);return arrow?.target??null}function inSight(view,point){
+const[x,y]=view.toScreen(point);return x>=0&&y>=0&&x<=view.width&&y<=view.height}function within2(at,size){
+return Math.min(size-EDGE,Math.max(EDGE,at))}var TARGET=7.5;var IMAGE=3.5;var RING=12;var APART=2;var BORDER="rgba(255,255,255,0.85)";var PALE="r\
 gba(255,255,255,0.9)";var INK="#2b2b2b";var TARGET_FILL="#00d5e0";var TARGET_EDGE="#063f45";var HIDDEN="\
 #067a82";var CHOSEN="#0072b2";var WANTED="#d55e00";var FREE="rgba(40,40,40,0.75)";var STIFF="#4b0f7a";
 function lines(pen,pairs,strokes){pen.lineCap="round";tracePath(pen,pairs,false);strokePath(pen,strokes)}
@@ -224,21 +236,21 @@ pen,[[corner(0,11),corner(2.4,9),corner(-2.4,9)]],TARGET_FILL);strokePath(pen,[[
 function drawCursor(pen,[x,y]){const arm=(dx,dy)=>[[x+4*dx,y+4*dy],[x+13*dx,y+13*dy]];lines(pen,[arm(
 1,0),arm(-1,0),arm(0,1),arm(0,-1)],[[4,PALE],[1.6,WANTED]])}var HELP=[["Pins",[["Click the shape","pin a point"],["Drag a pin, or the shape","move it there; the\
  shape follows, and never folds"],["Right-click, long touch, Menu key","a menu for the pin or the sh\
-ape there"],["Delete","remove the selected pins; with Shift keep the shape"],["Ring around a pin: dr\
-ag it, or its knob","turn the shape there, scale it there"],["< >, + -, X","turn, scale; free both a\
-gain"],["Page Down, Page Up, [ ]","send selected pins and their surroundings back, forward"],["Arrow\
- keys","nudge selected pins, with Shift farther; else move a cursor"],["Enter","show the cursor; pin\
- or select there"]]],["Selecting",[["Shift-click, A","select several pins, all pins"],["Shift and dr\
-ag, Ctrl and drag","select the pins in a box, in a lasso"],[", .","select the pin before, the next p\
-in, and bring it into view; so does a click on an arrow at the edge"],["Esc","cancel a drag; select \
-nothing"]]],["Poses",[["Ctrl+Z, Ctrl+Shift+Z","undo, redo"],["Ctrl+C, Ctrl+V","copy the pose, put it\
- on this or a similar shape"],["M","swap left and right"],["0","back to the undeformed shape"]]],["S\
-tiff areas",[["B, E","paint stiff areas, erase them; Esc ends painting"]]],["View",[["Wheel, two fin\
-gers","zoom"],["Middle button, Space and drag","move the view"],["F","see everything"],["P","the pic\
-ture alone, for lectures; Esc brings the rest back"],["W","the whole screen"]]],["Timeline",[["Space",
-"play the motion through the poses, pause; on the canvas too"],["Arrow keys, Home, End","step in tim\
-e, with Shift to the next pose; first, last pose"],["Alt and arrow keys","move the pose in time; Del\
-ete removes it"]]]];var Legend=class{element=make("div",{className:"glid-legend"});show(model,moving){const bars=[model.
+ape there"],["Delete","remove the selected pins; with Shift keep the shape"],["Ring around a pin; Al\
+t on the pin","turn the shape there; the ring's knob scales it too"],["< >, + -, X","turn, scale; fr\
+ee both again"],["Page Down, Page Up, [ ]","send selected pins and their surroundings back, forward"],
+["Arrow keys","nudge selected pins, with Shift farther; else move a cursor"],["Enter","show the curs\
+or; pin or select there"]]],["Selecting",[["Shift-click, A","select several pins, all pins"],["Shift\
+ and drag, Ctrl and drag","select the pins in a box, in a lasso"],[", .","select the pin before, the\
+ next pin, and bring it into view; so does a click on an arrow at the edge"],["Esc","cancel a drag; \
+select nothing"]]],["Poses",[["Ctrl+Z, Ctrl+Shift+Z","undo, redo"],["Ctrl+C, Ctrl+V","copy the pose,\
+ put it on this or a similar shape"],["M","swap left and right"],["0","back to the undeformed shape"]]],
+["Stiff areas",[["B, E","paint stiff areas, erase them; Esc ends painting"]]],["View",[["Wheel, two \
+fingers","zoom"],["Middle button, Space and drag","move the view"],["F","see everything"],["P","the \
+picture alone, for lectures; Esc brings the rest back"],["W","the whole screen"]]],["Timeline",[["Sp\
+ace","play the motion through the poses, pause; on the canvas too"],["Arrow keys, Home, End","step i\
+n time, with Shift to the next pose; first, last pose"],["Alt and arrow keys","move the pose in time\
+; Delete removes it"]]]];var Legend=class{element=make("div",{className:"glid-legend"});show(model,moving){const bars=[model.
 get("legend"),model.get("panel_legend")].filter(bar=>bar.title);this.element.replaceChildren(...bars.
 map(bar=>colorBar(bar,moving)));this.element.hidden=!bars.length;this.element.dataset.corner=model.get(
 "legend_corner")}};function colorBar({title,moving,colors,ticks,about},moves){const gradient=`backgr\
@@ -252,23 +264,24 @@ const advice=painting?PAINT:first&&FIRST;const{notice}=this;notice.textContent=r
 hidden=!notice.textContent;notice.classList.toggle("glid-first",!refusal)}prepare(share){const{prepared}=this;
 prepared.hidden=share>=1;prepared.textContent=`Warming up: ${Math.round(100*share)} %`;prepared.style.
 backgroundSize=`${100*share}% 100%, auto`}};var REACH={mouse:13,pen:16,touch:26};var KEYS=/^(Arrow\w+|Page\w+|Delete|Backspace|Escape|Enter|[0fa,.[\]<>+=xmbe-])$/i;
-var TARGET_TIP="where it should be. Drag it; a right click shows more; Shift-click selects several";
-var IMAGE_TIP="where the shape is now. The cyan disk is where it should be";var COVERED=". Another p\
-art of the shape covers it";var RING_TIPS={turn:"Drag around the pin to turn the shape there; X free\
-s it again",scale:"Drag away from the pin or towards it to scale the shape there; X frees it again"};
-var PinBehaviour=class{reach=REACH;keys=KEYS;constructor(canvas){this.canvas=canvas;this.actions={"?":canvas.
-help.toggle,contextmenu:()=>canvas.openMenu(),p:()=>canvas.room?.alone(),w:()=>canvas.room?.fullScreen()}}get painting(){
-return this.canvas.painting}changed(){this.canvas.redraw()}menu(place,found){this.canvas.openMenu(place,
-found)}tapped(){this.canvas.box.dispatchEvent(new CustomEvent("glid:play",{bubbles:true}))}find(point,reach){
-const{view,marks,shapes,painting}=this.canvas;if(shapes.motion||painting)return null;const mark=markAt(
-marks,point,reach);return mark??ringAt(view,marks,view.toScreen(point),reach/view.unit/2)}encloses(found,e){
-if(found)return null;if(e.shiftKey)return"box";return e.ctrlKey||e.metaKey?"lasso":null}held({mark}){
-const{selected,targets}=this.canvas.marks;const pressed=Number(mark);const moved=selected.includes(pressed)?
-selected:[pressed];return new Map(moved.map(i=>[i,targets[i]]))}cursor(found){this.canvas.box.title=
-this.#tip(found);return found?"grab":"crosshair"}#tip(found){if(!found)return"";if(found.part)return RING_TIPS[found.
-part];const{marks,model}=this.canvas;const mark=Number(found.mark);const name=["Pin",mark+1,model.get(
-"names")[mark]].join(" ").trim();const tip=found.reached?IMAGE_TIP:TARGET_TIP;return`${name}: ${tip}${marks.
-hidden.includes(mark)?COVERED:""}`}};async function copied(text){try{await navigator.clipboard.writeText(text);return true}catch{return copiedBySelection(
+var TARGET_TIP="where it should be. Drag it; Alt turns it; a right click shows more; Shift-click sel\
+ects several";var IMAGE_TIP="where the shape is now. The cyan disk is where it should be";var COVERED="\
+. Another part of the shape covers it";var RING_TIPS={turn:"Drag around the pin to turn the shape th\
+ere; X frees it again",knob:"Drag around the pin to turn the shape there, away from it to scale it; \
+X frees it again"};var PinBehaviour=class{reach=REACH;keys=KEYS;constructor(canvas){this.canvas=canvas;
+this.actions={"?":canvas.help.toggle,contextmenu:()=>canvas.openMenu(),p:()=>canvas.room?.alone(),w:()=>canvas.
+room?.fullScreen()}}get painting(){return this.canvas.painting}changed(){this.canvas.redraw()}menu(place,found){
+this.canvas.openMenu(place,found)}pressedAt(){return this.canvas.pressedAt()}tapped(){this.canvas.box.
+dispatchEvent(new CustomEvent("glid:play",{bubbles:true}))}find(point,reach){const{view,marks,shapes,
+painting}=this.canvas;if(shapes.motion||painting)return null;const mark=markAt(marks,point,reach);return mark??
+ringAt(view,marks,view.toScreen(point),reach/view.unit/2)}encloses(found,e){if(found)return null;if(e.
+shiftKey)return"box";return e.ctrlKey||e.metaKey?"lasso":null}held({mark}){const{selected,targets}=this.
+canvas.marks;const pressed=Number(mark);const moved=selected.includes(pressed)?selected:[pressed];return new Map(
+moved.map(i=>[i,targets[i]]))}cursor(found){this.canvas.box.title=this.#tip(found);return found?"gra\
+b":"crosshair"}#tip(found){if(!found)return"";if(found.part)return RING_TIPS[found.part];const{marks,
+model}=this.canvas;const mark=Number(found.mark);const name=["Pin",mark+1,model.get("names")[mark]].
+join(" ").trim();const tip=found.reached?IMAGE_TIP:TARGET_TIP;return`${name}: ${tip}${marks.hidden.includes(
+mark)?COVERED:""}`}};async function copied(text){try{await navigator.clipboard.writeText(text);return true}catch{return copiedBySelection(
 text)}}function copiedBySelection(text){const focused=document.activeElement;const area=document.createElement(
 "textarea");area.value=text;area.setAttribute("readonly","");Object.assign(area.style,{position:"fix\
 ed",top:"0",left:"0",opacity:"0"});document.body.append(area);area.select();try{return document.execCommand(
@@ -279,33 +292,58 @@ focused)canvas.say(await copied(text)?COPIED:NOT_COPIED)});box.addEventListener(
 return;e.preventDefault();pad.press("copy")});box.addEventListener("paste",e=>{e.preventDefault();this.#put(
 e.clipboardData?.getData("text")??"")})}async paste(){try{this.#put(await navigator.clipboard.readText())}catch{
 this.canvas.say(NOT_COPIED)}}#put(text){this.canvas.link.put({type:"paste_pose",text})}};var LEAST_SIZE=240;function resizeGrip(model){let beyond=null;const side=length=>Math.max(LEAST_SIZE,
-Math.round(length));const grip=make("div",{className:"glid-resize",title:"Drag to resize"});grip.addEventListener(
-"pointerdown",e=>{e.preventDefault();grip.setPointerCapture(e.pointerId);beyond={width:model.get("wi\
-dth")-e.clientX,height:model.get("height")-e.clientY}});grip.addEventListener("pointermove",e=>{if(!beyond)
-return;const width=side(beyond.width+e.clientX);const height=side(beyond.height+e.clientY);save(model,
-{width,height})});grip.addEventListener("lostpointercapture",()=>{beyond=null});return shield(grip)}var PAGE=120;var PARTS=330;var LEAST=480;var GAP=16;var SLACK=20;var SETTLE=80;var Room=class{#root=null;#last={
-width:0,height:0,alone:0};#timer;constructor(pad,model,signal){this.pad=pad;this.model=model;this.observer=
-new ResizeObserver(()=>this.#measureSoon());this.observer.observe(pad);window.addEventListener("resi\
-ze",()=>this.#measureSoon(),{signal});window.addEventListener("keydown",e=>this.#escape(e),{signal,capture:true});
-const left=()=>{if(!document.fullscreenElement)this.alone(false)};document.addEventListener("fullscr\
-eenchange",left,{signal});signal.addEventListener("abort",()=>{clearTimeout(this.#timer);this.observer.
-disconnect()})}alone(on=!this.#last.alone){const root=this.#root;if(!root||!on&&!this.#last.alone){this.#measureSoon();
-return}root.classList.toggle("glid-alone",on);this.#measure();root.scrollIntoView({block:on?"start":
-"nearest"});this.pad.focus({preventScroll:true});if(!on&&document.fullscreenElement)document.exitFullscreen()}fullScreen(){
-if(document.fullscreenElement){document.exitFullscreen();return}this.#root?.requestFullscreen().catch(
-error=>{save(this.model,{notice:`Full screen is not possible here: ${error.message}`})})}#escape(e){
-if(e.key!=="Escape"||!this.#last.alone)return;if(this.pad.matches(":active, :has(.glid-menu, :popove\
-r-open)"))return;e.stopPropagation();this.alone(false)}#measureSoon(){clearTimeout(this.#timer);this.#timer=
-setTimeout(()=>this.#measure(),SETTLE)}#measure(){const root=this.pad.closest(".glid-editor");const column=this.
+Math.round(length));const grip=make("div",{className:"glid-resize",title:"Drag to resize"});const place=({
+clientX,clientY})=>{const{across,down}=scaleOf(grip);return[clientX/across,clientY/down]};grip.addEventListener(
+"pointerdown",e=>{e.preventDefault();grip.setPointerCapture(e.pointerId);const[x,y]=place(e);beyond=
+{width:model.get("width")-x,height:model.get("height")-y}});grip.addEventListener("pointermove",e=>{
+if(!beyond)return;const[x,y]=place(e);save(model,{width:side(beyond.width+x),height:side(beyond.height+
+y)})});grip.addEventListener("lostpointercapture",()=>{beyond=null});return shield(grip)}var CONTROLS="button, select, input, img, [role=slider]";var SAYS_SOMETHING=/[\p{L}\p{N}]/u;function nameControls(root,signal){
+const name=()=>{for(const control of root.querySelectorAll(CONTROLS))nameOne(control)};const observer=new MutationObserver(
+name);const what={childList:true,subtree:true,attributes:true,attributeFilter:["title"]};observer.observe(
+root,what);signal.addEventListener("abort",()=>observer.disconnect());name()}function nameOne(control){
+const isImage=control instanceof HTMLImageElement;const attribute=isImage?"alt":"aria-label";const given=control.
+getAttribute(attribute);if(given!==null&&control.getAttribute("data-glid-name")!==given)return;if(isNamed(
+control))return;const name=nameAround(control);if(!name||name===given)return;control.setAttribute(attribute,
+name);control.setAttribute("data-glid-name",name)}function isNamed(control){if(control instanceof HTMLButtonElement)
+return SAYS_SOMETHING.test(control.textContent??"");const labels="labels"in control?control.labels:null;
+return[...labels??[]].some(label=>SAYS_SOMETHING.test(label.textContent??""))}function nameAround(control){
+const own=control.getAttribute("title");if(own)return own;if(control.matches(".glid-plots, .glid-plo\
+ts *"))return"Plots of the solve";const widget=control.closest(".jupyter-widgets");const label=widget?.
+querySelector(".widget-label")?.textContent?.trim();return label||widget?.getAttribute("title")||labelBefore(
+widget??control)}function labelBefore(one){let before=one.previousElementSibling;while(before&&!before.
+matches(".widget-label"))before=before.previousElementSibling;return before?.textContent?.trim()??""}var PAGE=120;var PARTS=330;var LEAST=480;var GAP=16;var SLACK=20;var SETTLE=80;var Room=class{#root=null;#last={
+width:0,height:0,alone:0};#decides=false;#told="";#room=null;#timer;constructor(pad,model,signal){this.
+pad=pad;this.model=model;this.signal=signal;this.observer=new ResizeObserver(()=>this.#measureSoon());
+this.observer.observe(pad);window.addEventListener("resize",()=>this.#measureSoon(),{signal});window.
+addEventListener("keydown",e=>this.#escape(e),{signal,capture:true});model.on("change:room",()=>{if(String(
+model.get("room"))!==this.#told)this.#decides=false});const left=()=>{if(!document.fullscreenElement)
+this.alone(false)};document.addEventListener("fullscreenchange",left,{signal});signal.addEventListener(
+"abort",()=>{clearTimeout(this.#timer);this.observer.disconnect()})}alone(on=!this.#last.alone){const root=this.#root;
+if(!root||!on&&!this.#last.alone){this.#measureSoon();return}root.classList.toggle("glid-alone",on);
+this.#decides=true;this.#measure();root.scrollIntoView({block:on?"start":"nearest"});this.pad.focus(
+{preventScroll:true});if(!on&&document.fullscreenElement)document.exitFullscreen()}fullScreen(){if(document.
+fullscreenElement){document.exitFullscreen();return}this.#root?.requestFullscreen().catch(error=>{save(
+this.model,{notice:`Full screen is not possible here: ${error.message}`})})}#escape(e){if(e.key!=="E\
+scape"||!this.#last.alone)return;if(this.pad.matches(":active, :has(.glid-menu, :popover-open)"))return;
+e.stopPropagation();this.alone(false)}#measureSoon(){clearTimeout(this.#timer);this.#timer=setTimeout(
+()=>this.#measure(),SETTLE)}#measure(){const root=this.pad.closest(".glid-editor");const column=this.
 pad.closest(".glid-column");const around=column?.parentElement;if(!root||!around||!column.clientWidth)
-return;if(!this.#root)this.observer.observe(around);this.#root=root;const room=this.#roomIn(root,column,
-around);const last=this.#last;const wider=room.width-last.width;const same=room.height===last.height&&
-room.alone===last.alone;if(same&&wider>=0&&wider<SLACK)return;this.#last=room;const numbers=[room.width,
-room.height,room.alone];save(this.model,{room:numbers.map(Math.floor)})}#roomIn(root,column,around){
-const page=document.fullscreenElement===root?0:PAGE;const below=window.innerHeight-page;if(root.classList.
-contains("glid-alone")){return{width:root.clientWidth,height:below,alone:1}}const plots=column.nextElementSibling;
-const beside=around.clientWidth-(plots?.offsetWidth??0)-GAP;const width=beside>=LEAST?beside:around.
-clientWidth;return{width,height:Math.max(LEAST,below-PARTS),alone:0}}};var NEAR=8;var N_TIMED=3;var Shapes=class{motion=null;#materials=[];#camera=null;#renderer=null;#loading=0;#lifted=null;#resting=null;constructor(model,view){
+return;const room=this.#roomIn(root,column,around);if(!this.#root)this.#begin(root,around,room);this.#room=
+room;this.shrink();if(!this.#decides)return;const last=this.#last;const wider=room.width-last.width;
+const same=room.height===last.height&&room.alone===last.alone;if(same&&wider>=0&&wider<SLACK)return;
+this.#last=room;const numbers=[room.width,room.height,room.alone].map(Math.floor);this.#told=String(
+numbers);save(this.model,{room:numbers})}#begin(root,around,room){this.#root=root;this.observer.observe(
+around);nameControls(root,this.signal);const[width=0]=this.model.get("room");this.#decides=room.width>
+width;root.addEventListener("pointerup",()=>this.#decide(),{signal:this.signal})}#decide(){if(this.#decides)
+return;this.#decides=true;this.#last={width:0,height:0,alone:0};this.#measureSoon()}shrink(){const whole=this.
+pad.closest(".glid-deform");if(!whole||!this.#room)return;const panes=whole.querySelectorAll(".glid-\
+pane");const widths=[...panes].map(pane=>Number.parseFloat(pane.style.width)||0);const share=this.#room.
+width/widths.reduce((sum,width)=>sum+width,0);whole.style.zoom=share<1&&!this.#decides?String(share):
+""}#roomIn(root,column,around){const page=document.fullscreenElement===root?0:PAGE;const below=window.
+innerHeight-page;if(root.classList.contains("glid-alone")){return{width:root.clientWidth,height:below,
+alone:1}}const plots=column.nextElementSibling;const beside=around.clientWidth-(plots?.offsetWidth??
+0)-GAP;const width=beside>=LEAST?beside:around.clientWidth;return{width,height:Math.max(LEAST,below-
+PARTS),alone:0}}};var NEAR=8;var N_TIMED=3;var Shapes=class{motion=null;#materials=[];#camera=null;#renderer=null;#loading=0;#lifted=null;#resting=null;constructor(model,view){
 this.model=model;this.view=view;model.on("change:materials change:camera change:renderer",()=>this.load())}async load(){
 this.#loading+=1;const turn=this.#loading;const{model}=this;const references=[model.get("camera"),model.
 get("renderer"),...model.get("materials")];const[camera,renderer,...materials]=await Promise.all(references.
@@ -340,51 +378,55 @@ function uniformVectors(){const canvas=make("canvas");const gl=canvas.getContext
 for(let i=0;i<=N_TIMED;i++){shapes.redraw();await new Promise(go=>requestAnimationFrame(go));const canvas=drawnBelow(
 pad);const gl=canvas?.getContext("webgl")||canvas?.getContext("webgl2");if(!gl)continue;const start=performance.
 now();gl.readPixels(0,0,1,1,gl.RGBA,gl.UNSIGNED_BYTE,new Uint8Array(4));times.push(performance.now()-
-start)}return times.length>1?Math.min(...times.slice(1)):0}var SAVE_VIEW_AFTER=250;var Canvas=class{legend=new Legend;notices=new Notices;help=help(HELP);#chosen;#saving;#release=()=>{};constructor({
-model,el,signal}){this.model=model;this.interactive=model.get("interactive");const paper=make("canva\
-s",{className:"glid-paper"});this.box=make("div",{className:"glid-pad",role:"application","aria-labe\
-l":"Deformation canvas: arrow keys move, Enter pins a point",inert:!this.interactive},paper,this.legend.
-element,this.notices.notice,this.notices.prepared);this.box.dataset.lmSuppressShortcuts="true";el.classList.
-add("glid-host","glid-pad-host");el.append(this.box);this.view=new View(()=>this.#viewMoved(),{nearest:1e-4,
-farthest:1});this.shapes=new Shapes(model,this.view);this.redraw=painter(paper,this.view,signal,pen=>this.#draw(
-pen));this.link=new Link(model,this.box,signal,()=>this.#report());this.room=this.interactive?new Room(
-this.box,model,signal):null;this.pad=new Pad(this.box,this.view,this.link,new PinBehaviour(this));this.
-clipboard=new PoseClipboard(this);this.corner=this.#makeCorner();if(this.interactive){this.box.append(
-shield(this.corner),this.help.table,resizeGrip(model));keysAround(this.box,e=>this.pad.keydown(e),signal)}
-this.#takeFirst()}close(){clearTimeout(this.#saving);this.shapes.close()}get marks(){return this.model.
-get("marks")}get brush(){const brush=this.model.get("brush");return"radius"in brush?brush:null}get painting(){
-return this.brush!==null}say(notice){save(this.model,{notice})}openMenu(place,found={mark:this.marks.
-selected.at(-1)}){const{selected,targets}=this.marks;const mark=found?.mark===void 0?null:Number(found.
-mark);const centre=[this.view.x,this.view.y];const point=mark===null?this.model.get("cursor")??centre:
-targets[mark];const at=place??this.view.toScreen(point);const does={press:(key,shift=false)=>{return()=>this.
-pad.press(key,{shiftKey:shift})},pin:()=>void this.pad.send("pin",at),paste:()=>void this.clipboard.
-paste(),alone:()=>this.room?.alone(),fullScreen:()=>this.room?.fullScreen(),showKeys:this.help.toggle};
-const pinned=mark!==null&&selected.includes(mark)?selected.length:1;const covered=mark===null&&coveredNear(
-this.box,at);openMenu(this.box,at,menuRows(does,mark===null?null:{pinned},covered))}showMotion(motion=null,release=()=>{},heights=null){
-this.#release=release;this.shapes.motion=motion;this.shapes.lift(heights);this.showLegend();this.shapes.
+start)}return times.length>1?Math.min(...times.slice(1)):0}var SAVE_VIEW_AFTER=250;var STILL={release(){},pause:()=>void 0};var Canvas=class{legend=new Legend;notices=new Notices;help=help(
+HELP);#chosen;#saving;#playing=STILL;#presses=false;constructor({model,el,signal}){this.model=model;
+this.interactive=model.get("interactive");const paper=make("canvas",{className:"glid-paper"});this.box=
+make("div",{className:"glid-pad",role:"application","aria-label":"Deformation canvas: arrow keys mov\
+e, Enter pins a point",inert:!this.interactive},paper,this.legend.element,this.notices.notice,this.notices.
+prepared);this.box.dataset.lmSuppressShortcuts="true";el.classList.add("glid-host","glid-pad-host");
+el.append(this.box);this.view=new View(()=>this.#viewMoved(),{nearest:1e-4,farthest:1});this.shapes=
+new Shapes(model,this.view);this.redraw=painter(paper,this.view,signal,pen=>this.#draw(pen));this.link=
+new Link(model,this.box,signal,()=>this.#report());this.room=this.interactive?new Room(this.box,model,
+signal):null;this.pad=new Pad(this.box,this.view,this.link,new PinBehaviour(this));this.clipboard=new PoseClipboard(
+this);this.corner=this.#makeCorner();if(this.interactive){this.box.append(shield(this.corner),this.help.
+table,resizeGrip(model));keysAround(this.box,e=>this.pad.keydown(e),signal)}this.#takeFirst()}close(){
+clearTimeout(this.#saving);this.shapes.close()}get marks(){return this.model.get("marks")}get brush(){
+const brush=this.model.get("brush");return"radius"in brush?brush:null}get painting(){return this.brush!==
+null}say(notice){save(this.model,{notice})}openMenu(place,found={mark:this.marks.selected.at(-1)}){const{
+selected,targets}=this.marks;const mark=found?.mark===void 0?null:Number(found.mark);const centre=[this.
+view.x,this.view.y];const point=mark===null?this.model.get("cursor")??centre:targets[mark];const at=place??
+this.view.toScreen(point);const does={press:(key,shift=false)=>{return()=>this.pad.press(key,{shiftKey:shift})},
+pin:()=>void this.pad.send("pin",at),paste:()=>void this.clipboard.paste(),alone:()=>this.room?.alone(),
+fullScreen:()=>this.room?.fullScreen(),showKeys:this.help.toggle};const pinned=mark!==null&&selected.
+includes(mark)?selected.length:1;const covered=mark===null&&coveredNear(this.box,at);openMenu(this.box,
+at,menuRows(does,mark===null?null:{pinned},covered))}showMotion(motion=null,playing=STILL,heights=null){
+this.#playing=playing;this.shapes.motion=motion;this.shapes.lift(heights);this.showLegend();this.shapes.
 refresh();this.redraw()}showLegend(){this.legend.show(this.model,Boolean(this.shapes.motion))}showNotice(){
 const first=this.interactive&&!this.marks.targets.length;this.notices.tell(this.model.get("notice"),
 this.painting,first)}fit(){const{model,view,box}=this;view.width=model.get("width");view.height=model.
 get("height");[view.x,view.y,view.unit]=model.get("view");box.style.width=`${view.width}px`;box.style.
-height=`${view.height}px`;this.#see()}reveal(){const{selected,targets,images}=this.marks;const now=selected.
-length===1?selected[0]:void 0;if(now===this.#chosen)return;this.#chosen=now;if(now===void 0||this.pad.
-mode)return;if(inSight(this.view,targets[now])||inSight(this.view,images[now]))return;this.view.centreOn(
-targets[now])}#takeFirst(){const goBack=e=>{if(!this.shapes.motion)return;e.stopImmediatePropagation();
-e.preventDefault();this.#release()};const capture=true;this.box.addEventListener("pointerdown",e=>e.
-button!==1&&goBack(e),{capture});const ours=e=>!e.ctrlKey&&!e.metaKey&&KEYS.test(e.key);this.box.addEventListener(
-"keydown",e=>ours(e)&&goBack(e),{capture});const followArrow=e=>{const target=arrowAt(this.view,this.
-marks,this.pad.place(e));if(!target||e.target!==this.box)return;this.view.centreOn(target);e.stopImmediatePropagation()};
-this.box.addEventListener("pointerdown",followArrow,{capture})}#makeCorner(){const look="glid-help-b\
-utton";return make("div",{className:"glid-corner"},this.help.button,iconButton("fit","Full screen (W\
-)",()=>this.room?.fullScreen(),look),iconButton("rectangle","The picture alone (P)",()=>this.room?.alone(),
-look))}#report(){const{busy,refusal}=this.link;if(!busy&&refusal&&refusal!==this.model.get("notice"))
-this.say(refusal)}#viewMoved(){this.#see();clearTimeout(this.#saving);this.#saving=setTimeout(()=>{const{
-x,y,unit}=this.view;save(this.model,{view:[x,y,unit]})},SAVE_VIEW_AFTER)}#see(){this.shapes.see();this.
-redraw()}#draw(pen){const{model,view,pad,marks,brush}=this;const{motion}=this.shapes;const through=!motion&&
-knobInCorner(view,marks,pad.held);this.corner.classList.toggle("glid-through",through);if(motion)return;
-drawOnion(pen,view,model.get("onion"));drawStiff(pen,view,model.get("stiff"),this.painting);const cursor=pad.
-focused?model.get("cursor"):null;drawMarks(pen,view,marks,{hovered:pad.found?.mark,held:pad.held,cursor});
-if(brush)drawBrush(pen,view,brush,pad);if(pad.encloses&&pad.path.length>2)drawLasso(pen,view,pad.path)}};function render(context){const{model,signal}=context;const canvas=new Canvas(context);follow(model,{
+height=`${view.height}px`;this.room?.shrink();this.#see()}reveal(){const{selected,targets,images}=this.
+marks;const now=selected.length===1?selected[0]:void 0;if(now===this.#chosen)return;this.#chosen=now;
+if(now===void 0||this.pad.mode)return;if(inSight(this.view,targets[now])||inSight(this.view,images[now]))
+return;this.view.centreOn(targets[now])}pressedAt(){if(!this.shapes.motion)return void 0;this.#presses=
+true;return this.#playing.pause()}#takeFirst(){const goBack=e=>{if(!this.shapes.motion)return;e.stopImmediatePropagation();
+e.preventDefault();this.#playing.release()};const capture=true;this.box.addEventListener("pointerdow\
+n",e=>e.button===2&&goBack(e),{capture});const ours=e=>!e.ctrlKey&&!e.metaKey&&KEYS.test(keyOf(e));this.
+box.addEventListener("keydown",e=>ours(e)&&goBack(e),{capture});const followArrow=e=>{const target=arrowAt(
+this.view,this.marks,this.pad.place(e));if(!target||e.target!==this.box)return;this.view.centreOn(target);
+e.stopImmediatePropagation()};this.box.addEventListener("pointerdown",followArrow,{capture})}#makeCorner(){
+const look="glid-help-button";return make("div",{className:"glid-corner"},this.help.button,iconButton(
+"fit","Full screen (W)",()=>this.room?.fullScreen(),look),iconButton("rectangle","The picture alone \
+(P)",()=>this.room?.alone(),look))}#report(){const{busy,refusal}=this.link;if(this.#presses&&this.link.
+idle&&this.pad.mode===null){this.#presses=false;this.#playing.release()}if(!busy&&refusal&&refusal!==
+this.model.get("notice"))this.say(refusal)}#viewMoved(){this.#see();clearTimeout(this.#saving);this.#saving=
+setTimeout(()=>{const{x,y,unit}=this.view;save(this.model,{view:[x,y,unit]})},SAVE_VIEW_AFTER)}#see(){
+this.shapes.see();this.redraw()}#draw(pen){const{model,view,pad,marks,brush}=this;const{motion}=this.
+shapes;const through=!motion&&knobInCorner(view,marks,pad.held);this.corner.classList.toggle("glid-t\
+hrough",through);if(motion)return;drawOnion(pen,view,model.get("onion"));drawStiff(pen,view,model.get(
+"stiff"),this.painting);const cursor=pad.focused?model.get("cursor"):null;drawMarks(pen,view,marks,{
+hovered:pad.found?.mark,held:pad.held,cursor});if(brush)drawBrush(pen,view,brush,pad);if(pad.encloses&&
+pad.path.length>2)drawLasso(pen,view,pad.path)}};function render(context){const{model,signal}=context;const canvas=new Canvas(context);follow(model,{
 "change:width change:height change:view":()=>canvas.fit(),"change:coefficients":()=>canvas.shapes.refresh(),
 "change:marks change:cursor change:onion change:stiff change:brush":()=>canvas.redraw(),"glid:motion":(...shown)=>canvas.
 showMotion(...shown),"change:legend change:panel_legend change:legend_corner":()=>canvas.showLegend(),

@@ -11,8 +11,12 @@ if(this.repeat==="once")return Math.min(Math.max(time,start),end);const span=end
 last?2*last-within:within;const next=times.findIndex((knot,i)=>i>0&&there<knot);const high=next<0?times.
 length-1:next;const low=high-1;return{piece:low,share:(there-times[low])/(times[high]-times[low])}}at(time){
 const{piece,share}=this.place(time);const{floats,mixed}=this;const low=piece*mixed.length;const high=low+
-mixed.length;for(let i=0;i<mixed.length;i++){mixed[i]=(1-share)*floats[low+i]+share*floats[high+i]}return mixed}};function undoOrRedo(e){if(!e.ctrlKey&&!e.metaKey)return null;const key=e.key.toLowerCase();if(key===
-"z")return e.shiftKey?"redo":"undo";return key==="y"?"redo":null}var BUSY_AFTER=250;var ACKNOWLEDGE_TIMEOUT=2e3;var Link=class{busy=false;refusal=null;view=Math.random().
+mixed.length;for(let i=0;i<mixed.length;i++){mixed[i]=(1-share)*floats[low+i]+share*floats[high+i]}return mixed}};var LAST_LATIN="ɏ";var LATIN={Comma:",<",Period:".>",Slash:"/?",Minus:"-_",Equal:"=+",BracketLeft:"\
+[{",BracketRight:"]}"};function keyOf({key,code="",shiftKey=false}){if(key.length>1||key<=LAST_LATIN)
+return key;const[,letter,digit]=code.match(/^(?:Key([A-Z])|(?:Digit|Numpad)([0-9]))$/)??[];if(letter)
+return shiftKey?letter:letter.toLowerCase();return digit??LATIN[code]?.[Number(shiftKey)]??key}function undoOrRedo(e){
+if(!e.ctrlKey&&!e.metaKey)return null;const key=keyOf(e).toLowerCase();if(key==="z")return e.shiftKey?
+"redo":"undo";return key==="y"?"redo":null}var BUSY_AFTER=250;var ACKNOWLEDGE_TIMEOUT=2e3;var Link=class{busy=false;refusal=null;view=Math.random().
 toString(36).slice(2);#queue=[];#buffers=[];#promised=[];#waiting=false;#awaited=0;#number=0;#acknowledged=0;#overdue;#timeout;#drawing=0;constructor(model,element,signal,report){
 this.model=model;this.element=element;this.signal=signal;this.report=report;connectNoMoreComms(model.
 widget_manager.kernel);element.dataset.idle="true";signal.addEventListener("abort",()=>this.#stop());
@@ -81,23 +85,23 @@ const does=playing?"pause":"play";if(this.play.dataset.does!==does)this.play.inn
 play.dataset.does=does;this.clock.textContent=`${place.toFixed(2)} / ${seconds(end)}`;this.keep.textContent=
 between?"Keep it":"Keep"}};function gap(){return make("span",{className:"glid-gap"})}function menu(label,choices,act){
 const options=choices.map(([value,text])=>new Option(text,value));const select=make("select",{"aria-\
-label":label,title:label},...options);select.addEventListener("change",()=>act(select.value));return select}var Player=class{clock=null;time=0;seen=false;#intervals=[];#frame=0;constructor(show,moved){this.show=
-show;this.moved=moved}set(intervals,repeat){this.#intervals=intervals.map(({end,times:times2,floats})=>({
-end,motion:floats.length?new Motion({times:times2,repeat:"once"},floats):null}));const first=intervals[0];
-const last=intervals.at(-1);const times=first&&last?[first.start,last.end]:null;this.clock=times&&new Motion(
-{times,repeat},new Float32Array(0));if(this.seen&&!this.playing)this.#seek(this.time)}get playing(){
-return this.#frame!==0}get place(){const last=this.clock?.last??Infinity;return this.time>last?2*last-
-this.time:this.time}scrub(time){this.pause();if(this.clock)this.#seek(Math.min(Math.max(time,this.clock.
-start),this.clock.last))}play(){const{clock}=this;if(this.playing||!clock){this.pause();return}const once=clock.
-repeat==="once";if(once&&this.time>=clock.end)this.time=clock.start;let last=null;const step=async now=>{
-const time=this.time+(last===null?0:(now-last)/1e3);last=now;await this.#seek(time);if(!this.playing)
-return;if(once&&time>=clock.end)this.pause();else this.#frame=requestAnimationFrame(step)};this.#frame=
-requestAnimationFrame(step);this.moved()}pause(){cancelAnimationFrame(this.#frame);this.#frame=0;this.
-moved()}release(time){this.pause();this.time=time;if(this.seen){this.seen=false;this.show(null)}this.
-moved()}#seek(time){const{clock}=this;if(!clock){this.release(0);return}this.time=time===clock.end?time:
-clock.within(time);this.seen=true;const{place}=this;const interval=this.#intervals.find(({end})=>place<=
-end)??this.#intervals.at(-1);const shown=this.show(interval?.motion?.at(place)??null,place);this.moved();
-return shown}};var LATER=1.15;var LEAST=1;var MOST_LABELS=12;var STEPS=[.1,.2,.5,1,2,5,10,30,60,300,600];var LONGEST_STEP=1800;
+label":label,title:label},...options);select.addEventListener("change",()=>act(select.value));return select}var Player=class{clock=null;time=0;seen=false;#intervals=[];#frame=0;constructor(show,moved,ended=()=>{}){
+this.show=show;this.moved=moved;this.ended=ended}set(intervals,repeat){this.#intervals=intervals.map(
+({end,times:times2,floats})=>({end,motion:floats.length?new Motion({times:times2,repeat:"once"},floats):
+null}));const first=intervals[0];const last=intervals.at(-1);const times=first&&last?[first.start,last.
+end]:null;this.clock=times&&new Motion({times,repeat},new Float32Array(0));if(this.seen&&!this.playing)
+this.#seek(this.time)}get playing(){return this.#frame!==0}get place(){const last=this.clock?.last??
+Infinity;return this.time>last?2*last-this.time:this.time}scrub(time){this.pause();if(this.clock)this.#seek(
+Math.min(Math.max(time,this.clock.start),this.clock.last))}play(){const{clock}=this;if(this.playing||
+!clock){this.pause();return}const once=clock.repeat==="once";if(once&&this.time>=clock.end)this.time=
+clock.start;let last=null;const step=async now=>{const time=this.time+(last===null?0:(now-last)/1e3);
+last=now;await this.#seek(time);if(!this.playing)return;if(once&&time>=clock.end){this.pause();this.
+ended()}else this.#frame=requestAnimationFrame(step)};this.#frame=requestAnimationFrame(step);this.moved()}pause(){
+cancelAnimationFrame(this.#frame);this.#frame=0;this.moved()}release(time){this.pause();this.time=time;
+if(this.seen){this.seen=false;this.show(null)}this.moved()}#seek(time){const{clock}=this;if(!clock){
+this.release(0);return}this.time=time===clock.end?time:clock.within(time);this.seen=true;const{place}=this;
+const interval=this.#intervals.find(({end})=>place<=end)??this.#intervals.at(-1);const shown=this.show(
+interval?.motion?.at(place)??null,place);this.moved();return shown}};var LATER=1.15;var LEAST=1;var MOST_LABELS=12;var STEPS=[.1,.2,.5,1,2,5,10,30,60,300,600];var LONGEST_STEP=1800;
 var SAME=1e-9;var ROUNDING=.006;function withReturn({keyframes,repeat,back}){const last=keyframes.at(
 -1);if(repeat!=="loop"||keyframes.length<2||!last)return keyframes;const[first]=keyframes;return[...keyframes,
 {...first,time:last.time+back,name:`Back to ${first.name}`}]}function spanOf(keyframes){return Math.
@@ -111,7 +115,8 @@ beyond.at(-1))??null}function landing(keyframes,index,time,least){const gap2=Mat
 const others=keyframes.filter((_,i)=>i!==index).map(key=>key.time);const earliest=index<keyframes.length?
 0:(others.at(-1)??0)+gap2;const free=at=>at>=earliest&&others.every(other=>Math.abs(at-other)>gap2-ROUNDING);
 const places=[Math.max(time,earliest),...others.flatMap(other=>[other-gap2,other+gap2])];const far=at=>Math.
-abs(at-time);return places.map(at=>Math.round(100*at)/100).filter(free).sort((a,b)=>far(a)-far(b))[0]}var SNAP=6;var STILL=4;var SLIM=8;var WIDE=60;var LEAST_HEIGHT=.06;var Track=class{span=1;keys=make(
+abs(at-time);return places.map(at=>Math.round(100*at)/100).filter(free).sort((a,b)=>far(a)-far(b))[0]}function scaleOf(element){const{width,height}=element.getBoundingClientRect();const across=width/element.
+offsetWidth||1;return{across,down:height/element.offsetHeight||across}}var SNAP=6;var STILL=4;var SLIM=8;var WIDE=60;var LEAST_HEIGHT=.06;var Track=class{span=1;keys=make(
 "div",{className:"glid-keys"});head=make("div",{className:"glid-playhead"});ruler=make("div",{className:"\
 glid-ruler",tabIndex:0,role:"slider","aria-label":"Time","aria-valuemin":0});#drag=null;#scrubbing=null;#shown=null;constructor(hand){
 this.hand=hand;this.strip=make("div",{className:"glid-strip",role:"img",onpointerleave:()=>hand.hover(
@@ -145,34 +150,35 @@ end)}`;return[...proved,this.#piece(from,end,status,text,1)]}#piece(start,end,ki
 calc(${this.#wide(end-start)})`;return make("div",{className:`glid-piece glid-${kind}`,title:text,onpointerenter:()=>this.
 hand.hover(text),style:`left: ${this.#at(start)}; width: ${width}; --glid-height: ${height}`})}#wide(time){
 return`${time/this.span} * (100% - 2 * var(--glid-inset))`}#at(time){return`calc(var(--glid-inset) +\
- ${this.#wide(time)})`}#inside(){const{left,width}=this.element.getBoundingClientRect();const inset=Number.
-parseFloat(getComputedStyle(this.element).getPropertyValue("--glid-inset"));return{left:left+inset,width:width-
-2*inset}}#grab(e,index,time){if(e.button!==0)return;e.stopPropagation();const button=e.currentTarget;
-this.#drag={index,from:time,x:e.clientX,time:null};button.setPointerCapture(e.pointerId);button.focus(
-{preventScroll:true});button.onpointermove=move=>this.#dragged(move,button);button.onlostpointercapture=
-()=>this.#letGo()}#dragged(e,button){const drag=this.#drag;if(!drag)return;const moved=e.clientX-drag.
-x;if(drag.time===null&&Math.abs(moved)<=STILL)return;const time=drag.from+moved/this.#inside().width*
-this.span;drag.time=this.landing(drag.index,time);button.style.left=this.#at(drag.time);this.head.style.
-left=this.#at(drag.time);this.hand.hover(`to ${seconds(drag.time)}`)}#letGo(){if(!this.#drag)return;
-const{index,time}=this.#drag;this.drop();if(time!==null){this.focus();this.hand.move(index,time)}else if(index<
-(this.#shown?.keyframes.length??0)){this.hand.select(index)}}#down(e){if(e.button!==0||!this.hand.scrubs())
-return;this.#scrubbing=e.pointerId;this.element.setPointerCapture(e.pointerId);this.#scrub(e)}#scrub(e){
-if(this.#scrubbing!==e.pointerId)return;const{left,width}=this.#inside();const time=(e.clientX-left)/
-width*this.span;const near=SNAP/width*this.span;const key=this.#shown?.keyframes.find(one=>Math.abs(
-one.time-time)<near);this.hand.scrub(key?.time??time)}#up(e){if(this.#scrubbing!==e.pointerId)return;
-this.drop();this.hand.scrubbed()}};var STEP=1/30;var NUDGE=.1;var Timeline=class{note=make("div",{className:"glid-timeline-note",role:"\
-status","aria-live":"polite"});stage=null;#layers=null;#hovered="";constructor({model,el,signal}){this.
-model=model;this.root=make("div",{className:"glid-skin glid-timeline",role:"group","aria-label":"Tim\
-eline"});this.root.dataset.lmSuppressShortcuts="true";this.link=new Link(model,this.root,signal,()=>this.
-tell());this.player=new Player((floats,time)=>this.#show(floats,time),()=>this.showHead());this.bar=
-new Bar({play:()=>this.player.play(),keep:()=>this.#keep(),act:(type,content)=>void this.act(type,content),
-edit:(type,content)=>void this.edit(type,content)});this.track=new Track({scrubs:()=>this.player.clock!==
-null,scrub:time=>this.player.scrub(time),scrubbed:()=>this.#selectHere(),select:index=>this.select(index),
-move:(index,time)=>void this.act("move_pose",{index,time}),hover:text=>{this.#hovered=text;this.tell()},
-dropped:()=>{this.showKeys();this.showHead()}});this.root.append(this.bar.element,this.track.element,
-this.note);this.root.addEventListener("keydown",e=>this.#keydown(e));this.root.addEventListener("key\
-up",e=>{if(e.key===" "&&!this.#typing(e))e.preventDefault()});this.bar.element.addEventListener("cli\
-ck",e=>{const target=e.target;if(e.detail&&target.closest("button"))this.track.focus()});el.classList.
+ ${this.#wide(time)})`}#inside(){const{left,width}=this.element.getBoundingClientRect();const length=getComputedStyle(
+this.element).getPropertyValue("--glid-inset");const inset=Number.parseFloat(length)*scaleOf(this.element).
+across;return{left:left+inset,width:width-2*inset}}#grab(e,index,time){if(e.button!==0)return;e.stopPropagation();
+const button=e.currentTarget;this.#drag={index,from:time,x:e.clientX,time:null};button.setPointerCapture(
+e.pointerId);button.focus({preventScroll:true});button.onpointermove=move=>this.#dragged(move,button);
+button.onlostpointercapture=()=>this.#letGo()}#dragged(e,button){const drag=this.#drag;if(!drag)return;
+const moved=e.clientX-drag.x;if(drag.time===null&&Math.abs(moved)<=STILL)return;const time=drag.from+
+moved/this.#inside().width*this.span;drag.time=this.landing(drag.index,time);button.style.left=this.#at(
+drag.time);this.head.style.left=this.#at(drag.time);this.hand.hover(`to ${seconds(drag.time)}`)}#letGo(){
+if(!this.#drag)return;const{index,time}=this.#drag;this.drop();if(time!==null){this.focus();this.hand.
+move(index,time)}else if(index<(this.#shown?.keyframes.length??0)){this.hand.select(index)}}#down(e){
+if(e.button!==0||!this.hand.scrubs())return;this.#scrubbing=e.pointerId;this.element.setPointerCapture(
+e.pointerId);this.#scrub(e)}#scrub(e){if(this.#scrubbing!==e.pointerId)return;const{left,width}=this.#inside();
+const time=(e.clientX-left)/width*this.span;const near=SNAP/width*this.span;const key=this.#shown?.keyframes.
+find(one=>Math.abs(one.time-time)<near);this.hand.scrub(key?.time??time)}#up(e){if(this.#scrubbing!==
+e.pointerId)return;this.drop();this.hand.scrubbed()}};var STEP=1/30;var NUDGE=.1;var Timeline=class{note=make("div",{className:"glid-timeline-note",role:"\
+status","aria-live":"polite"});stage=null;#layers=null;#hovered="";#playing={release:()=>this.release(),
+pause:()=>{this.player.pause();return this.player.place}};constructor({model,el,signal}){this.model=
+model;this.root=make("div",{className:"glid-skin glid-timeline",role:"group","aria-label":"Timeline"});
+this.root.dataset.lmSuppressShortcuts="true";this.link=new Link(model,this.root,signal,()=>this.tell());
+this.player=new Player((floats,time)=>this.#show(floats,time),()=>this.showHead(),()=>this.#selectHere());
+this.bar=new Bar({play:()=>this.player.play(),keep:()=>this.#keep(),act:(type,content)=>void this.act(
+type,content),edit:(type,content)=>void this.edit(type,content)});this.track=new Track({scrubs:()=>this.
+player.clock!==null,scrub:time=>this.player.scrub(time),scrubbed:()=>this.#selectHere(),select:index=>this.
+select(index),move:(index,time)=>void this.act("move_pose",{index,time}),hover:text=>{this.#hovered=
+text;this.tell()},dropped:()=>{this.showKeys();this.showHead()}});this.root.append(this.bar.element,
+this.track.element,this.note);this.root.addEventListener("keydown",e=>this.#keydown(e));this.root.addEventListener(
+"keyup",e=>{if(e.key===" "&&!this.#typing(e))e.preventDefault()});this.bar.element.addEventListener(
+"click",e=>{const target=e.target;if(e.detail&&target.closest("button"))this.track.focus()});el.classList.
 add("glid-host");el.append(this.root)}get shown(){return this.model.get("shown")}get spans(){return this.
 model.get("motion").spans}get active(){return this.shown.keyframes[this.shown.active]}act(type,content={}){
 return this.link.put({type,...content})}edit(type,content={}){return this.act(type,{index:this.shown.
@@ -192,7 +198,7 @@ kernel&&!player.playing&&player.seen&&computing)this.release();this.tell();this.
 this.note.textContent??"");this.showHead()}showHeights(){const{times,floats}=this.model.get("heights");
 this.#layers=times.length?new Motion({times,repeat:"once"},toFloats(floats)):null}#show(floats,time){
 const{stage}=this;if(!stage)return;const moving=time!==void 0;const heights=moving?this.#layers?.at(
-time)??null:null;stage.trigger("glid:motion",moving?floats??true:null,this.release,heights);if(this.
+time)??null:null;stage.trigger("glid:motion",moving?floats??true:null,this.#playing,heights);if(this.
 shown.kernel)return this.act("frame",{time:time??null,replaces:"frame"})}#keep(){const{player}=this;
 this.act("keep",{time:player.seen?player.place:this.active.time})}#selectHere(){const index=keyAt(this.
 shown.keyframes,this.player.place);if(index>=0)this.select(index)}#typing(e){return this.bar.element.

@@ -25,9 +25,13 @@ M3 8h10",open:"M2 12.5v-9h4l1.5 2H14v7z",play:"M5 3l8 5-8 5z",pause:"M5.5 3v10 M
 4 0 1 1 0 8",copy:"M5.5 5.5h8v8h-8z M3 10.5v-8h8",export:"M8 2v8 M4.8 6.8L8 10l3.2-3.2 M3 13.5h10",trash:"\
 M3 4.5h10 M6.5 4.5v-2h3v2 M4.5 4.5l.6 9h5.8l.6-9"};function icon(name){return`<svg viewBox="0 0 16 1\
 6" aria-hidden="true"><path d="${PATHS[name]}"/></svg>`}function iconButton(name,title,onclick,className="\
-glid-icon"){return make("button",{title,"aria-label":title,className,onclick,innerHTML:icon(name)})}var TEXT="textarea, [contenteditable], input:not([type=checkbox], [type=range], [type=radio])";function undoOrRedo(e){
-if(!e.ctrlKey&&!e.metaKey)return null;const key=e.key.toLowerCase();if(key==="z")return e.shiftKey?"\
-redo":"undo";return key==="y"?"redo":null}function keysAround(element,act,signal,whole=element){const editorAround=e=>{
+glid-icon"){return make("button",{title,"aria-label":title,className,onclick,innerHTML:icon(name)})}var TEXT="textarea, [contenteditable], input:not([type=checkbox], [type=range], [type=radio])";var LAST_LATIN="\
+ɏ";var LATIN={Comma:",<",Period:".>",Slash:"/?",Minus:"-_",Equal:"=+",BracketLeft:"[{",BracketRight:"\
+]}"};function keyOf({key,code="",shiftKey=false}){if(key.length>1||key<=LAST_LATIN)return key;const[
+,letter,digit]=code.match(/^(?:Key([A-Z])|(?:Digit|Numpad)([0-9]))$/)??[];if(letter)return shiftKey?
+letter:letter.toLowerCase();return digit??LATIN[code]?.[Number(shiftKey)]??key}function undoOrRedo(e){
+if(!e.ctrlKey&&!e.metaKey)return null;const key=keyOf(e).toLowerCase();if(key==="z")return e.shiftKey?
+"redo":"undo";return key==="y"?"redo":null}function keysAround(element,act,signal,whole=element){const editorAround=e=>{
 const editor=element.closest(".glid-editor")??whole;const inside=editor.contains(e.target)&&element.
 checkVisibility();return inside?editor:null};const refocus=e=>{const editor=editorAround(e);if(!editor)
 return;editor.tabIndex=-1;const target=e.target;const lost=e.type==="focusout"?target.disabled:target.
@@ -39,7 +43,7 @@ bubbled=>bubbled.stopPropagation():null;if(outside&&!target.matches(TEXT)&&isFor
 e)};const options={capture:true,signal};window.addEventListener("pointerdown",refocus,options);window.
 addEventListener("focusout",refocus,options);window.addEventListener("keydown",keydown,options)}function isForThePad(e,target){
 if(undoOrRedo(e))return!e.altKey;if(e.ctrlKey||e.metaKey||target.matches("select"))return false;const free=target.
-closest(".glid-timeline")?/^[^ ]$/:/^([^ ]|Escape|Delete)$/;return free.test(e.key)}var BUSY_AFTER=250;var ACKNOWLEDGE_TIMEOUT=2e3;var Link=class{busy=false;refusal=null;view=Math.random().
+closest(".glid-timeline")?/^[^ ]$/:/^([^ ]|Escape|Delete)$/;return free.test(keyOf(e))}var BUSY_AFTER=250;var ACKNOWLEDGE_TIMEOUT=2e3;var Link=class{busy=false;refusal=null;view=Math.random().
 toString(36).slice(2);#queue=[];#buffers=[];#promised=[];#waiting=false;#awaited=0;#number=0;#acknowledged=0;#overdue;#timeout;#drawing=0;constructor(model,element,signal,report){
 this.model=model;this.element=element;this.signal=signal;this.report=report;connectNoMoreComms(model.
 widget_manager.kernel);element.dataset.idle="true";signal.addEventListener("abort",()=>this.#stop());
@@ -172,11 +176,12 @@ const dot=(point[0]-start[0])*along[0]+(point[1]-start[1])*along[1];const share=
 let found=-1;holes.forEach((hole,i)=>{if((found<0||hole.area<holes[found].area)&&encloses(hole.loop,
 point))found=i});return found}function encloses(loop,[x,y]){let winding=0;loop.forEach(([x0,y0],i)=>{
 const[x1,y1]=loop[(i+1)%loop.length];const left=(x1-x0)*(y-y0)-(x-x0)*(y1-y0);if(y0<=y&&y1>y&&left>0)
-winding+=1;if(y0>y&&y1<=y&&left<0)winding-=1});return winding!==0}function painter(canvas,view,signal,draw){let due=0;signal.addEventListener("abort",()=>cancelAnimationFrame(
-due));return()=>{if(due)return;due=requestAnimationFrame(()=>{due=0;draw(clearedPen(canvas,view))})}}
-function clearedPen(canvas,{width,height}){const ratio=window.devicePixelRatio||1;const wide=Math.round(
-width*ratio);const high=Math.round(height*ratio);if(canvas.width!==wide||canvas.height!==high){canvas.
-width=wide;canvas.height=high}const pen=penOf(canvas);pen.setTransform(ratio,0,0,ratio,0,0);pen.clearRect(
+winding+=1;if(y0>y&&y1<=y&&left<0)winding-=1});return winding!==0}var NEARLY_NOTHING="rgba(255, 255, 255, 0.004)";function painter(canvas,view,signal,draw){let due=0;
+signal.addEventListener("abort",()=>cancelAnimationFrame(due));return()=>{if(due)return;due=requestAnimationFrame(
+()=>{due=0;draw(clearedPen(canvas,view))})}}function clearedPen(canvas,{width,height}){const ratio=window.
+devicePixelRatio||1;const wide=Math.round(width*ratio);const high=Math.round(height*ratio);if(canvas.
+width!==wide||canvas.height!==high){canvas.width=wide;canvas.height=high}const pen=penOf(canvas);pen.
+setTransform(ratio,0,0,ratio,0,0);pen.clearRect(0,0,width,height);pen.fillStyle=NEARLY_NOTHING;pen.fillRect(
 0,0,width,height);return pen}function circle(pen,[x,y],radius,strokes,dash){pen.beginPath();pen.arc(
 x,y,radius,0,2*Math.PI);strokePath(pen,strokes,dash)}function disk(pen,place,radius,fill,stroke,width=1){
 circle(pen,place,radius,[]);pen.fillStyle=fill;pen.fill();if(stroke)strokePath(pen,[[width,stroke]])}
@@ -185,7 +190,10 @@ y],i)=>{if(i)pen.lineTo(x,y);else pen.moveTo(x,y)});if(closed)pen.closePath()}}f
 top],[right,bottom]){return[[left,top],[right,top],[right,bottom],[left,bottom]]}function fillPath(pen,lines,style,rule="\
 evenodd"){tracePath(pen,lines);pen.fillStyle=style;pen.fill(rule)}function strokePath(pen,strokes,dash=[]){
 pen.setLineDash(dash);for(const[width,style]of strokes){pen.lineWidth=width;pen.strokeStyle=style;pen.
-stroke()}pen.setLineDash([])}var CLICK=4;var LONG_PRESS=600;var LONG_PRESS_GRACE=100;var LONG_PRESS_SLACK=8;var PATH_STEP=3;var Pad=class{pointers=new Map;mode=null;grip=null;held=new Map;path=[];encloses=null;found=null;rests=null;#start=[
+stroke()}pen.setLineDash([])}function scaleOf(element){const{width,height}=element.getBoundingClientRect();const across=width/element.
+offsetWidth||1;return{across,down:height/element.offsetHeight||across}}function placeIn(element,{clientX,
+clientY}){const{left,top}=element.getBoundingClientRect();const{across,down}=scaleOf(element);return[
+(clientX-left)/across,(clientY-top)/down]}var CLICK=4;var LONG_PRESS=600;var LONG_PRESS_GRACE=100;var LONG_PRESS_SLACK=8;var PATH_STEP=3;var Pad=class{pointers=new Map;mode=null;grip=null;held=new Map;path=[];encloses=null;found=null;rests=null;#start=[
 0,0];#pans=false;#space=false;#tap=false;#longPress;constructor(element,view,link,behaviour){this.element=
 element;this.view=view;this.link=link;this.behaviour=behaviour;element.tabIndex=0;link.signal.addEventListener(
 "abort",()=>clearTimeout(this.#longPress));element.addEventListener("pointerdown",e=>this.#down(e));
@@ -196,60 +204,60 @@ null));element.addEventListener("wheel",e=>this.#wheel(e),{passive:false});eleme
 "contextmenu",e=>this.#contextMenu(e));element.addEventListener("keydown",e=>this.keydown(e));element.
 addEventListener("keyup",e=>this.#keyup(e));element.addEventListener("focus",()=>behaviour.changed());
 element.addEventListener("blur",()=>{this.#setSpace(false);behaviour.changed()})}get focused(){return this.
-element.matches(":focus")}place(e){const box=this.element.getBoundingClientRect();return[e.clientX-box.
-left,e.clientY-box.top]}send(type,place,e={},more={}){const[x,y]=this.view.toWorld(place);const{unit}=this.
-view;return this.link.put({type,x,y,unit,reach:this.#reach(e.pointerType)*unit,button:e.button??0,shift:Boolean(
-e.shiftKey),time:e.timeStamp??performance.now(),...more})}press(key,e){this.send("key",[this.view.width/
-2,this.view.height/2],e,{key})}hover(place=this.rests){this.rests=place;if(this.mode!==null)return;this.
-found=place&&this.#find(place,"mouse");this.#showCursor();this.behaviour.changed()}keydown(e){const command=e.
-ctrlKey||e.metaKey;const action=command?void 0:this.behaviour.actions[e.key.toLowerCase()];const history=undoOrRedo(
-e);if(!history&&!action&&e.key!==" "){if(e.altKey||!this.behaviour.keys.test(e.key)||command&&e.key!==
-"a")return}e.preventDefault();e.stopPropagation();if(e.key===" "){if(!e.repeat)this.#tap=true;this.#setSpace(
-true)}else if(action){action()}else{if(e.key==="Escape"||history)this.#drop();this.press(history??e.
-key,e)}}#keyup(e){if(e.key!==" ")return;this.#setSpace(false);if(this.#tap)this.behaviour.tapped?.()}#reach(type){
-return this.behaviour.reach[type??"mouse"]??this.behaviour.reach.mouse}#find(place,type){return this.
-behaviour.find(this.view.toWorld(place),this.#reach(type)*this.view.unit)}#down(e){if(this.pointers.
-has(e.pointerId)||this.pointers.size>1)return;e.preventDefault();this.element.focus({preventScroll:true});
-this.#tap=false;const place=this.place(e);this.pointers.set(e.pointerId,place);this.element.setPointerCapture(
-e.pointerId);const second=this.pointers.size===2;if(second)this.#takeBack(e);this.#start=place;this.
-mode=second||e.button===1||e.button===0&&this.#space?"pan":"hand";if(this.mode==="hand")this.#handDown(
-place,e);this.#showCursor()}#handDown(place,e){const{behaviour}=this;const found=this.#find(place,e.
-pointerType);const left=e.button===0;if(left&&!e.shiftKey&&found?.mark!==void 0){this.grip={from:this.
-view.toWorld(place),points:behaviour.held(found)}}this.#pans=left&&Boolean(behaviour.pans?.(found,e));
-this.encloses=left&&!behaviour.painting?behaviour.encloses?.(found,e):null;this.path=left?[this.view.
-toWorld(place)]:[];this.send("down",place,e,{part:found?.part});if(e.pointerType==="touch"&&behaviour.
-menu&&!behaviour.painting){this.#longPress=setTimeout(()=>this.#pressedLong(e,place),LONG_PRESS)}behaviour.
-changed()}#pressedLong(e,place){this.#longPress=setTimeout(()=>{this.#takeBack(e);this.mode=null;this.#menu(
-place,"touch")},LONG_PRESS_GRACE)}#menu(place,type){this.behaviour.menu?.(place,this.#find(place,type))}#contextMenu(e){
-e.preventDefault();e.stopPropagation();const touch=e instanceof PointerEvent&&e.pointerType==="touch";
-if(e.button===2&&!touch)this.#menu(this.place(e),"mouse")}#takeBack(e){if(this.mode==="hand")this.send(
-"cancel",this.#start,e);this.#drop()}#move(e){const place=this.place(e);const touch=e.pointerType===
-"touch";if(!this.pointers.has(e.pointerId)){if(!touch)this.hover(place);return}if(!touch)this.rests=
-place;const far=distance(place,this.#start);if(far>LONG_PRESS_SLACK)clearTimeout(this.#longPress);if(this.
-mode==="hand"&&this.#pans&&far>CLICK){this.#takeBack(e);this.mode="pan";this.#showCursor()}if(this.mode===
-"pan"){this.view.follow(this.pointers,e.pointerId,place);return}this.pointers.set(e.pointerId,place);
-if(this.mode==="hand")this.#handMoved(place,e,far)}#handMoved(place,e,far){const point=this.view.toWorld(
-place);this.#lengthenPath(place,point,far);if(!this.encloses&&!this.behaviour.painting){this.send("m\
-ove",place,e,{replaces:`move ${e.pointerId}`})}if(this.grip){const dx=point[0]-this.grip.from[0];const dy=point[1]-
-this.grip.from[1];for(const[mark,[x,y]]of this.grip.points)this.held.set(mark,[x+dx,y+dy])}this.behaviour.
-changed()}#lengthenPath(place,point,far){if(this.encloses==="box"){const[corner]=this.path;this.path=
-far>CLICK?rectangle(corner,point):[corner];return}const last=this.path.at(-1);if(last&&distance(place,
-this.view.toScreen(last))>=PATH_STEP)this.path.push(point)}#up(e,type){if(!this.pointers.has(e.pointerId))
-return;const place=this.place(e);this.pointers.delete(e.pointerId);if(this.mode==="hand"){const{path}=this;
-this.send(type,place,e,{path,encloses:Boolean(this.encloses)}).then(()=>{if(!this.grip)this.held.clear();
-if(this.path===path)this.path=[];this.behaviour.changed()})}this.#letGo();if(!this.pointers.size)this.
-mode=null;this.#showCursor()}#letGo(){clearTimeout(this.#longPress);this.grip=null;this.behaviour.changed()}#drop(){
-this.#letGo();this.held.clear();this.path=[]}#wheel(e){if(this.behaviour.wheelNeedsFocus&&!this.focused&&
-!e.ctrlKey)return;e.stopPropagation();this.view.wheel(e,this.place(e))}#setSpace(pressed){this.#space=
-pressed;this.#showCursor()}#showCursor(){this.element.style.cursor=this.#cursor()}#cursor(){if(this.
-mode==="pan"||this.grip)return"grabbing";return this.#space?"grab":this.behaviour.cursor(this.found)}};var HALO="rgba(255, 255, 255, 0.9)";var SPECK=12;var CHECK=8;function drawStage(pen,stage,scene,hover){
+element.matches(":focus")}place(e){return placeIn(this.element,e)}send(type,place,e={},more={}){const[
+x,y]=this.view.toWorld(place);const{unit}=this.view;return this.link.put({type,x,y,unit,reach:this.#reach(
+e.pointerType)*unit,button:e.button??0,shift:Boolean(e.shiftKey),alt:Boolean(e.altKey),time:e.timeStamp??
+performance.now(),...more})}press(key,e){this.send("key",[this.view.width/2,this.view.height/2],e,{key})}hover(place=this.
+rests){this.rests=place;if(this.mode!==null)return;this.found=place&&this.#find(place,"mouse");this.#showCursor();
+this.behaviour.changed()}keydown(e){const key=keyOf(e);const command=e.ctrlKey||e.metaKey;const action=command?
+void 0:this.behaviour.actions[key.toLowerCase()];const history=undoOrRedo(e);if(!history&&!action&&key!==
+" "){if(e.altKey||!this.behaviour.keys.test(key)||command&&key!=="a")return}e.preventDefault();e.stopPropagation();
+if(key===" "){if(!e.repeat)this.#tap=true;this.#setSpace(true)}else if(action){action()}else{if(key===
+"Escape"||history)this.#drop();this.press(history??key,e)}}#keyup(e){if(e.key!==" ")return;this.#setSpace(
+false);if(this.#tap)this.behaviour.tapped?.()}#reach(type){return this.behaviour.reach[type??"mouse"]??
+this.behaviour.reach.mouse}#find(place,type){return this.behaviour.find(this.view.toWorld(place),this.#reach(
+type)*this.view.unit)}#down(e){if(this.pointers.has(e.pointerId)||this.pointers.size>1)return;e.preventDefault();
+this.element.focus({preventScroll:true});this.#tap=false;const place=this.place(e);this.pointers.set(
+e.pointerId,place);this.element.setPointerCapture(e.pointerId);const second=this.pointers.size===2;if(second)
+this.#takeBack(e);this.#start=place;this.mode=second||e.button===1||e.button===0&&this.#space?"pan":
+"hand";if(this.mode==="hand")this.#handDown(place,e);this.#showCursor()}#handDown(place,e){const{behaviour}=this;
+const found=this.#find(place,e.pointerType);const left=e.button===0;if(left&&!e.shiftKey&&!e.altKey&&
+found?.mark!==void 0){this.grip={from:this.view.toWorld(place),points:behaviour.held(found)}}this.#pans=
+left&&Boolean(behaviour.pans?.(found,e));this.encloses=left&&!behaviour.painting?behaviour.encloses?.(
+found,e):null;this.path=left?[this.view.toWorld(place)]:[];this.send("down",place,e,{part:found?.part,
+at:left?behaviour.pressedAt?.():void 0});if(e.pointerType==="touch"&&behaviour.menu&&!behaviour.painting){
+this.#longPress=setTimeout(()=>this.#pressedLong(e,place),LONG_PRESS)}behaviour.changed()}#pressedLong(e,place){
+this.#longPress=setTimeout(()=>{this.#takeBack(e);this.mode=null;this.#menu(place,"touch")},LONG_PRESS_GRACE)}#menu(place,type){
+this.behaviour.menu?.(place,this.#find(place,type))}#contextMenu(e){e.preventDefault();e.stopPropagation();
+const touch=e instanceof PointerEvent&&e.pointerType==="touch";if(e.button===2&&!touch)this.#menu(this.
+place(e),"mouse")}#takeBack(e){if(this.mode==="hand")this.send("cancel",this.#start,e);this.#drop()}#move(e){
+const place=this.place(e);const touch=e.pointerType==="touch";if(!this.pointers.has(e.pointerId)){if(!touch)
+this.hover(place);return}if(!touch)this.rests=place;const far=distance(place,this.#start);if(far>LONG_PRESS_SLACK)
+clearTimeout(this.#longPress);if(this.mode==="hand"&&this.#pans&&far>CLICK){this.#takeBack(e);this.mode=
+"pan";this.#showCursor()}if(this.mode==="pan"){this.view.follow(this.pointers,e.pointerId,place);return}
+this.pointers.set(e.pointerId,place);if(this.mode==="hand")this.#handMoved(place,e,far)}#handMoved(place,e,far){
+const point=this.view.toWorld(place);this.#lengthenPath(place,point,far);if(!this.encloses&&!this.behaviour.
+painting){this.send("move",place,e,{replaces:`move ${e.pointerId}`})}if(this.grip){const dx=point[0]-
+this.grip.from[0];const dy=point[1]-this.grip.from[1];for(const[mark,[x,y]]of this.grip.points)this.
+held.set(mark,[x+dx,y+dy])}this.behaviour.changed()}#lengthenPath(place,point,far){if(this.encloses===
+"box"){const[corner]=this.path;this.path=far>CLICK?rectangle(corner,point):[corner];return}const last=this.
+path.at(-1);if(last&&distance(place,this.view.toScreen(last))>=PATH_STEP)this.path.push(point)}#up(e,type){
+if(!this.pointers.has(e.pointerId))return;const place=this.place(e);this.pointers.delete(e.pointerId);
+if(this.mode==="hand"){const{path}=this;this.send(type,place,e,{path,encloses:Boolean(this.encloses)}).
+then(()=>{if(!this.grip)this.held.clear();if(this.path===path)this.path=[];this.behaviour.changed()})}
+this.#letGo();if(!this.pointers.size)this.mode=null;this.#showCursor()}#letGo(){clearTimeout(this.#longPress);
+this.grip=null;this.behaviour.changed()}#drop(){this.#letGo();this.held.clear();this.path=[]}#wheel(e){
+if(!this.behaviour.ownsWheel&&!this.focused&&!e.ctrlKey)return;e.stopPropagation();this.view.wheel(e,
+this.place(e))}#setSpace(pressed){this.#space=pressed;this.#showCursor()}#showCursor(){this.element.
+style.cursor=this.#cursor()}#cursor(){if(this.mode==="pan"||this.grip)return"grabbing";return this.#space?
+"grab":this.behaviour.cursor(this.found)}};var HALO="rgba(255, 255, 255, 0.9)";var SPECK=12;var CHECK=8;function drawStage(pen,stage,scene,hover){
 const{shown,colors,loops}=scene;const{view}=stage;const[width,height]=shown.size??[0,0];const corner=view.
 toScreen([0,0]);drawPicture(pen,stage,colors,corner,[width/view.unit,height/view.unit]);if(loops.length&&
 !stage.painting){const frame=rectangle(corner,view.toScreen([width,height]));fillPath(pen,[...loops,
 frame],colors.veil)}drawHoles(pen,stage,scene,hover);if(stage.brushing||shown.options.method==="scri\
 bbles")drawStrokes(pen,stage,scene);if(loops.length&&!(stage.drawing&&shown.doubt))drawCage(pen,stage,
-scene,hover);if(stage.drawing)drawOutline(pen,stage,scene);for(const{point}of shown.problems){if(!point)
-continue;circle(pen,view.toScreen(point),13,[[5,HALO],[2.25,colors.warn]])}}function drawPicture(pen,{
+scene,hover);if(stage.drawing||shown.inside.length)drawOutline(pen,stage,scene);for(const{point}of shown.
+problems){if(!point)continue;circle(pen,view.toScreen(point),13,[[5,HALO],[2.25,colors.warn]])}}function drawPicture(pen,{
 bitmap,view},colors,corner,extent){pen.fillStyle=checks(pen,colors);pen.fillRect(...corner,...extent);
 if(!bitmap)return;pen.imageSmoothingEnabled=6*view.unit>1;pen.imageSmoothingQuality="high";pen.drawImage(
 bitmap,...corner,...extent)}function checks(pen,colors){const tile=make("canvas",{width:2*CHECK,height:2*
@@ -289,9 +297,9 @@ V","edit: drag a vertex, double-click an edge to add one, click a hole to drop o
 click, Delete","remove a vertex"],["[ ]","select the vertex before, the next vertex"],["Arrow keys",
 "nudge the selected vertex, with Shift farther"],["Ctrl+Z, Ctrl+Shift+Z","undo, redo"]]],["By hand",
 [["B, N","paint over the shape, over the background"],["I, C","pick the background's colour, the com\
-ponent"],["P, R","draw the outline, a rectangle; Enter closes an outline, Esc discards it"]]],["View",
-[["Wheel, + -, F","zoom after a click on the picture, fit the picture"],["Drag beside the outline","\
-move the view"]]]];var REACH={mouse:9,pen:12,touch:18};var ZOOM=1.25;var MARGIN=24;var HINT=8;var CALLOUT=24;var EDGE=8;
+ponent"],["P, R","draw the outline or a hole in it, a rectangle; Enter closes it, Esc discards it"]]],
+["View",[["Wheel, + -, F","zoom after a click on the picture, fit the picture"],["Drag beside the ou\
+tline","move the view"]]]];var REACH={mouse:9,pen:12,touch:18};var ZOOM=1.25;var MARGIN=24;var HINT=8;var CALLOUT=24;var EDGE=8;
 var MOST_ZOOM=40;var FARTHEST=1e3;var COLORS=["accent","accent-soft","warn","warn-soft","faint","vei\
 l","foreground","background","check-light","check-dark"];var KEYS=/^(Arrow\w+|Delete|Backspace|Escape|Enter|[[\]vbnicpr])$/i;
 var Stage=class{canvas=make("canvas",{className:"glid-canvas",role:"application","aria-label":"Pictu\
@@ -326,9 +334,9 @@ this.view.zoom(closer?1/ZOOM:ZOOM)}#resize(){const{clientWidth,clientHeight}=thi
 this.changed()}get loops(){const loops=this.shown?.loops??[];const{held}=this.pad;if(!held.size)return loops;
 return loops.map((loop,i)=>loop.map((point,j)=>held.get(`${i}:${j}`)??point))}get brushing(){return this.
 tool==="foreground"||this.tool==="background"}get drawing(){return this.tool==="polygon"||this.tool===
-"rectangle"}reach=REACH;keys=KEYS;wheelNeedsFocus=true;actions={"+":()=>this.zoom(true),"=":()=>this.
-zoom(true),"-":()=>this.zoom(false),f:()=>this.fit()};get painting(){return this.brushing||this.drawing}find(point,reach){
-if(this.tool!=="edit"||!this.shown?.size)return null;const{holes,reach_shares:shares}=this.shown;const hole=holeAt(
+"rectangle"}reach=REACH;keys=KEYS;actions={"+":()=>this.zoom(true),"=":()=>this.zoom(true),"-":()=>this.
+zoom(false),f:()=>this.fit()};get painting(){return this.brushing||this.drawing}find(point,reach){if(this.
+tool!=="edit"||!this.shown?.size)return null;const{holes,reach_shares:shares}=this.shown;const hole=holeAt(
 holes,point);const near=hole<0?reach:shares.in_hole*reach;const vertex=nearestVertex(this.loops,point,
 near);if(vertex)return{vertex,mark:`${vertex.loop}:${vertex.index}`};const edge=nearestEdge(this.loops,
 point,shares.edge*near);if(edge)return{edge};return hole<0?null:{hole}}held({vertex,mark}){if(!vertex||
@@ -340,21 +348,21 @@ this.colors??=this.#readColors();const below=pad.mode==="pan"?null:pad.found;con
 below;if(shown.size)drawStage(pen,this,this.#scene(shown,this.colors),hover);const[left,top]=view.toScreen(
 [0,0]);this.element.dataset.viewport=`${1/view.unit} ${left} ${top}`;this.#placeCallout(shown);this.
 hintText.textContent=shown.size?this.#hint(hover):""}#scene(shown,colors){return{shown,colors,loops:this.
-loops.map(loop=>this.view.line(loop))}}drawn(){const{path,rests}=this.pad;const now=rests?[this.view.
-toWorld(rests)]:[];if(this.tool==="polygon"){const corners=this.shown?.corners??[];return corners.concat(
-path.length?path:now)}if(!path.length||!now.length)return[];return[...rectangle(path[0],now[0]),path[0]]}#hint(hover){
-const hole=hover?.hole===void 0?void 0:this.shown?.holes[hover.hole];if(hole)return hole.kept?"Click\
- to drop this hole":"Click to keep this hole";if(hover?.edge)return"Double-click to add a vertex her\
-e";if(hover?.vertex)return"Drag to move · right-click or Delete to delete";return TOOLS[this.tool].
-hint}#readColors(){const probe=this.root.appendChild(make("span"));const color=name=>{probe.style.color=
-`var(--glid-${name})`;return getComputedStyle(probe).color};const colors=Object.fromEntries(COLORS.map(
-name=>[name,color(name)]));probe.remove();return colors}#placeCallout(shown){const{callout,view}=this;
-const problem=shown.problems[0];callout.hidden=!problem||this.pad.mode==="pan";if(!problem)return;callout.
-textContent=problem.message;const{offsetWidth:w,offsetHeight:h}=callout;const[x,y]=problem.point?view.
-toScreen(problem.point):[view.width/2,-16];const fitsBelow=!problem.point||y+CALLOUT+h<=view.height;
-const beside=fitsBelow?y+CALLOUT:y-CALLOUT-h;const left=Math.min(Math.max(x-w/2,EDGE),view.width-w-EDGE);
-const top=Math.min(Math.max(beside,EDGE),view.height-h-EDGE);callout.style.transform=`translate(${left}\
-px, ${top}px)`}};var PART=1<<20;var Tracer=class{root=make("div",{className:"glid-skin glid-tracer"});status=make("di\
+loops.map(loop=>this.view.line(loop))}}drawn(){const{path,rests}=this.pad;const inside=this.shown?.inside??
+[];if(inside.length)return[...inside,inside[0]];const now=rests?[this.view.toWorld(rests)]:[];if(this.
+tool==="polygon"){const corners=this.shown?.corners??[];return corners.concat(path.length?path:now)}
+if(!path.length||!now.length)return[];return[...rectangle(path[0],now[0]),path[0]]}#hint(hover){const hole=hover?.
+hole===void 0?void 0:this.shown?.holes[hover.hole];if(hole)return hole.kept?"Click to drop this hole":
+"Click to keep this hole";if(hover?.edge)return"Double-click to add a vertex here";if(hover?.vertex)
+return"Drag to move · right-click or Delete to delete";return TOOLS[this.tool].hint}#readColors(){const probe=this.
+root.appendChild(make("span"));const color=name=>{probe.style.color=`var(--glid-${name})`;return getComputedStyle(
+probe).color};const colors=Object.fromEntries(COLORS.map(name=>[name,color(name)]));probe.remove();return colors}#placeCallout(shown){
+const{callout,view}=this;const problem=shown.problems[0];callout.hidden=!problem||this.pad.mode==="p\
+an";if(!problem)return;callout.textContent=problem.message;const{offsetWidth:w,offsetHeight:h}=callout;
+const[x,y]=problem.point?view.toScreen(problem.point):[view.width/2,-16];const fitsBelow=!problem.point||
+y+CALLOUT+h<=view.height;const beside=fitsBelow?y+CALLOUT:y-CALLOUT-h;const left=Math.min(Math.max(x-
+w/2,EDGE),view.width-w-EDGE);const top=Math.min(Math.max(beside,EDGE),view.height-h-EDGE);callout.style.
+transform=`translate(${left}px, ${top}px)`}};var PART=1<<20;var Tracer=class{root=make("div",{className:"glid-skin glid-tracer"});status=make("di\
 v",{className:"glid-status",role:"status","aria-live":"polite"});constructor({model,el,signal}){this.
 model=model;this.link=new Link(model,this.root,signal,()=>{this.showStatus();if(this.link.idle&&this.
 shown)this.#showTool(this.shown.tool)});this.stage=new Stage(this.root,this.link,file=>this.upload(file),
@@ -362,23 +370,28 @@ signal);this.panel=new Panel((type,content)=>void this.act(type,content),this.st
 map(name=>{const button=iconButton(name,TOOLS[name].label,void 0);button.dataset.tool=name;return button});
 this.undo=iconButton("undo","Undo (Ctrl+Z)",()=>this.act("undo"));this.redo=iconButton("redo","Redo \
 (Ctrl+Shift+Z)",()=>this.act("redo"));this.discard=make("button",{title:"Go back to the outline as t\
-raced",onclick:()=>this.act("discard_edits")},"Discard edits");const keys=help(HELP);this.stage.element.
-append(keys.table);this.stage.actions["?"]=keys.toggle;this.root.append(this.#toolbar(keys.button),make(
-"div",{className:"glid-body"},this.stage.element,this.panel.element),this.status);keysAround(this.stage.
-element,e=>this.stage.pad.keydown(e),signal,this.root);this.root.addEventListener("click",e=>this.#chooseTool(
-e));el.classList.add("glid-host");el.append(this.root)}close(){this.stage.close()}get shown(){const shown=this.
-model.get("shown");return shown.loops?shown:null}act(type,content={},buffers=[]){return this.link.put(
-{type,...content},buffers)}async upload(file){const name=file.name||"the picture";let start=0;let refused=null;
+raced",onclick:()=>this.act("discard_edits")},"Discard edits");this.question=this.#askAbout();this.stage.
+element.append(this.question);const keys=help(HELP);this.stage.element.append(keys.table);this.stage.
+actions["?"]=keys.toggle;this.root.append(this.#toolbar(keys.button),make("div",{className:"glid-bod\
+y"},this.stage.element,this.panel.element),this.status);keysAround(this.stage.element,e=>this.stage.
+pad.keydown(e),signal,this.root);this.root.addEventListener("click",e=>this.#chooseTool(e));el.classList.
+add("glid-host");el.append(this.root)}close(){this.stage.close()}get shown(){const shown=this.model.
+get("shown");return shown.loops?shown:null}act(type,content={},buffers=[]){return this.link.put({type,
+...content},buffers)}async upload(file){const name=file.name||"the picture";let start=0;let refused=null;
 do{const data=await file.slice(start,start+PART).arrayBuffer();const part={name,size:file.size,start,
 buffered:true};refused=await this.act("upload",part,[data]);start+=PART}while(!refused&&start<file.size)}showState(){
 const{shown,stage}=this;if(!shown)return;stage.update(shown);this.panel.update(shown);this.undo.disabled=
-!shown.can_undo;this.redo.disabled=!shown.can_redo;this.discard.hidden=!shown.edited;for(const button of this.
-tools)button.disabled=!shown.size;if(this.link.idle)this.#showTool(shown.tool);this.showStatus()}showStatus(){
-const{shown}=this;if(!shown)return;const{kind,text}=statusOf(shown,this.link.refusal,this.link.busy);
-this.root.dataset.status=kind;this.status.textContent=text}async showPicture(){try{await this.stage.
-setPicture(this.model.get("picture"))}catch(error){const why=error instanceof Error?error.message:error;
-this.link.refusal=`The picture cannot be shown: ${why}`;this.showStatus()}}showHeight(){const height=this.
-model.get("height");this.root.style.setProperty("--glid-height",height?`${height}px`:"")}#toolbar(help2){
+!shown.can_undo;this.redo.disabled=!shown.can_redo;this.discard.hidden=!shown.edited;this.question.hidden=
+!shown.inside.length;for(const button of this.tools)button.disabled=!shown.size;if(this.link.idle)this.#showTool(
+shown.tool);this.showStatus()}showStatus(){const{shown}=this;if(!shown)return;const{kind,text}=statusOf(
+shown,this.link.refusal,this.link.busy);this.root.dataset.status=kind;this.status.textContent=text}async showPicture(){
+try{await this.stage.setPicture(this.model.get("picture"))}catch(error){const why=error instanceof Error?
+error.message:error;this.link.refusal=`The picture cannot be shown: ${why}`;this.showStatus()}}showHeight(){
+const height=this.model.get("height");this.root.style.setProperty("--glid-height",height?`${height}p\
+x`:"")}#askAbout(){const answer=(label,what)=>{const onclick=()=>{this.act("drawn_as",{what});this.stage.
+canvas.focus({preventScroll:true})};return make("button",{onclick},label)};return make("div",{className:"\
+glid-question",role:"group","aria-label":"What you drew",hidden:true},"What you drew lies inside the\
+ shape. It is ",answer("a hole","hole"),answer("the new outline","outline"),answer("nothing",""))}#toolbar(help2){
 const input=make("input",{type:"file",accept:"image/*",hidden:true});input.addEventListener("change",
 ()=>{if(input.files?.[0])this.upload(input.files[0])});const open=iconButton("open","Open a picture",
 ()=>{input.value="";input.click()});const{stage}=this;return make("div",{className:"glid-toolbar",role:"\

@@ -14,7 +14,7 @@ export interface Found {
   /** What can be dragged. */
   mark?: Mark;
   /** Of the ring around a pin. */
-  part?: "turn" | "scale";
+  part?: "turn" | "knob";
   /** Whether it is where the shape has got to, not where it should be. */
   reached?: boolean;
   /** Of the cage that is traced. */

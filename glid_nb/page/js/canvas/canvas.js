@@ -3,7 +3,7 @@
 import { make, save } from "../pad/dom.js";
 import { help, shield } from "../pad/help.js";
 import { iconButton } from "../pad/icons.js";
-import { keysAround } from "../pad/keys.js";
+import { keyOf, keysAround } from "../pad/keys.js";
 import { Link } from "../pad/link.js";
 import { openMenu } from "../pad/menu.js";
 import { Pad } from "../pad/pad.js";
@@ -26,7 +26,17 @@ import { coveredNear, Shapes } from "./shapes.js";
 /** @import { Seen } from "./shapes.js" */
 /** @import { Brush, CanvasTraits } from "./traits.js" */
 
+/**
+ * The motion that the timeline shows.
+ *
+ * @typedef {object} Playing
+ * @property {() => void} release goes back to the pose that is edited
+ * @property {() => number | undefined} pause returns the time that is shown
+ */
+
 const SAVE_VIEW_AFTER = 250; // ms
+/** @type {Playing} */
+const STILL = { release() {}, pause: () => undefined };
 
 export class Canvas {
   legend = new Legend();
@@ -37,8 +47,9 @@ export class Canvas {
   #chosen;
   /** @type {ReturnType<typeof setTimeout> | undefined} */
   #saving;
-  // Goes back from a motion to the pose that is edited.
-  #release = () => {};
+  /** @type {Playing} */
+  #playing = STILL;
+  #presses = false; // a press into a motion is on its way to the kernel
 
   /** @param {Context<CanvasTraits>} context */
   constructor({ model, el, signal }) {
@@ -132,11 +143,11 @@ export class Canvas {
    * Shows a motion instead of the pose that is edited.
    *
    * @param {Seen} motion null for the pose that is edited
-   * @param {() => void} release goes back to that pose
+   * @param {Playing} playing
    * @param {Float32Array | null} heights of the picture's vertices
    */
-  showMotion(motion = null, release = () => {}, heights = null) {
-    this.#release = release;
+  showMotion(motion = null, playing = STILL, heights = null) {
+    this.#playing = playing;
     this.shapes.motion = motion;
     this.shapes.lift(heights);
     this.showLegend();
@@ -161,6 +172,7 @@ export class Canvas {
     [view.x, view.y, view.unit] = model.get("view");
     box.style.width = `${view.width}px`;
     box.style.height = `${view.height}px`;
+    this.room?.shrink();
     this.#see();
   }
 
@@ -175,18 +187,27 @@ export class Canvas {
     this.view.centreOn(targets[now]);
   }
 
-  // Handles two kinds of input before the pad does. While a motion is seen, the first touch goes
-  // back to the pose that is edited. A click on an arrow at the edge brings its pin into view.
+  /** The time at which a motion was pressed; undefined for the pose that is edited. */
+  pressedAt() {
+    if (!this.shapes.motion) return undefined;
+    this.#presses = true;
+    return this.#playing.pause();
+  }
+
+  // Handles two kinds of input before the pad does. While a motion is seen, keys and the right button
+  // go back to the pose that is edited, and so does a click; a drag edits the pose that is seen. A
+  // click on an arrow at the edge brings its pin into view.
   #takeFirst() {
     const goBack = (/** @type {Event} */ e) => {
       if (!this.shapes.motion) return;
       e.stopImmediatePropagation();
       e.preventDefault();
-      this.#release();
+      this.#playing.release();
     };
     const capture = true;
-    this.box.addEventListener("pointerdown", (e) => e.button !== 1 && goBack(e), { capture });
-    const ours = (/** @type {KeyboardEvent} */ e) => !e.ctrlKey && !e.metaKey && KEYS.test(e.key);
+    this.box.addEventListener("pointerdown", (e) => e.button === 2 && goBack(e), { capture });
+    const ours = (/** @type {KeyboardEvent} */ e) =>
+      !e.ctrlKey && !e.metaKey && KEYS.test(keyOf(e));
     this.box.addEventListener("keydown", (e) => ours(e) && goBack(e), { capture });
     const followArrow = (/** @type {PointerEvent} */ e) => {
       const target = arrowAt(this.view, this.marks, this.pad.place(e));
@@ -208,9 +229,13 @@ export class Canvas {
     );
   }
 
-  // Shows a refusal as the notice.
+  // Shows a refusal as the notice. After a press into a motion, shows the pose that is edited now.
   #report() {
     const { busy, refusal } = this.link;
+    if (this.#presses && this.link.idle && this.pad.mode === null) {
+      this.#presses = false;
+      this.#playing.release();
+    }
     if (!busy && refusal && refusal !== this.model.get("notice")) this.say(refusal);
   }
 

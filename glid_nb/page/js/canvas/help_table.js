@@ -11,7 +11,7 @@ export const HELP = [
       ["Drag a pin, or the shape", "move it there; the shape follows, and never folds"],
       ["Right-click, long touch, Menu key", "a menu for the pin or the shape there"],
       ["Delete", "remove the selected pins; with Shift keep the shape"],
-      ["Ring around a pin: drag it, or its knob", "turn the shape there, scale it there"],
+      ["Ring around a pin; Alt on the pin", "turn the shape there; the ring's knob scales it too"],
       ["< >, + -, X", "turn, scale; free both again"],
       ["Page Down, Page Up, [ ]", "send selected pins and their surroundings back, forward"],
       ["Arrow keys", "nudge selected pins, with Shift farther; else move a cursor"],

@@ -12,6 +12,7 @@ import { distance } from "../pad/view.js";
 export const KNOB = 6; // half a side of the ring's knob
 const KNOB_REACH = 4; // around the knob
 const RADIUS = 42; // of the ring of a scale of 1
+const LEAST_RADIUS = 24; // of the knob around the pin
 const EDGE = 14; // between an arrow and the edge
 const CORNER = [36, 112]; // width and height of the buttons in the corner
 const ARROW_REACH = 12;
@@ -30,9 +31,27 @@ export function dial(view, marks, held) {
   if (last === undefined || !marks.targets[last]) return null;
   const centre = view.toScreen(held?.get(last) ?? marks.targets[last]);
   const radius = RADIUS * Math.min(2.5, Math.max(0.5, scale));
-  const x = centre[0] + radius * Math.cos(angle);
-  const y = centre[1] - radius * Math.sin(angle);
-  return { centre, radius, knob: /** @type {Point} */ ([x, y]) };
+  return { centre, radius, knob: knobInside(view, centre, radius, angle) };
+}
+
+/**
+ * The place of the knob: on the ring at its angle, as far as the view goes. Near a corner of the view
+ * that would be on the pin, so there it is on the ring at another angle.
+ *
+ * @param {View} view
+ * @param {Point} centre
+ * @param {number} radius
+ * @param {number} angle
+ * @returns {Point}
+ */
+function knobInside(view, centre, radius, angle) {
+  const places = [0, 1, -1, 2, -2, 3, -3, 4].map((eighths) => {
+    const direction = angle + (eighths * Math.PI) / 4;
+    const x = centre[0] + radius * Math.cos(direction);
+    const y = centre[1] - radius * Math.sin(direction);
+    return /** @type {Point} */ ([within(x, view.width), within(y, view.height)]);
+  });
+  return places.find((place) => distance(place, centre) >= LEAST_RADIUS) ?? places[0];
 }
 
 /**
@@ -59,7 +78,7 @@ export function knobInCorner(view, marks, held) {
 export function ringAt(view, marks, place, reach) {
   const ring = dial(view, marks);
   if (!ring) return null;
-  if (distance(place, ring.knob) <= Math.max(KNOB + KNOB_REACH, reach)) return { part: "scale" };
+  if (distance(place, ring.knob) <= Math.max(KNOB + KNOB_REACH, reach)) return { part: "knob" };
   const far = Math.abs(distance(place, ring.centre) - ring.radius);
   return far <= reach ? { part: "turn" } : null;
 }

@@ -9,12 +9,12 @@ import { markAt, ringAt } from "./marks.js";
 const REACH = { mouse: 13, pen: 16, touch: 26 }; // CSS pixels
 export const KEYS = /^(Arrow\w+|Page\w+|Delete|Backspace|Escape|Enter|[0fa,.[\]<>+=xmbe-])$/i;
 const TARGET_TIP =
-  "where it should be. Drag it; a right click shows more; Shift-click selects several";
+  "where it should be. Drag it; Alt turns it; a right click shows more; Shift-click selects several";
 const IMAGE_TIP = "where the shape is now. The cyan disk is where it should be";
 const COVERED = ". Another part of the shape covers it";
 const RING_TIPS = {
   turn: "Drag around the pin to turn the shape there; X frees it again",
-  scale: "Drag away from the pin or towards it to scale the shape there; X frees it again",
+  knob: "Drag around the pin to turn the shape there, away from it to scale it; X frees it again",
 };
 
 /** @implements {Behaviour} */
@@ -47,6 +47,10 @@ export class PinBehaviour {
    */
   menu(place, found) {
     this.canvas.openMenu(place, found);
+  }
+
+  pressedAt() {
+    return this.canvas.pressedAt();
   }
 
   tapped() {

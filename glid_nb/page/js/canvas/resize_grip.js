@@ -2,6 +2,7 @@
 
 import { make, save } from "../pad/dom.js";
 import { shield } from "../pad/help.js";
+import { scaleOf } from "../pad/place.js";
 
 /** @import { Model } from "../types.js" */
 /** @import { CanvasTraits } from "./traits.js" */
@@ -14,16 +15,20 @@ export function resizeGrip(model) {
   let beyond = null;
   const side = (/** @type {number} */ length) => Math.max(LEAST_SIZE, Math.round(length));
   const grip = make("div", { className: "glid-resize", title: "Drag to resize" });
+  const place = (/** @type {PointerEvent} */ { clientX, clientY }) => {
+    const { across, down } = scaleOf(grip);
+    return [clientX / across, clientY / down];
+  };
   grip.addEventListener("pointerdown", (e) => {
     e.preventDefault();
     grip.setPointerCapture(e.pointerId);
-    beyond = { width: model.get("width") - e.clientX, height: model.get("height") - e.clientY };
+    const [x, y] = place(e);
+    beyond = { width: model.get("width") - x, height: model.get("height") - y };
   });
   grip.addEventListener("pointermove", (e) => {
     if (!beyond) return;
-    const width = side(beyond.width + e.clientX);
-    const height = side(beyond.height + e.clientY);
-    save(model, { width, height });
+    const [x, y] = place(e);
+    save(model, { width: side(beyond.width + x), height: side(beyond.height + y) });
   });
   grip.addEventListener("lostpointercapture", () => {
     beyond = null;

@@ -1,6 +1,10 @@
 // The room that an editor has for its canvas, full screen, and the picture alone.
+//
+// All views of a canvas have one size. The view that a hand has used last decides it, or a new one
+// with more room; the others are shown smaller where they have less room.
 
 import { save } from "../pad/dom.js";
+import { nameControls } from "./names.js";
 
 /** @import { Model } from "../types.js" */
 /** @import { CanvasTraits } from "./traits.js" */
@@ -17,6 +21,10 @@ export class Room {
   /** @type {HTMLElement | null} the editor */
   #root = null;
   #last = { width: 0, height: 0, alone: 0 };
+  #decides = false; // the size of all views
+  #told = ""; // to the kernel
+  /** @type {{ width: number, height: number, alone: number } | null} */
+  #room = null;
   /** @type {ReturnType<typeof setTimeout> | undefined} */
   #timer;
 
@@ -28,10 +36,14 @@ export class Room {
   constructor(pad, model, signal) {
     this.pad = pad;
     this.model = model;
+    this.signal = signal;
     this.observer = new ResizeObserver(() => this.#measureSoon());
     this.observer.observe(pad);
     window.addEventListener("resize", () => this.#measureSoon(), { signal });
     window.addEventListener("keydown", (e) => this.#escape(e), { signal, capture: true });
+    model.on("change:room", () => {
+      if (String(model.get("room")) !== this.#told) this.#decides = false; // another view does now
+    });
     const left = () => {
       if (!document.fullscreenElement) this.alone(false);
     };
@@ -54,6 +66,7 @@ export class Room {
       return;
     }
     root.classList.toggle("glid-alone", on);
+    this.#decides = true;
     this.#measure();
     root.scrollIntoView({ block: on ? "start" : "nearest" });
     this.pad.focus({ preventScroll: true });
@@ -90,16 +103,52 @@ export class Room {
     const column = this.pad.closest(".glid-column");
     const around = column?.parentElement;
     if (!root || !around || !column.clientWidth) return;
-    if (!this.#root) this.observer.observe(around);
-    this.#root = root;
     const room = this.#roomIn(root, column, around);
+    if (!this.#root) this.#begin(root, around, room);
+    this.#room = room;
+    this.shrink();
+    if (!this.#decides) return;
     const last = this.#last;
     const wider = room.width - last.width;
     const same = room.height === last.height && room.alone === last.alone;
     if (same && wider >= 0 && wider < SLACK) return;
     this.#last = room;
-    const numbers = [room.width, room.height, room.alone];
-    save(this.model, { room: numbers.map(Math.floor) });
+    const numbers = [room.width, room.height, room.alone].map(Math.floor);
+    this.#told = String(numbers);
+    save(this.model, { room: numbers });
+  }
+
+  /**
+   * @param {HTMLElement} root
+   * @param {HTMLElement} around
+   * @param {{ width: number }} room
+   */
+  #begin(root, around, room) {
+    this.#root = root;
+    this.observer.observe(around);
+    nameControls(root, this.signal);
+    const [width = 0] = this.model.get("room");
+    this.#decides = room.width > width;
+    // Not before the hand lets go: a canvas must not change below a drag.
+    root.addEventListener("pointerup", () => this.#decide(), { signal: this.signal });
+  }
+
+  #decide() {
+    if (this.#decides) return;
+    this.#decides = true;
+    this.#last = { width: 0, height: 0, alone: 0 };
+    this.#measureSoon();
+  }
+
+  /** Shows the canvas smaller where another view has given it more width than there is room. */
+  shrink() {
+    /** @type {HTMLElement | null} */
+    const whole = this.pad.closest(".glid-deform");
+    if (!whole || !this.#room) return;
+    const panes = /** @type {NodeListOf<HTMLElement>} */ (whole.querySelectorAll(".glid-pane"));
+    const widths = [...panes].map((pane) => Number.parseFloat(pane.style.width) || 0);
+    const share = this.#room.width / widths.reduce((sum, width) => sum + width, 0);
+    whole.style.zoom = share < 1 && !this.#decides ? String(share) : "";
   }
 
   /**

@@ -31,10 +31,12 @@ export class Editing {
    * @param {Solving} solving
    * @param {Mesh} mesh for the points below a pointer
    * @param {LiveMap} frame the map to begin with
+   * @param {Edit["coefficients"]} rest those of the undeformed shape
    */
-  constructor(solving, mesh, frame) {
+  constructor(solving, mesh, frame, rest = frame.coefficients) {
     this.solving = solving;
     this.mesh = mesh;
+    this.rest = rest;
     /** The newest certified map. */
     this.frame = frame;
     /** Called after every change. */
@@ -249,7 +251,7 @@ export class Editing {
     this.pins = pins;
     this.selected = selected;
     if (pins.length) this.#aimed = this.solving.drag(poseOf(pins));
-    else this.#place(this.frame.coefficients);
+    else this.#place(this.rest); // without pins nothing says where the shape is
     // Maps on their way have other pins.
     if (fewer) this.#oldest = this.#aimed;
     this.told();

@@ -16,6 +16,10 @@ const NUDGE = 0.1; // world units
 const NUDGE_SHIFT = 0.5;
 const CURSOR = 6; // CSS pixels
 const CURSOR_SHIFT = 30;
+const LEVER = 12; // CSS pixels from a pin: nearer to it, the pointer gives no direction
+// A knob's drag turns, or scales, only beyond these: radians, and the logarithm of a ratio.
+const LEAST_TURN = 0.06;
+const LEAST_SCALING = 0.12;
 const STEP_OF_TURN = Math.PI / 36;
 const STEP_OF_SCALE = 1.05;
 /** @type {Record<string, Point>} */
@@ -29,7 +33,7 @@ const TURNS = {
   "-": [0, 1 / STEP_OF_SCALE],
 };
 
-/** @typedef {{ x: number, y: number, unit: number, reach: number, button: number, shift: boolean }} At */
+/** @typedef {{ x: number, y: number, unit: number, reach: number, button: number, shift: boolean, alt?: boolean }} At */
 /** @typedef {At & { part?: string, key?: string, path?: Point[], encloses?: boolean }} HandEvent */
 
 /**
@@ -41,6 +45,8 @@ const TURNS = {
  * @property {string} part of the ring
  * @property {Map<number, { angle: number, scale: number }>} turns of the selected pins
  * @property {boolean} dragging
+ * @property {boolean} turning
+ * @property {boolean} scaling
  */
 
 /**
@@ -58,6 +64,7 @@ const TURNS = {
 export class Hand {
   reach = REACH;
   keys = KEYS;
+  ownsWheel = true; // the page is as high as its window
   signal = new AbortController().signal;
   /** @type {Point | null} the keyboard's cursor */
   cursorAt = null;
@@ -164,21 +171,34 @@ export class Hand {
       part: "",
       turns: new Map(),
       dragging: false,
+      turning: false,
+      scaling: false,
     };
     if (mark !== undefined) {
       const hit = Number(mark);
       if (at.shift) return this.#toggle(hit);
       if (!editing.selected.includes(hit)) editing.select([hit]);
-      press.targets = new Map(editing.selected.map((i) => [i, editing.pins[i].target]));
+      if (at.alt) this.#pressRing(press, "turn");
+      else press.targets = new Map(editing.selected.map((i) => [i, editing.pins[i].target]));
     } else if (at.part) {
-      press.part = at.part;
-      press.turns = new Map(editing.selected.map((i) => [i, editing.turnOf(i)]));
+      this.#pressRing(press, at.part);
       // A click on the ring's line without a turn pins the point below it.
       press.onShape = at.part === "turn" && editing.sourceAt(start) !== null;
     } else {
       press.onShape = !at.shift && editing.sourceAt(start) !== null;
     }
     this.#press = press;
+  }
+
+  /**
+   * @param {Press} press
+   * @param {string} part of the ring
+   */
+  #pressRing(press, part) {
+    const { editing } = this;
+    press.part = part;
+    press.turning = part === "turn";
+    press.turns = new Map(editing.selected.map((i) => [i, editing.turnOf(i)]));
   }
 
   /** @param {number} hit */
@@ -200,7 +220,7 @@ export class Hand {
     if (!press.dragging) editing.beginGesture();
     press.dragging = true;
     if (press.part) {
-      this.#turn(press, point);
+      this.#turn(press, point, LEVER * at.unit);
       return;
     }
     if (!press.targets.size) {
@@ -219,19 +239,34 @@ export class Hand {
    * Turns or scales the selected pins as the pointer moves around the last of them.
    * @param {Press} press
    * @param {Point} point
+   * @param {number} lever
    */
-  #turn(press, point) {
+  #turn(press, point, lever) {
     const { editing } = this;
     const last = editing.selected.at(-1);
     if (last === undefined) return;
     const [x, y] = editing.pins[last].target;
     const from = [press.start[0] - x, press.start[1] - y];
     const to = [point[0] - x, point[1] - y];
-    const turned = Math.atan2(to[1], to[0]) - Math.atan2(from[1], from[0]);
-    const scaled = Math.hypot(to[0], to[1]) / Math.max(Math.hypot(from[0], from[1]), 1e-9);
+    const before = Math.hypot(from[0], from[1]);
+    if (before < lever) {
+      press.start = point; // pressed on the pin itself: the drag begins beside it
+      return;
+    }
+    const cross = from[0] * to[1] - from[1] * to[0];
+    const turned = Math.atan2(cross, from[0] * to[0] + from[1] * to[1]);
+    const scaled = Math.max(Math.hypot(to[0], to[1]) / before, 1e-9);
+    if (press.part === "knob") {
+      press.turning ||= Math.abs(turned) > LEAST_TURN;
+      press.scaling ||= Math.abs(Math.log(scaled)) > LEAST_SCALING;
+    }
+    if (!press.turning && !press.scaling) return;
     editing.turn((i) => {
       const { angle, scale } = press.turns.get(i) ?? { angle: 0, scale: 1 };
-      return press.part === "turn" ? { angle: angle + turned } : { scale: scale * scaled };
+      return {
+        ...(press.turning ? { angle: angle + turned } : {}),
+        ...(press.scaling ? { scale: scale * scaled } : {}),
+      };
     });
   }
 

@@ -9,7 +9,7 @@ export const HELP = [
     [
       ["Click or tap the shape", "pin a point"],
       ["Drag a pin, or the shape", "move it there; the shape follows, and never folds"],
-      ["Drag the ring, its knob", "turn the shape at the pin, scale it there"],
+      ["Drag the ring; Alt on the pin", "turn the shape there; the knob scales it too"],
       ["< >, + -, X", "turn, scale; free both again"],
       ["Delete", "remove the selected pins"],
       ["Arrow keys", "nudge selected pins, with Shift farther; else move a cursor"],

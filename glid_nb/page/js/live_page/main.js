@@ -90,7 +90,7 @@ async function open() {
   Object.assign(view, fitted(mesh.source, roomOn(byId("pad")), data.margin));
   const stage = new Stage(canvas, gl, data, mesh, picture);
   const frame = await stage.choose(solving, view);
-  const editing = new Editing(solving, mesh, frame);
+  const editing = new Editing(solving, mesh, frame, identityOf(data.outline));
   const page = new LivePage(data, { stage, editing, view }, async () => {
     const second = await startedSolver();
     await second.map({ type: "points", points: stage.points });

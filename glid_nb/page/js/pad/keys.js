@@ -2,14 +2,43 @@
 
 const TEXT = "textarea, [contenteditable], input:not([type=checkbox], [type=range], [type=radio])";
 
+const LAST_LATIN = "\u024f"; // of Latin Extended-B
+
+// What a keyboard with Latin letters types by its other keys, without and with Shift.
+/** @type {Record<string, string>} */
+const LATIN = {
+  Comma: ",<",
+  Period: ".>",
+  Slash: "/?",
+  Minus: "-_",
+  Equal: "=+",
+  BracketLeft: "[{",
+  BracketRight: "]}",
+};
+
+/** @typedef {{ key: string, code?: string, shiftKey?: boolean }} Pressed */
+
+/**
+ * The name of a pressed key. Keyboards of other scripts type no Latin characters, so there the key's
+ * place decides: "я" on the key of Z is "z".
+ *
+ * @param {Pressed} e
+ */
+export function keyOf({ key, code = "", shiftKey = false }) {
+  if (key.length > 1 || key <= LAST_LATIN) return key;
+  const [, letter, digit] = code.match(/^(?:Key([A-Z])|(?:Digit|Numpad)([0-9]))$/) ?? [];
+  if (letter) return shiftKey ? letter : letter.toLowerCase();
+  return digit ?? LATIN[code]?.[Number(shiftKey)] ?? key;
+}
+
 /**
  * What a key does to the history: "undo", "redo" or null.
  *
- * @param {{ key: string, ctrlKey: boolean, metaKey: boolean, shiftKey: boolean }} e
+ * @param {Pressed & { ctrlKey: boolean, metaKey: boolean, shiftKey: boolean }} e
  */
 export function undoOrRedo(e) {
   if (!e.ctrlKey && !e.metaKey) return null;
-  const key = e.key.toLowerCase();
+  const key = keyOf(e).toLowerCase();
   if (key === "z") return e.shiftKey ? "redo" : "undo";
   return key === "y" ? "redo" : null;
 }
@@ -69,5 +98,5 @@ function isForThePad(e, target) {
   if (undoOrRedo(e)) return !e.altKey;
   if (e.ctrlKey || e.metaKey || target.matches("select")) return false;
   const free = target.closest(".glid-timeline") ? /^[^ ]$/ : /^([^ ]|Escape|Delete)$/;
-  return free.test(e.key);
+  return free.test(keyOf(e));
 }

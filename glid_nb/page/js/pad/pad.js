@@ -1,8 +1,9 @@
 // Pointers, wheel and keys over a picture. The kernel decides what they mean; the page pans and
 // zooms, and draws what is dragged at the pointer before the kernel answers.
 
-import { undoOrRedo } from "./keys.js";
+import { keyOf, undoOrRedo } from "./keys.js";
 import { rectangle } from "./pen.js";
+import { placeIn } from "./place.js";
 import { distance } from "./view.js";
 
 /** @import { Found, KernelEvent, Mark, Point } from "../types.js" */
@@ -24,10 +25,12 @@ import { distance } from "./view.js";
  * @property {(found: Found | null, e: PointerEvent) => boolean} [pans] whether the left button moves the view
  * @property {(found: Found | null, e: PointerEvent) => "box" | "lasso" | null} [encloses] what the
  *   left button draws around things
+ * @property {() => number | undefined} [pressedAt] the time of the motion that is pressed, if one is
  * @property {() => void} [tapped] the space bar was pressed and let go, and nothing was dragged
  * @property {(place: Point, found: Found | null) => void} [menu] opens the menu of what is there,
  *   by the right button or a long touch
- * @property {boolean} [wheelNeedsFocus] whether the wheel zooms only while the pad has the focus
+ * @property {boolean} [ownsWheel] whether the wheel always zooms; else only while the pad has the
+ *   focus, so that a page can be scrolled past it
  */
 
 /**
@@ -113,8 +116,7 @@ export class Pad {
    * @returns {Point}
    */
   place(e) {
-    const box = this.element.getBoundingClientRect();
-    return [e.clientX - box.left, e.clientY - box.top];
+    return placeIn(this.element, e);
   }
 
   /**
@@ -136,6 +138,7 @@ export class Pad {
       reach: this.#reach(e.pointerType) * unit,
       button: e.button ?? 0,
       shift: Boolean(e.shiftKey),
+      alt: Boolean(e.altKey),
       time: e.timeStamp ?? performance.now(),
       ...more,
     });
@@ -166,22 +169,23 @@ export class Pad {
 
   /** @param {KeyboardEvent} e */
   keydown(e) {
+    const key = keyOf(e);
     const command = e.ctrlKey || e.metaKey;
-    const action = command ? undefined : this.behaviour.actions[e.key.toLowerCase()];
+    const action = command ? undefined : this.behaviour.actions[key.toLowerCase()];
     const history = undoOrRedo(e);
-    if (!history && !action && e.key !== " ") {
-      if (e.altKey || !this.behaviour.keys.test(e.key) || (command && e.key !== "a")) return;
+    if (!history && !action && key !== " ") {
+      if (e.altKey || !this.behaviour.keys.test(key) || (command && key !== "a")) return;
     }
     e.preventDefault();
     e.stopPropagation();
-    if (e.key === " ") {
+    if (key === " ") {
       if (!e.repeat) this.#tap = true;
       this.#setSpace(true);
     } else if (action) {
       action();
     } else {
-      if (e.key === "Escape" || history) this.#drop();
-      this.press(history ?? e.key, e);
+      if (key === "Escape" || history) this.#drop();
+      this.press(history ?? key, e);
     }
   }
 
@@ -230,13 +234,16 @@ export class Pad {
     const { behaviour } = this;
     const found = this.#find(place, e.pointerType);
     const left = e.button === 0;
-    if (left && !e.shiftKey && found?.mark !== undefined) {
+    if (left && !e.shiftKey && !e.altKey && found?.mark !== undefined) {
       this.grip = { from: this.view.toWorld(place), points: behaviour.held(found) };
     }
     this.#pans = left && Boolean(behaviour.pans?.(found, e));
     this.encloses = left && !behaviour.painting ? behaviour.encloses?.(found, e) : null;
     this.path = left ? [this.view.toWorld(place)] : [];
-    this.send("down", place, e, { part: found?.part });
+    this.send("down", place, e, {
+      part: found?.part,
+      at: left ? behaviour.pressedAt?.() : undefined,
+    });
     if (e.pointerType === "touch" && behaviour.menu && !behaviour.painting) {
       this.#longPress = setTimeout(() => this.#pressedLong(e, place), LONG_PRESS);
     }
@@ -376,7 +383,7 @@ export class Pad {
 
   /** @param {WheelEvent} e */
   #wheel(e) {
-    if (this.behaviour.wheelNeedsFocus && !this.focused && !e.ctrlKey) return;
+    if (!this.behaviour.ownsWheel && !this.focused && !e.ctrlKey) return;
     e.stopPropagation();
     this.view.wheel(e, this.place(e));
   }

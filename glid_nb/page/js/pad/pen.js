@@ -5,6 +5,8 @@ import { penOf } from "./dom.js";
 /** @import { Point, Strokes } from "../types.js" */
 /** @typedef {CanvasRenderingContext2D} Pen */
 
+const NEARLY_NOTHING = "rgba(255, 255, 255, 0.004)"; // one step of 255
+
 /**
  * A function that has draw(pen) fill a canvas in the next frame, in the CSS pixels of a view,
  * however often it is called until then.
@@ -41,6 +43,10 @@ function clearedPen(canvas, { width, height }) {
   const pen = penOf(canvas);
   pen.setTransform(ratio, 0, 0, ratio, 0, 0);
   pen.clearRect(0, 0, width, height);
+  // Chromium with GPU raster does not show a frame that only clears. Something nearly transparent
+  // makes it draw.
+  pen.fillStyle = NEARLY_NOTHING;
+  pen.fillRect(0, 0, width, height);
   return pen;
 }
 

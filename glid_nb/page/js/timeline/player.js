@@ -35,10 +35,12 @@ export class Player {
   /**
    * @param {Show} show
    * @param {() => void} moved the playhead is elsewhere
+   * @param {() => void} ended a motion that plays once has come to its end
    */
-  constructor(show, moved) {
+  constructor(show, moved, ended = () => {}) {
     this.show = show;
     this.moved = moved;
+    this.ended = ended;
   }
 
   /**
@@ -93,8 +95,10 @@ export class Player {
       last = now;
       await this.#seek(time);
       if (!this.playing) return;
-      if (once && time >= clock.end) this.pause();
-      else this.#frame = requestAnimationFrame(step);
+      if (once && time >= clock.end) {
+        this.pause();
+        this.ended();
+      } else this.#frame = requestAnimationFrame(step);
     };
     this.#frame = requestAnimationFrame(step);
     this.moved();

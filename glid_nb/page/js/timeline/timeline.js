@@ -24,6 +24,13 @@ export class Timeline {
   /** @type {Motion | null} the picture's heights at the keyframes, where they differ */
   #layers = null;
   #hovered = ""; // what lies below the pointer, in words
+  #playing = {
+    release: () => this.release(),
+    pause: () => {
+      this.player.pause();
+      return this.player.place;
+    },
+  };
 
   /** @param {Context<TimelineTraits>} context */
   constructor({ model, el, signal }) {
@@ -38,6 +45,7 @@ export class Timeline {
     this.player = new Player(
       (floats, time) => this.#show(floats, time),
       () => this.showHead(),
+      () => this.#selectHere(),
     );
     this.bar = new Bar({
       play: () => this.player.play(),
@@ -178,7 +186,7 @@ export class Timeline {
     if (!stage) return;
     const moving = time !== undefined;
     const heights = moving ? (this.#layers?.at(time) ?? null) : null;
-    stage.trigger("glid:motion", moving ? (floats ?? true) : null, this.release, heights);
+    stage.trigger("glid:motion", moving ? (floats ?? true) : null, this.#playing, heights);
     if (this.shown.kernel) return this.act("frame", { time: time ?? null, replaces: "frame" });
   }
 
@@ -187,7 +195,7 @@ export class Timeline {
     this.act("keep", { time: player.seen ? player.place : this.active.time });
   }
 
-  // Selects the keyframe on which a pointer that scrubbed was let go.
+  // Selects the keyframe that is shown, after a motion has ended or a pointer that scrubbed was let go.
   #selectHere() {
     const index = keyAt(this.shown.keyframes, this.player.place);
     if (index >= 0) this.select(index);

@@ -3,6 +3,7 @@
 // A keyframe is dragged along time, or clicked; elsewhere a pointer scrubs.
 
 import { make } from "../pad/dom.js";
+import { scaleOf } from "../pad/place.js";
 import { labelledTimes, landing, roomAt, spanOf, withReturn } from "./scale.js";
 import { seconds } from "./words.js";
 
@@ -201,9 +202,8 @@ export class Track {
   // The part of the track that stands for time, in CSS pixels of the window.
   #inside() {
     const { left, width } = this.element.getBoundingClientRect();
-    const inset = Number.parseFloat(
-      getComputedStyle(this.element).getPropertyValue("--glid-inset"),
-    );
+    const length = getComputedStyle(this.element).getPropertyValue("--glid-inset");
+    const inset = Number.parseFloat(length) * scaleOf(this.element).across;
     return { left: left + inset, width: width - 2 * inset };
   }
 

@@ -220,7 +220,6 @@ export class Stage {
 
   reach = REACH;
   keys = KEYS;
-  wheelNeedsFocus = true;
   /** @type {Record<string, () => void>} */
   actions = {
     "+": () => this.zoom(true),
@@ -301,6 +300,8 @@ export class Stage {
   /** The outline that is being drawn, as far as it goes. */
   drawn() {
     const { path, rests } = this.pad;
+    const inside = this.shown?.inside ?? [];
+    if (inside.length) return [...inside, inside[0]];
     const now = rests ? [this.view.toWorld(rests)] : [];
     if (this.tool === "polygon") {
       const corners = this.shown?.corners ?? [];

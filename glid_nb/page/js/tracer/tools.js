@@ -64,7 +64,7 @@ export const HELP = [
     [
       ["B, N", "paint over the shape, over the background"],
       ["I, C", "pick the background's colour, the component"],
-      ["P, R", "draw the outline, a rectangle; Enter closes an outline, Esc discards it"],
+      ["P, R", "draw the outline or a hole in it, a rectangle; Enter closes it, Esc discards it"],
     ],
   ],
   [

@@ -43,6 +43,8 @@ export class Tracer {
       },
       "Discard edits",
     );
+    this.question = this.#askAbout();
+    this.stage.element.append(this.question);
     const keys = help(HELP);
     this.stage.element.append(keys.table);
     this.stage.actions["?"] = keys.toggle;
@@ -99,6 +101,7 @@ export class Tracer {
     this.undo.disabled = !shown.can_undo;
     this.redo.disabled = !shown.can_redo;
     this.discard.hidden = !shown.edited;
+    this.question.hidden = !shown.inside.length;
     for (const button of this.tools) button.disabled = !shown.size;
     if (this.link.idle) this.#showTool(shown.tool);
     this.showStatus();
@@ -125,6 +128,25 @@ export class Tracer {
   showHeight() {
     const height = this.model.get("height"); // without one it is as high as there is room
     this.root.style.setProperty("--glid-height", height ? `${height}px` : "");
+  }
+
+  // Asks what an outline inside the shape should be.
+  #askAbout() {
+    const answer = (/** @type {string} */ label, /** @type {string} */ what) => {
+      const onclick = () => {
+        this.act("drawn_as", { what });
+        this.stage.canvas.focus({ preventScroll: true });
+      };
+      return make("button", { onclick }, label);
+    };
+    return make(
+      "div",
+      { className: "glid-question", role: "group", "aria-label": "What you drew", hidden: true },
+      "What you drew lies inside the shape. It is ",
+      answer("a hole", "hole"),
+      answer("the new outline", "outline"),
+      answer("nothing", ""),
+    );
   }
 
   /** @param {HTMLButtonElement} help */

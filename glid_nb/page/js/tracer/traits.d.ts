@@ -44,6 +44,8 @@ export interface Shown {
   tool: Tool;
   /** Of the outline that is drawn by hand. */
   corners: Point[];
+  /** An outline drawn inside the shape, of which it is not known yet what it is; else empty. */
+  inside: Point[];
   selected: [loop: number, index: number][];
 }
 
