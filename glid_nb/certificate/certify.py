@@ -15,8 +15,9 @@ from glid_nb._errors import InputError
 from glid_nb._files import write_atomically
 from glid_nb.certificate import rounding
 from glid_nb.certificate.hermite import Hermite
+from glid_nb.certificate.kept import PanelRows, panel_rows
 from glid_nb.certificate.panels import EndValues, PanelBounds, check_tiling, modulus, split
-from glid_nb.certificate.paper import BDHMLipschitz, Lipschitz, beside, jumps, turning, windings
+from glid_nb.certificate.paper import BDHMLipschitz, Lipschitz, jumps, turning, windings
 from glid_nb.certificate.proof import FORMAT, FORMAT_VERSION, dyadic_panels, exact_text
 from glid_nb.geometry import Panels, graded_panels, place
 from glid_nb.harmonic import HarmonicMap, Singularities, cauchy, run_on
@@ -298,27 +299,26 @@ def known_on(
     start: Any, end: Any, coefficients: Any, singularities: Singularities, kind: CertificateKind
 ) -> Known:
     """What is known on panels of the map with these coefficients: bounds and values at the ends."""
-    ends, slack, own = end_values(start, end, coefficients, singularities)
+    rows = panel_rows(start, end, singularities, PROOFS[kind])
+    ends, slack, own = end_values(end - start, rows, coefficients, singularities)
     fz, fzb_conj = (EndValues(*(values[k] for values in ends)) for k in (0, 1))
-    proof = PROOFS[kind].on(start, end, singularities)
+    proof = rows.proof
     remainder = proof.remainder(coefficients, singularities) + proof.slack_share * slack
     bounds = proof.bounds(fz, fzb_conj, remainder)
     f, g = modulus(fz.start), modulus(fzb_conj.start)
     # The start may lie beside the boundary.
-    shift = jumps(coefficients, singularities) @ beside(start, end, singularities).T
+    shift = jumps(coefficients, singularities) @ rows.beside.T
     slack, at_ends = np.sum(slack + shift, axis=0), np.stack([fz.start, fz.end], axis=1)
     return Known(bounds, f - g, f + g, g / f, f, slack, at_ends, np.sum(own, axis=0))
 
 
 def end_values(
-    start: Any, end: Any, coefficients: Any, singularities: Singularities
+    chord: Any, rows: PanelRows, coefficients: Any, singularities: Singularities
 ) -> tuple[EndValues, Any, Any]:
     """``sum_j D_j coefficients_j`` at the ends of panels, (k, p), and bounds on the errors: of all,
-    and of the values at the start alone."""
-    chord: Any = end - start
+    and of the values at the start alone. ``chord`` is each panel's end minus its start."""
     edges: Any = cauchy.edge_coefficients(coefficients, singularities)
-    both: Any = np.concatenate([start, end])
-    parts: Any = rounding.derivatives(both, edges, singularities)
+    parts: Any = rounding.derivatives_by(rows.ends, edges, singularities)
     own, probe = np.split(parts[2], 2, axis=1)[0], 1 + modulus(edges).max()
     (values, slopes, slack), (values_end, slopes_end, slack_end) = (
         (first, chord * second, first_off + modulus(chord) * second_off)

@@ -24,10 +24,11 @@ from glid_nb.certificate.certify import (
     split_panels,
 )
 from glid_nb.certificate.hermite import Hermite
+from glid_nb.certificate.kept import PanelRows, panel_rows
 from glid_nb.certificate.panels import EndValues
-from glid_nb.certificate.paper import beside, jumps
+from glid_nb.certificate.paper import jumps
 from glid_nb.geometry import graded_panels
-from glid_nb.harmonic import HarmonicMap, Singularities, basis_of, cauchy, rows_of
+from glid_nb.harmonic import HarmonicMap, Singularities, basis_of, rows_of
 
 _SHORTEST = 2.0**-12  # interval of time, as a share of a piece
 _TIGHT = 1 / 8  # the same where only bounds are not tight
@@ -160,10 +161,11 @@ def _evaluated(maps: Sequence[HarmonicMap], size: Array) -> Any:
 
 
 def _values(start: Any, end: Any, rows: Any, size: Any, singularities: Singularities) -> _Values:
-    ends, slack, _ = end_values(start, end, rows, singularities)
-    slack = slack + _coefficient_rounding(start, end, size, singularities)
-    remainder = Hermite.on(start, end, singularities).remainder(rows, singularities)
-    shift = jumps(rows, singularities) @ beside(start, end, singularities).T
+    known = panel_rows(start, end, singularities, Hermite)
+    ends, slack, _ = end_values(end - start, known, rows, singularities)
+    slack = slack + _coefficient_rounding(end - start, known, size, singularities)
+    remainder = known.proof.remainder(rows, singularities)
+    shift = jumps(rows, singularities) @ known.beside.T
     by_map = [
         np.stack(values, axis=-1).reshape(len(rows) // 2, 2, len(start), -1)
         for values in (ends, [remainder + slack, slack + shift])
@@ -171,18 +173,17 @@ def _values(start: Any, end: Any, rows: Any, size: Any, singularities: Singulari
     return _Values(*(np.moveaxis(values, 2, 0) for values in by_map))
 
 
-def _coefficient_rounding(start: Any, end: Any, size: Any, singularities: Singularities) -> Any:
+def _coefficient_rounding(
+    chord: Any, known: PanelRows, size: Any, singularities: Singularities
+) -> Any:
     """(p,) bounds on the effect of rounding the coefficients of maps in between (Lemma 4)."""
     vertices, following, _, _ = singularities
     m = len(vertices)
     edges = (size[:m] + size[following]) / np.abs(vertices[following] - vertices)
     off = 32 * rounding.UPWARD * rounding.UNIT_ROUNDOFF * np.concatenate([edges, size[m:]])
-    z: Any = np.concatenate([start, end])
-    first, second = (
-        np.split(np.abs(by_edges(z, singularities)) @ off, 2)
-        for by_edges in (cauchy.first_by_edges, cauchy.second_by_edges)
-    )
-    return np.maximum(*first) + np.abs(end - start) * np.maximum(*second)
+    sizes = known.ends.first_size, known.ends.second_size
+    first, second = (np.split(moduli @ off, 2) for moduli in sizes)
+    return np.maximum(*first) + np.abs(chord) * np.maximum(*second)
 
 
 def _bounds(values: _Values) -> Known:

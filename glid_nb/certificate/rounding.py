@@ -21,6 +21,7 @@ from glid_nb.harmonic.rounding import (  # noqa: F401  (of the basis; used under
     UNIT_ROUNDOFF,
     UPWARD,
     derivatives,
+    derivatives_by,
     slack_factor,
 )
 

@@ -1,9 +1,11 @@
 """Where problems are solved: in this process, in processes of ours, or on a caller's executor."""
 
+import os
 import pickle
 import signal
+import threading
 from concurrent.futures import BrokenExecutor, CancelledError, Executor, Future, ProcessPoolExecutor
-from multiprocessing import get_context
+from multiprocessing import get_context, parent_process
 from typing import Any, Protocol
 
 from glid_nb._arguments import check_count
@@ -82,7 +84,7 @@ class Processes:
 
     def submit(self, function: Any, *arguments: Any) -> Future[Any]:
         if self._made is None:
-            how = {"mp_context": get_context("spawn"), "initializer": _leave_ctrl_c_to_the_parent}
+            how = {"mp_context": get_context("spawn"), "initializer": _depend_on_the_parent}
             self._made = ProcessPoolExecutor(self._jobs, **how)
         return self._made.submit(function, *arguments)
 
@@ -96,9 +98,20 @@ class Processes:
             made.shutdown(wait=True, cancel_futures=True)
 
 
-def _leave_ctrl_c_to_the_parent() -> None:
-    """In a terminal Ctrl-C reaches all processes, and the parent ends the others in order."""
+def _depend_on_the_parent() -> None:
+    """Leave Ctrl-C to the parent, and end when the parent ends.
+
+    In a terminal Ctrl-C reaches all processes, and the parent ends the others in order. A parent
+    that is killed cannot do so. Its processes would wait for work for ever.
+    """
     signal.signal(signal.SIGINT, signal.SIG_IGN)
+    threading.Thread(target=_end_with_the_parent, daemon=True).start()
+
+
+def _end_with_the_parent() -> None:
+    if (parent := parent_process()) is not None:
+        parent.join()
+        os._exit(1)
 
 
 class Callers:

@@ -1,9 +1,10 @@
 """Solve many problems, of one domain or of many, on processes and machines."""
 
+import functools
 from collections import deque
 from collections.abc import Generator, Iterable, Iterator, Mapping, Sized
 from concurrent.futures import Executor, Future
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from queue import Empty, SimpleQueue
 from typing import Any
@@ -99,7 +100,7 @@ def solve_many(
     or any executor of the kind of ``concurrent.futures``, which stays open: of dask
     (``client.get_executor()``), ipyparallel, mpi4py, loky. None solves here, one after the other.
     ``in_flight`` problems are handed over at a time, by default 3 for each process, 1000 to other
-    executors.
+    executors. Equal ones among them are solved once.
 
     With ``check``, every map that comes back is certified here, from its coefficients. With
     ``folder``, each result is kept in a file there, found by a hash of the problem, the options and
@@ -195,8 +196,10 @@ class _Job:
     """How often its worker died."""
     age: int = 0
     """The pool's renewals before it was handed over."""
+    equals: list["_Job"] = field(default_factory=list)
+    """Equal problems, which wait for its answer."""
 
-    @property
+    @functools.cached_property
     def key(self) -> str:
         return self.plan.problem_key(self.pose)
 
@@ -224,6 +227,8 @@ class _Run:
         self._plans = WeakValueDictionary[str, Plan]()
         self._again = deque[_Job]()  # whose workers died
         self._flying = dict[Future[Any], _Job]()
+        self._first = dict[str, _Job]()  # by keys: of equal problems, the one that is solved
+        self._waiting = 0  # how many others wait for those
         self._arrived = SimpleQueue[Future[Any]]()
         self._known = set[str]()  # keys of plans that a worker has
         self._renewals, self._answers = 0, 0
@@ -235,14 +240,13 @@ class _Run:
                 while (job := self._next(given)) is not None:
                     if isinstance(job, Solved):
                         yield job
-                    elif (kept := self._kept(job)) is not None:
-                        yield kept
-                    else:
+                    elif kept := self._kept(job):
+                        yield from kept
+                    elif not self._joined(job):
                         self._send(job)
                 if not self._flying:
                     return
-                if (outcome := self._outcome(self._next_arrived())) is not None:
-                    yield outcome
+                yield from self._arrivals(self._next_arrived())
         finally:
             for future in self._flying:
                 future.cancel()
@@ -250,7 +254,7 @@ class _Run:
 
     def _next(self, given: Iterator[tuple[int, str, Any]]) -> _Job | Solved | None:
         """The next problem to hand over, or its error; None if there is no room or no problem."""
-        if len(self._flying) >= self._pool.in_flight:
+        if len(self._flying) + self._waiting >= self._pool.in_flight:
             return None
         if any(job.goes_alone for job in self._flying.values()):
             return None
@@ -272,15 +276,46 @@ class _Run:
             known = self._by_domain[domain] = self._plans.setdefault(made.key, made)
         return known
 
-    def _kept(self, job: _Job) -> Solved | None:
-        """The result in the folder; None if there is none, or if it is damaged or not certified."""
+    def _kept(self, job: _Job) -> list[Solved]:
+        """The outcomes of a problem and its equals if its answer is in the folder; none if it is
+        not there, damaged, or not certified."""
         if self._folder is None or (data := self._folder.read(job.key)) is None:
-            return None
+            return []
         try:
-            result = received(data, job.plan, job.pose, self._check)
+            return self._solved(job, data, kept=True)
         except InputError:
-            return None
-        return Solved(job.index, job.name, result, None, kept=True)
+            return []
+
+    def _joined(self, job: _Job) -> bool:
+        """Whether an equal problem is under way, for whose answer this one now waits."""
+        first = self._first.setdefault(job.key, job)
+        if first is job:
+            return False
+        first.equals.append(job)
+        self._waiting += 1
+        return True
+
+    def _solved(self, job: _Job, data: Any, *, kept: bool = False) -> list[Solved]:
+        """The outcomes of a problem and its equals, by an answer. Raises as `received` does."""
+        results = [received(data, one.plan, one.pose, self._check) for one in (job, *job.equals)]
+        ended = self._ended(job)
+        return [
+            Solved(one.index, one.name, result, None, kept=kept)
+            for one, result in zip(ended, results, strict=True)
+        ]
+
+    def _failed(self, job: _Job, error: Exception, whose: str = "") -> list[Solved]:
+        """The outcomes of a problem and its equals, by an error."""
+        return [
+            Solved(one.index, one.name, None, _error(one.name, error, whose))
+            for one in self._ended(job)
+        ]
+
+    def _ended(self, job: _Job) -> list[_Job]:
+        """A problem and its equals, which are no longer under way."""
+        self._first.pop(job.key, None)
+        self._waiting -= len(job.equals)
+        return [job, *job.equals]
 
     def _send(self, job: _Job, with_plan: bool = False) -> None:
         plan, pool = None, self._pool
@@ -306,8 +341,8 @@ class _Run:
             except Empty:
                 continue
 
-    def _outcome(self, future: Future[Any]) -> Solved | None:
-        """What a future has brought; None if its problem is under way again."""
+    def _arrivals(self, future: Future[Any]) -> list[Solved]:
+        """What a future has brought; nothing if its problem is under way again."""
         job = self._flying.pop(future)
         try:
             data = future.result()
@@ -316,30 +351,29 @@ class _Run:
         self._answers += 1
         if data == worker.NO_PLAN:
             self._send(job, with_plan=True)
-            return None
+            return []
         self._known.add(job.plan.key)
         try:
-            result = received(data, job.plan, job.pose, self._check)
+            outcomes = self._solved(job, data)
         except (ProblemError, DamagedError) as error:
-            return Solved(job.index, job.name, None, _error(job.name, error))
+            return self._failed(job, error)
         if self._folder is not None:
             self._folder.write(job.key, data)
-        return Solved(job.index, job.name, result, None)
+        return outcomes
 
-    def _after(self, error: Exception, job: _Job) -> Solved | None:
+    def _after(self, error: Exception, job: _Job) -> list[Solved]:
         """What follows from a future that failed: the worker itself returns errors as answers."""
         if not is_loss(error):
-            return Solved(job.index, job.name, None, _error(job.name, error, "its worker: "))
+            return self._failed(job, error, "its worker: ")
         was_alone = job.goes_alone
         job.losses += 1
         if not self._renewed(job.age, error) and job.losses > 1:
             raise lost(error) from error
         if was_alone:
             what = f"its process died {job.losses} times, at last with no other problem under way"
-            error = ProblemError(f"{what}; is there enough memory?")
-            return Solved(job.index, job.name, None, _error(job.name, error))
+            return self._failed(job, ProblemError(f"{what}; is there enough memory?"))
         self._again.append(job)
-        return None
+        return []
 
     def _renewed(self, age: int, error: BaseException) -> bool:
         """Replace the processes, unless that was done since. False for a caller's executor."""

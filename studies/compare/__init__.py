@@ -1,6 +1,14 @@
 """The other methods on the same problems, and the paper's figures and tables reproduced."""
 
-from studies.compare import folding, hessian_samples, iteration_times, lipschitz, maps, progress
+from studies.compare import (
+    folding,
+    hessian_samples,
+    iteration_times,
+    landmarks,
+    lipschitz,
+    maps,
+    progress,
+)
 
 STUDIES = (
     progress.STUDY,
@@ -11,4 +19,5 @@ STUDIES = (
     lipschitz.STUDY,
     hessian_samples.STUDY,
     folding.STUDY,
+    landmarks.STUDY,
 )

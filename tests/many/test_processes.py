@@ -8,8 +8,10 @@ import signal
 import subprocess
 import sys
 from pathlib import Path
+from typing import Any
 
 import numpy as np
+import psutil
 import pytest
 
 from glid_nb.many import solve_many
@@ -44,6 +46,31 @@ def test_a_killed_process_costs_its_problems_only_once_more(tmp_path: Path) -> N
     assert len(list(tmp_path.glob("*/*"))) == 15
     left = [one for one in multiprocessing.active_children() if one not in others]
     assert not left
+
+
+ENDLESS = """
+import itertools, multiprocessing, sys
+import glid_nb as glid
+if __name__ == "__main__":
+    domain = glid.Domain.from_cage(glid.Cage([[0, 0], [4, 0], [4, 2], [0, 2]]))
+    problem = domain, glid.Pose([[1, 1], [3, 1]], [[1, 1], [3, 1.2]])
+    many = glid.solve_many(itertools.repeat(problem), executor=1)
+    next(many)
+    print(*(one.pid for one in multiprocessing.active_children()), flush=True)
+    sys.stdin.read()
+"""
+
+
+def test_processes_end_with_a_parent_that_is_killed(tmp_path: Path) -> None:
+    script = tmp_path / "script.py"
+    script.write_text(ENDLESS, encoding="utf-8")
+    pipes: Any = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE}
+    with subprocess.Popen([sys.executable, str(script)], text=True, **pipes) as parent:
+        workers = [psutil.Process(int(pid)) for pid in parent.stdout.readline().split()]
+        parent.kill()
+    assert len(workers) == 1
+    _, alive = psutil.wait_procs(workers, timeout=60)
+    assert not alive
 
 
 UNGUARDED = """

@@ -308,6 +308,62 @@ def test_problems_are_made_when_there_is_room(direct: Direct) -> None:
     assert len(made) <= 8
 
 
+class Later(Direct):
+    """Answers nothing before it is told to."""
+
+    def __init__(self, answers: dict[bytes, bytes]) -> None:
+        super().__init__(answers)
+        self.waiting = list[tuple[Future[Any], Any]]()
+
+    def submit(self, fn: Any, /, *args: Any, **_: Any) -> Future[Any]:
+        self.sent.append(args)
+        self.waiting.append((Future(), (fn, *args)))
+        if len(self.waiting) == 2:
+            for future, how in self.waiting:
+                future.set_result(self.answer(*how))
+        return self.waiting[-1][0]
+
+
+def test_equal_problems_under_way_are_solved_once(
+    answers: dict[bytes, bytes], tmp_path: Path
+) -> None:
+    later = Later(dict(answers))
+    same = POSES[0].with_targets(POSES[0].targets.copy())
+    equal = {"a": PROBLEMS[0], "b": (domain("ell"), same), "c": PROBLEMS[0], "other": PROBLEMS[1]}
+    found = {one.name: one for one in solve_many(equal, executor=later, folder=tmp_path)}
+    assert len(later.sent) == 2
+    assert found.keys() == equal.keys()
+    assert found["b"].result.pose is same
+    assert found["a"].result.energy == found["b"].result.energy == found["c"].result.energy
+    assert all(one.result.certificate.certified and not one.kept for one in found.values())
+    assert len(list(tmp_path.glob("*/*"))) == 2
+
+
+def test_an_error_is_that_of_all_equal_problems(answers: dict[bytes, bytes]) -> None:
+    later = Later(dict(answers))
+    equal = {"a": (domain("ell"), OUTSIDE), "b": (domain("ell"), OUTSIDE), "c": PROBLEMS[0]}
+    found = {one.name: one for one in solve_many(equal, executor=later)}
+    assert len(later.sent) == 2
+    assert found["c"].result
+    for name in ("a", "b"):
+        assert str(found[name].error).startswith(f"{name}: PoseError: handle 0")
+
+
+def test_equal_problems_take_no_more_than_their_room(direct: Direct) -> None:
+    made = list[Any]()
+
+    def endless() -> Any:
+        while True:
+            made.append(PROBLEMS[0])
+            yield made[-1]
+
+    many = solve_many(endless(), executor=direct, in_flight=3)
+    for _ in range(7):
+        assert next(many).result
+    many.close()
+    assert len(made) <= 10
+
+
 def test_a_bar_counts(direct: Direct, capsys: pytest.CaptureFixture[str]) -> None:
     given = [*PROBLEMS, None]
     assert len(list(solve_many(given, executor=direct, progress=True))) == 5

@@ -502,3 +502,13 @@ def test_a_wrong_file_is_refused_by_key(tmp_path: Path) -> None:
     path.write_text(text.replace('"version": 1', '"version": 1, "version": 1', 1))
     with pytest.raises(MotionError, match="given twice"):
         Motion.load(path)
+
+
+def test_a_motions_map_has_an_inverse() -> None:
+    motion = Motion(poses("ell", 0, 1.0), [0, 1])
+    z = np.array([[-2.0, -2.0], [2.0, -1.0], [-1.0, 2.5]])
+    map = motion(0.4)
+    found = map.inverse.locate(map(z))
+    np.testing.assert_allclose(found.points, z, atol=1e-9)
+    assert found.proved.all()
+    assert map.inverse.inverse is map

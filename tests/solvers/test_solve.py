@@ -24,7 +24,7 @@ from glid_nb.energies import (
     SymmetricDirichlet,
 )
 from glid_nb.geometry import Cage, Domain
-from glid_nb.harmonic import HarmonicMap
+from glid_nb.harmonic import HarmonicMap, MapError
 from glid_nb.minima import solve
 from glid_nb.pose import Pose, PoseError
 from glid_nb.solvers import (
@@ -40,6 +40,7 @@ from glid_nb.solvers import (
 
 from ..support.checks import check_certified
 from ..support.domains import domain
+from ..support.problems import problem, run_method
 
 pytestmark = pytest.mark.slow  # most of the time is compiling
 
@@ -434,3 +435,12 @@ def test_a_weight_beside_which_distortion_is_rounded_off(size: float, weight: fl
     assert result.status is Status.CONVERGED
     assert result.energy == pytest.approx(2.14681, abs=1e-4)
     np.testing.assert_allclose(result.map(pose.handles), pose.targets, atol=1e-11 * size)
+
+
+def test_a_results_inverse_is_that_of_its_map() -> None:
+    result = run_method("newton", *problem("ell"))
+    z = np.array([[-2.0, -2.0], [2.0, -1.0], [-1.0, 2.5]])
+    assert result.inverse is result.map.inverse
+    np.testing.assert_allclose(result.inverse(result.map(z)), z, atol=1e-9)
+    with pytest.raises(MapError, match="a map of a mesh has no inverse"):
+        run_method("arap-mesh", *problem("ell")).inverse  # noqa: B018
