@@ -314,7 +314,7 @@ null),e()}#O(){let{playing:t}=this;this.#e.disabled=!this.#i,this.#s.disabled=!t
 t?"❚❚":"▶",this.#e.setAttribute("aria-label",t?"Pause":"Play")}};var Os={mouse:13,pen:16,touch:26},Ls=/^(Arrow\w+|Delete|Backspace|Escape|Enter|[0fax,.<>+=-])$/i,Rs=2,
 Ps=5,_s=.1,Is=.5,Ns=6,Fs=30,Cs=12,Bs=.06,Ds=.12,be=Math.PI/36,Mt=1.05,Ee={ArrowLeft:[-1,0],ArrowRight:[
 1,0],ArrowUp:[0,1],ArrowDown:[0,-1]},Us={"<":[be,1],">":[-be,1],"+":[0,Mt],"=":[0,Mt],"-":[0,1/Mt]},
-nt=class{reach=Os;keys=Ls;ownsWheel=!0;signal=new AbortController().signal;cursorAt=null;#t=null;#e=[
+nt=class{reach=Os;keys=Ls;ownsWheel=window===window.top;signal=new AbortController().signal;cursorAt=null;#t=null;#e=[
 0,0];constructor(t,e,s){this.editing=t,this.view=e,this.around=s,this.actions={"?":s.help}}changed(){
 this.around.redraw()}tapped(){this.around.play()}find(t,e){let{marks:s}=this.editing;this.#e=t;let n=()=>Wt(
 this.view,s,this.view.toScreen(t),e/this.view.unit/2);return Z(s,t,e)??n()}held({mark:t}){let{pins:e,

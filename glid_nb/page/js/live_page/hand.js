@@ -64,7 +64,7 @@ const TURNS = {
 export class Hand {
   reach = REACH;
   keys = KEYS;
-  ownsWheel = true; // the page is as high as its window
+  ownsWheel = window === window.top; // not in a frame of a page that scrolls
   signal = new AbortController().signal;
   /** @type {Point | null} the keyboard's cursor */
   cursorAt = null;
