@@ -197,6 +197,8 @@ def test_kept_poses_play_and_every_frame_is_certified(browser: Browser, tmp_path
         page.get_by_role("button", name="Keep pose").click()
         drag(page, (5.2, 0), (6.5, 2.5))
         page.get_by_role("button", name="Keep pose").click()
+        marked = page.locator(".poses button[aria-current=true]")
+        assert marked.get_attribute("title") == "Pose 2, at 1.00 s"
         play = page.get_by_role("button", name="Play")
         play.click()  # waits until the way between the poses is found
         page.wait_for_function("() => document.querySelector('.track input').value > 0.3")

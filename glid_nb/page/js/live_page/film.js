@@ -129,6 +129,8 @@ export class Film {
   /** @param {Kept} kept */
   async keep(kept) {
     this.kept = [...this.kept, kept];
+    this.#keyframes = null;
+    this.#time = this.#times[this.kept.length - 1]; // the kept pose is the one that is shown
     this.#showPoses();
     await this.#build();
   }
@@ -147,7 +149,8 @@ export class Film {
   playOrPause() {
     const motion = this.#motion;
     if (!motion) return;
-    this.#run(this.playing ? null : playedFrom(motion, this.#time, true));
+    const from = this.seen ? this.#time : motion.start;
+    this.#run(this.playing ? null : playedFrom(motion, from, true));
   }
 
   #showPoses() {
