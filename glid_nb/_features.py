@@ -133,6 +133,8 @@ def _write_layout_by_name() -> None:
     them was compiled or read again.
     """
     automatic = getattr(jax.typeof(np.float32(0)), "layout", None)
+    if automatic is None:
+        return
     kind, name = type(automatic), repr(automatic)
     if getattr(sys.modules[kind.__module__], name, None) is automatic:
         copyreg.pickle(kind, repr)

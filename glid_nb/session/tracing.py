@@ -11,7 +11,7 @@ import numpy as np
 import shapely
 from numpy.typing import ArrayLike, NDArray
 
-from glid_nb._arrays import number_pairs, read_only
+from glid_nb._arrays import Array, number_pairs, read_only
 from glid_nb.geometry import Cage, Domain, GeometryError
 from glid_nb.geometry.cage import check_distinct
 from glid_nb.imaging import Hole, PixelFrame, Scribbles, TraceError, TraceOptions, Tracer, Tracing
@@ -281,28 +281,24 @@ class TracingModel(Undoable[TracingState]):
 
     def draw(self, outline: ArrayLike | None = None) -> None:
         """Use an outline drawn by hand, (k, 2) pixels, as the cage; None: the whole picture."""
-        frame = self._frame_of_picture()
-        size = frame.width, frame.height
         if outline is None:
-            outline = shapely.get_coordinates(shapely.box(0, 0, *size))
-        loop = frame.to_world(loop_edits.drawn(outline, size))
-        self.set_loops((read_only(loop),))
+            frame = self._frame_of_picture()
+            outline = shapely.get_coordinates(shapely.box(0, 0, frame.width, frame.height))
+        self.set_loops((self._drawn(outline),))
 
     def draw_hole(self, outline: ArrayLike) -> None:
         """Cut a hole drawn by hand, (k, 2) pixels, out of the shown shape."""
-        frame = self._frame_of_picture()
-        loop = frame.to_world(loop_edits.drawn(outline, (frame.width, frame.height)))
-        self._edit(lambda loops: (*loops, read_only(loop)))
+        hole = self._drawn(outline)
+        self._edit(lambda loops: (*loops, hole))
 
     def holds(self, outline: ArrayLike) -> bool:
         """Whether an outline drawn by hand, (k, 2) pixels, lies inside the shape, which is no
         guess."""
-        frame, (exterior, *holes) = self._frame_of_picture(), self.outcome.loops or ((),)
+        exterior, *holes = self.outcome.loops or ((),)
         if not len(exterior) or self.doubt or self.outcome.problems:
             return False
-        loop = frame.to_world(loop_edits.drawn(outline, (frame.width, frame.height)))
         whole = shapely.Polygon(exterior, holes)
-        return bool(shapely.contains_properly(whole, shapely.Polygon(loop)))
+        return bool(shapely.contains_properly(whole, shapely.Polygon(self._drawn(outline))))
 
     def return_to(self, state: TracingState) -> None:
         """Restore an earlier state, with its fallback, as a new step."""
@@ -376,6 +372,12 @@ class TracingModel(Undoable[TracingState]):
     def _check_inside(self, point: Point) -> None:
         x, y = loop_edits.checked_point(point)
         self._frame_of_picture().index_at((float(x), float(y)))
+
+    def _drawn(self, outline: ArrayLike) -> Array:
+        """The loop, in world coordinates, of an outline drawn by hand, (k, 2) pixels."""
+        frame = self._frame_of_picture()
+        size = frame.width, frame.height
+        return read_only(frame.to_world(loop_edits.drawn(outline, size)))
 
     def _frame_of_picture(self) -> PixelFrame:
         if (frame := self.frame) is None:

@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.interpolate import BSpline, RBFInterpolator
+from scipy.interpolate import BSpline, LinearNDInterpolator, RBFInterpolator
 from scipy.spatial import Delaunay
 
 import glid_nb
@@ -75,20 +75,11 @@ def thin_plate(src: Array, dst: Array) -> Warp:
 def piecewise_affine(src: Array, dst: Array) -> Warp:
     """Affine on Delaunay's triangles of the landmarks; nothing outside their hull."""
     mesh = Delaunay(src)
-    triangles = mesh.simplices
-
-    def images(points: Array) -> Array:
-        found = mesh.find_simplex(points)
-        frame = mesh.transform[found]
-        two = np.einsum("kij,kj->ki", frame[:, :2], points - frame[:, 2])
-        shares = np.concatenate([two, 1 - two.sum(axis=1, keepdims=True)], axis=1)
-        moved = np.einsum("ki,kij->kj", shares, dst[triangles[found]])
-        return np.where(found[:, None] >= 0, moved, np.nan)
 
     def folds() -> bool:
-        return glid_nb.audit(dst, source=src, triangles=triangles).verdict == "folds"
+        return glid_nb.audit(dst, source=src, triangles=mesh.simplices).verdict == "folds"
 
-    return Warp(images, folds)
+    return Warp(LinearNDInterpolator(mesh, dst), folds)
 
 
 def b_spline(src: Array, dst: Array) -> Warp:

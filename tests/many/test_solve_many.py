@@ -293,19 +293,25 @@ def test_ctrl_c_cancels_what_has_not_begun() -> None:
     assert [future.cancelled() for future in waits.futures] == [True] * 3
 
 
-def test_problems_are_made_when_there_is_room(direct: Direct) -> None:
-    made = []
+def made_for(problems: list[Any], executor: Direct, in_flight: int, wanted: int) -> int:
+    """How many problems of an endless row are made until some results are there."""
+    made = 0
 
     def endless() -> Any:
+        nonlocal made
         while True:
-            made.append(PROBLEMS[len(made) % 4])
-            yield made[-1]
+            made += 1
+            yield problems[made % len(problems)]
 
-    many = solve_many(endless(), executor=direct, in_flight=2)
-    for _ in range(5):
+    many = solve_many(endless(), executor=executor, in_flight=in_flight)
+    for _ in range(wanted):
         assert next(many).result
     many.close()
-    assert len(made) <= 8
+    return made
+
+
+def test_problems_are_made_when_there_is_room(direct: Direct) -> None:
+    assert made_for(PROBLEMS[:4], direct, in_flight=2, wanted=5) <= 8
 
 
 class Later(Direct):
@@ -350,18 +356,7 @@ def test_an_error_is_that_of_all_equal_problems(answers: dict[bytes, bytes]) -> 
 
 
 def test_equal_problems_take_no_more_than_their_room(direct: Direct) -> None:
-    made = list[Any]()
-
-    def endless() -> Any:
-        while True:
-            made.append(PROBLEMS[0])
-            yield made[-1]
-
-    many = solve_many(endless(), executor=direct, in_flight=3)
-    for _ in range(7):
-        assert next(many).result
-    many.close()
-    assert len(made) <= 10
+    assert made_for(PROBLEMS[:1], direct, in_flight=3, wanted=7) <= 10
 
 
 def test_a_bar_counts(direct: Direct, capsys: pytest.CaptureFixture[str]) -> None:
