@@ -528,8 +528,10 @@ class Deformation(Undoable[EditState], AbstractContextManager["Deformation"]):
             raise
 
     def _at_rest(self) -> bool:
-        solved = self.moment.solved or self._error is not None
-        return not self.dragged and (solved or (self.begun and not self._worker.busy))
+        # While paused, the solver may still end its last call. Its map then comes as a frame.
+        ended = self.moment.solved or self._error is not None
+        stopped = self.begun and (self._paused or not self._worker.busy)
+        return not self.dragged and (ended or stopped)
 
     def _next_other(self) -> NamedPose | None:
         """The next pose to solve among those that are not edited."""

@@ -139,6 +139,18 @@ def test_poses_that_were_left_before_they_were_solved_are_solved_first() -> None
         animation.close()
 
 
+def test_a_pause_while_the_solver_works_reaches_the_timeline() -> None:
+    """It waited for a proof that nobody began."""
+    with Deformation(domain("ring"), POSE) as model:
+        animation = Animation(model)
+        model.drag(0, (2.5, 0.5))
+        model.save_pose()
+        model.paused = True
+        assert animation.wait(TIMEOUT)
+        assert "computing" not in statuses(animation)
+        animation.close()
+
+
 def test_recorded_and_loaded_poses_stay_as_they_were(
     model: Deformation, animation: Animation
 ) -> None:
