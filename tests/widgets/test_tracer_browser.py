@@ -21,6 +21,8 @@ CELLS = (
     "tracer = glid_nb.widgets.CageTracer(glid_nb.samples.image('{name}'))\ntracer",
 )
 
+SHORT = "model = tracer.tracing_model"
+
 
 class Hand:
     """A tracer on the page, and where its picture's pixels are."""
@@ -385,3 +387,36 @@ def test_on_a_photograph_the_outline_is_drawn_by_hand(open_notebook: OpenNoteboo
     assert not box.is_visible()
     ends = book.value("[f(tracer.tracing_model.loops[0], 0).tolist() for f in (np.min, np.max)]")
     np.testing.assert_allclose(ends, [[60, 30], [380, 260]], atol=1)
+
+
+def test_an_outline_inside_the_shape_is_asked_about(open_notebook: OpenNotebook) -> None:
+    hand = tracer_of(open_notebook, "bar")
+    question = hand.root.get_by_role("group", name="What you drew")
+    outline = np.array(hand.book.value("model.loops[0].tolist()", SHORT))
+    (left, top), (wide, high) = outline.min(axis=0), np.ptp(outline, axis=0)
+
+    def draw_inside() -> None:
+        assert question.is_hidden()
+        hand.stage.locator("canvas").last.focus()
+        hand.page.keyboard.press("r")
+        hand.drag((left + 0.4 * wide, top + 0.4 * high), (left + 0.6 * wide, top + 0.6 * high))
+        hand.settle()
+        question.wait_for()
+
+    draw_inside()
+    hand.book.screenshot("tracer-hole-or-outline")
+    question.get_by_role("button", name="nothing").click()
+    hand.settle()
+    assert hand.book.value("len(model.loops)", SHORT) == 1
+    draw_inside()
+    question.get_by_role("button", name="a hole").click()
+    hand.settle()
+    assert hand.book.value("len(model.loops)", SHORT) == 2
+    hand.button("Undo").click()
+    hand.settle()
+    draw_inside()
+    question.get_by_role("button", name="the new outline").click()
+    hand.settle()
+    size = hand.book.value("np.ptp(model.loops[0], axis=0).tolist()", SHORT)
+    np.testing.assert_allclose(size, [0.2 * wide, 0.2 * high], atol=2)
+    assert question.is_hidden()
