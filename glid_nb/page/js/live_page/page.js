@@ -12,7 +12,6 @@ import { copyPython, downloadPicture, downloadProof } from "./files.js";
 import { Film } from "./film.js";
 import { Hand } from "./hand.js";
 import { HELP } from "./help_table.js";
-import { joinHost } from "./host.js";
 import { drawMissed } from "./missed.js";
 import { Report } from "./report.js";
 import { fitted, roomOn } from "./room.js";
@@ -50,7 +49,6 @@ export class LivePage {
   #moving = null;
   #due = 0;
   #news = true; // of the pose that is edited, which is to be told
-  #tellHost;
   #paintPins;
 
   /**
@@ -92,7 +90,6 @@ export class LivePage {
     };
     this.#arrange();
     this.#hear();
-    this.#tellHost = joinHost(editing);
     this.redraw();
   }
 
@@ -267,7 +264,6 @@ export class LivePage {
     report.proved(this.shown);
     report.pins(editing);
     document.documentElement.dataset.settled = String(editing.settled);
-    this.#tellHost();
   }
 
   // Colours.
