@@ -10,6 +10,7 @@ import signal
 import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from pathlib import Path
 from types import FrameType
 from typing import Any
 
@@ -20,8 +21,10 @@ from glid_nb._errors import InputError
 from glid_nb.geometry import Cage, Domain, as_points
 from glid_nb.geometry._loops import subdivided
 
+SECONDS = 180.0  # that a check may take, unless it says otherwise
 # Names of distributions that differ from the imported name.
 _DISTRIBUTIONS = {"igl": "libigl", "glid_check": "glid-check"}
+CHECK_HEADING = re.compile(r"^# %% exercise (\d+)\n", re.MULTILINE)  # in a file of checks
 
 
 class MissingPackageError(InputError):
@@ -91,7 +94,7 @@ def _at_most(seconds: float) -> Iterator[None]:
 
 
 @contextmanager
-def check(name: str, seconds: float = 180) -> Iterator[None]:
+def check(name: str, seconds: float = SECONDS) -> Iterator[None]:
     """Print whether the assertions of a block hold. All exceptions in the block are caught.
 
     The block is interrupted after some ``seconds``.
@@ -107,6 +110,13 @@ def check(name: str, seconds: float = 180) -> Iterator[None]:
     except (Exception, _TooSlow) as raised:  # the reader's own code may raise anything
         failure = raised
     report(name, failure, seconds)
+
+
+def run_check(path: str | Path, number: int, namespace: dict[str, Any]) -> None:
+    """Run the check of an exercise from a file of the student edition (`make student`)."""
+    parts = CHECK_HEADING.split(Path(path).read_text(encoding="utf-8"))
+    checks = dict(zip(map(int, parts[1::2]), parts[2::2], strict=True))
+    exec(compile(checks[number], str(path), "exec"), namespace)
 
 
 def report(name: str, failure: BaseException | None, seconds: float) -> None:
