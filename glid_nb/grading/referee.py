@@ -45,7 +45,7 @@ class TooSlowError(StudentError):
 
 
 class Student:
-    """The process of the answers. It is started when it is first needed, and after it has died."""
+    """The process of the answers. If it has died, it is started again for the next answer."""
 
     def __init__(self, folder: Path, limit: float) -> None:
         self._folder, self._limit = folder, limit
@@ -53,11 +53,13 @@ class Student:
         self._process: subprocess.Popen[bytes] | None = None
         self._lines: queue.SimpleQueue[bytes] = queue.SimpleQueue()
         self._objects = list[Any]()
+        self._behind = False  # it may still run the chapter's cells
         self._left = limit  # seconds that the student's code may still take
 
     def run(self, source: str) -> None:
         """Run a cell of the chapter there, without waiting for it."""
         self._ran.append(source)
+        self._behind = True
         if self._process is not None:
             with contextlib.suppress(StudentError):
                 self._send({"do": "run", "source": source})
@@ -68,15 +70,22 @@ class Student:
 
     def answer(self, source: str) -> None:
         """Run the student's cells. Raises a StudentError."""
-        self._start()
-        self._left = _CHAPTER
-        self.request({"do": "wait"})
+        self.start()
         self.begin()
+        self._catch_up()
         self.request({"do": "answer", "source": source})
         self._ran.append(source)
 
+    def _catch_up(self) -> None:
+        """Wait for the chapter's own cells. Their time is not the student's."""
+        if self._behind:
+            left, self._left = self._left, _CHAPTER
+            self.request({"do": "wait"})
+            self._left, self._behind = left, False
+
     def call(self, name: str, args: Any, kwargs: Mapping[str, Any]) -> Any:
         """The value of a student's function. Raises a StudentError."""
+        self._catch_up()
         values = {k: encoded(v, self._reference) for k, v in kwargs.items()}
         args = encoded(args, self._reference)
         return self._decoded(
@@ -85,6 +94,7 @@ class Student:
 
     def expression(self, name: str, count: int) -> Any:
         """The operations of a student's function. Raises a StudentError."""
+        self._catch_up()
         return self.request({"do": "trace", "name": name, "count": count})
 
     def end(self) -> None:
@@ -93,7 +103,8 @@ class Student:
             self._process.wait()
             self._process = None
 
-    def _start(self) -> None:
+    def start(self) -> None:
+        """Start the process, if there is none, and run there what was run before."""
         if self._process is not None and self._process.poll() is None:
             return
         self._objects.clear()
@@ -108,6 +119,7 @@ class Student:
         threading.Thread(
             target=_read, args=(self._process.stdout, self._lines), daemon=True
         ).start()
+        self._behind = True
         for source in self._ran:
             self._send({"do": "run", "source": source})
 
@@ -248,7 +260,14 @@ class Referee:
                 self._take(cell)
 
     def _chapters_own(self, cell: Cell) -> None:
-        """Run a cell of the chapter, here and there. It may call the student's functions."""
+        """Run a cell of the chapter, here and in the student's process, at the same time.
+
+        If the cell may call the student's functions, it is run here first, with a limit.
+        """
+        if not any(isinstance(value, Remote) for value in self._namespace.values()):
+            self._student.run(cell.source)
+            self._run(cell.source)
+            return
         self._student.begin()
         try:
             self._run(cell.source)
@@ -311,8 +330,8 @@ class Referee:
                 self._restore(cell)
 
     def _restore(self, cell: Cell) -> None:
-        self._run(cell.source)
         self._student.run(cell.source)
+        self._run(cell.source)
 
     def _bind(self, cell: Cell) -> None:
         for name in cell.functions:
@@ -336,6 +355,7 @@ def main() -> None:
     without_figures()
     student = Student(Path(job["folder"]), job["limit"])
     try:
+        student.start()  # it runs the chapter's cells beside this process
         Referee(chapter, answers(chapter, handed_in), student, tell).judge()
     finally:
         student.end()
