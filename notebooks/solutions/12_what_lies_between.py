@@ -49,7 +49,7 @@ def all_times_bound(fz, fzb):
     return min(abs(a) - abs(b) for a, b in zip(fz, fzb))
 
 
-# %% exercise 3: a typical wrong answer
+# %% exercise 3: samples of time
 # It takes samples of time, which prove nothing.
 def all_times_bound(fz, fzb):
     t = np.linspace(0, 1, 2001)
