@@ -14,6 +14,7 @@
 # make gpu    the solver on this machine's GPU (at most 8 minutes), with the machine's own Python and JAX
 # make docs   the site in site/, checked: pages, links, and each page in Chromium
 # make notebooks  all chapters, run in place and saved; ARGUMENTS="03 07" runs these two
+# make student  the student edition of the course in student/, without solutions
 # make browser  Chromium for the browser tests, by apt
 # The environment is made with the newest Python that tools/pythons.sh finds, or with $PYTHON; another
 # one beside it: make unit VENV=.venv-3.12 PYTHON=python3.12
@@ -26,7 +27,7 @@ WORKERS = $(shell expr $$(nproc) + 1)
 # Without bytecode every process of the tests compiles the package and the test files anew.
 unexport PYTHONDONTWRITEBYTECODE
 
-.PHONY: demo test unit page page-tests install-tests pythons chapter leaks lint format dev compare bench gpu docs notebooks browser clean
+.PHONY: demo test unit page page-tests install-tests pythons chapter leaks lint format dev compare bench gpu docs notebooks student browser clean
 .DEFAULT_GOAL := demo
 
 demo: $(VENV)/.demo
@@ -94,6 +95,9 @@ docs: $(VENV)/.docs
 notebooks: $(VENV)/.test
 	$(VENV)/bin/python tools/run_notebooks.py $(ARGUMENTS)
 
+student: $(VENV)/.test
+	$(VENV)/bin/python tools/student_edition.py $(ARGUMENTS)
+
 browser:
 	tools/chromium.sh
 
@@ -127,4 +131,4 @@ node_modules/.package-lock.json: package.json package-lock.json | $(VENV)/.page
 	touch $@
 
 clean:
-	rm -rf $(VENV) node_modules glid-nb-demo artefacts build dist site
+	rm -rf $(VENV) node_modules glid-nb-demo artefacts build dist site student

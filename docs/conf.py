@@ -47,6 +47,7 @@ exclude_patterns = [
     "glid-nb-*",
     "node_modules",
     "site",
+    "student",
     "docs/templates",
     "studies",
     "tests",

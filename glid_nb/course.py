@@ -4,9 +4,14 @@ An exercise is checked by ``with check("exercise 1"): assert ...``.
 """
 
 import importlib.util
+import os
 import re
+import signal
+import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from pathlib import Path
+from types import FrameType
 from typing import Any
 
 import ipywidgets
@@ -16,8 +21,10 @@ from glid_nb._errors import InputError
 from glid_nb.geometry import Cage, Domain, as_points
 from glid_nb.geometry._loops import subdivided
 
+SECONDS = 180.0  # that a check may take, unless it says otherwise
 # Names of distributions that differ from the imported name.
 _DISTRIBUTIONS = {"igl": "libigl", "glid_check": "glid-check"}
+CHECK_HEADING = re.compile(r"^# %% exercise (\d+)\n", re.MULTILINE)  # in a file of checks
 
 
 class MissingPackageError(InputError):
@@ -41,26 +48,95 @@ def needs(*packages: str, without: str | None = None) -> None:
     print(f"Without {which}, this chapter leaves out {without}. To see it, run: {remedy}.")
 
 
+class _TooSlow(KeyboardInterrupt):
+    """A check's time is over. The reader's ``except Exception`` does not catch it."""
+
+
 @contextmanager
-def check(name: str) -> Iterator[None]:
+def _at_most(seconds: float) -> Iterator[None]:
+    """Raise _TooSlow in the block when the time is over.
+
+    Code in C that does not return is not interrupted, and there is no limit outside the main
+    thread, because Python handles signals only there.
+    """
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    over, done = threading.Event(), threading.Event()
+
+    def interrupt() -> None:
+        over.set()
+        if os.name == "posix":  # this ends waiting calls too
+            signal.pthread_kill(main, signal.SIGINT)
+        else:
+            signal.raise_signal(signal.SIGINT)
+
+    def on_interrupt(number: int, frame: FrameType | None) -> None:
+        if done.is_set():
+            return
+        if over.is_set():
+            raise _TooSlow
+        if callable(before):
+            before(number, frame)
+
+    main = threading.main_thread().ident or 0
+    timer = threading.Timer(seconds, interrupt)
+    timer.daemon = True
+    before = signal.signal(signal.SIGINT, on_interrupt)
+    timer.start()
+    try:
+        yield
+    finally:
+        done.set()
+        timer.cancel()
+        timer.join()
+        signal.signal(signal.SIGINT, before)
+
+
+@contextmanager
+def check(name: str, seconds: float = SECONDS) -> Iterator[None]:
     """Print whether the assertions of a block hold. All exceptions in the block are caught.
+
+    The block is interrupted after some ``seconds``.
 
     >>> with check("exercise 1"):
     ...     assert 1 + 1 == 3, "the sum is not 3"
     exercise 1: not yet: the sum is not 3
     """
+    failure = None
     try:
-        yield
-    except AssertionError as failed:
-        print(f"{name}: not yet: {failed or 'an assertion does not hold'}")
-    except Exception as failed:  # the reader's own code may raise anything
-        lines = str(failed).splitlines() or ["no message"]
-        raised = f"your code raises {type(failed).__name__}: {lines[0]}"
-        if isinstance(failed, TypeError) and re.search("NoneType|ellipsis", lines[0]):
-            raised = f"the cell still holds None or `...`, or returns nothing ({raised})"
-        print(f"{name}: not yet: {raised}")
-    else:
-        print(f"{name}: right")
+        with _at_most(seconds):
+            yield
+    except (Exception, _TooSlow) as raised:  # the reader's own code may raise anything
+        failure = raised
+    report(name, failure, seconds)
+
+
+def run_check(path: str | Path, number: int, namespace: dict[str, Any]) -> None:
+    """Run the check of an exercise from a file of the student edition (`make student`)."""
+    parts = CHECK_HEADING.split(Path(path).read_text(encoding="utf-8"))
+    checks = dict(zip(map(int, parts[1::2]), parts[2::2], strict=True))
+    exec(compile(checks[number], str(path), "exec"), namespace)
+
+
+def report(name: str, failure: BaseException | None, seconds: float) -> None:
+    """Print the outcome of a check. `glid-nb grade` puts its own function here."""
+    print(f"{name}: {'right' if failure is None else f'not yet: {why(failure, seconds)}'}")
+    if failure is not None and os.environ.get("NBGRADER_EXECUTION"):
+        raise failure  # nbgrader gives the points of a cell that raises nothing
+
+
+def why(failure: BaseException, seconds: float) -> str:
+    """What a reader is told about an exception in a check, on one line."""
+    if isinstance(failure, _TooSlow):
+        return f"your code takes longer than {seconds:g} seconds"
+    if isinstance(failure, AssertionError):
+        return str(failure) or "an assertion does not hold"
+    lines = str(failure).splitlines() or ["no message"]
+    raised = f"your code raises {type(failure).__name__}: {lines[0]}"
+    if isinstance(failure, TypeError) and re.search("NoneType|ellipsis", lines[0]):
+        return f"the cell still holds None or `...`, or returns nothing ({raised})"
+    return raised
 
 
 def interact(show: Callable[..., Any], **sliders: Any) -> ipywidgets.VBox:

@@ -8,10 +8,22 @@ from collections.abc import Sequence
 from typing import Any, NoReturn
 
 import glid_nb
-from glid_nb.cli import animate, audit, demo, doctor, lab, page, render, samples, solve, trace
+from glid_nb.cli import (
+    animate,
+    audit,
+    demo,
+    doctor,
+    grade,
+    lab,
+    page,
+    render,
+    samples,
+    solve,
+    trace,
+)
 from glid_nb.cli.output import BAD_INPUT, one_line, tell_error
 
-COMMANDS = (demo, trace, solve, render, animate, page, audit, samples, lab, doctor)
+COMMANDS = (demo, trace, solve, render, animate, page, audit, samples, lab, grade, doctor)
 
 
 class OneLineParser(argparse.ArgumentParser):

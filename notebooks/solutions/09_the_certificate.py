@@ -15,6 +15,89 @@ def sigma2_bound(fz, fzb, lipschitz_fz, lipschitz_fzb, length):
     return min(abs(fz[0]) - abs(fzb[0]), abs(fz[1]) - abs(fzb[1]))
 
 
+# %% exercise 1: right: in one line each, with numpy's absolute value
+def sigma2_bound(fz, fzb, lipschitz_fz, lipschitz_fzb, length):
+    sums = np.abs(fz).sum() - np.abs(fzb).sum()
+    return 0.5 * (sums - length * (lipschitz_fz + lipschitz_fzb))
+
+
+# %% exercise 1: right: by two cones from the ends
+def sigma2_bound(fz, fzb, lipschitz_fz, lipschitz_fzb, length):
+    def meet(first, last, slope):  # where two lines from the ends with this slope meet
+        return (first + last + slope * length) / 2
+
+    return meet(*map(abs, fz), -lipschitz_fz) - meet(*map(abs, fzb), lipschitz_fzb)
+
+
+# %% exercise 1: the worse end, and a whole length
+def sigma2_bound(fz, fzb, lipschitz_fz, lipschitz_fzb, length):
+    least = min(abs(fz[0]), abs(fz[1])) - lipschitz_fz * length
+    return least - max(abs(fzb[0]), abs(fzb[1])) - lipschitz_fzb * length
+
+
+# %% exercise 1: f_zbar does not move
+def sigma2_bound(fz, fzb, lipschitz_fz, lipschitz_fzb, length):
+    return (abs(fz[0]) + abs(fz[1]) - lipschitz_fz * length) / 2 - (abs(fzb[0]) + abs(fzb[1])) / 2
+
+
+# %% exercise 1: without moduli
+def sigma2_bound(fz, fzb, lipschitz_fz, lipschitz_fzb, length):
+    sums = np.real(fz[0] + fz[1]) - np.real(fzb[0] + fzb[1])
+    return 0.5 * (sums - length * (lipschitz_fz + lipschitz_fzb))
+
+
+# %% exercise 1: the mean of the ends
+def sigma2_bound(fz, fzb, lipschitz_fz, lipschitz_fzb, length):
+    return (abs(fz[0]) + abs(fz[1]) - abs(fzb[0]) - abs(fzb[1])) / 2
+
+
+# %% exercise 2: right: by the logarithm
+def zeros_inside(f, n):
+    panels = uniform_panels(f.domain.cage, n)
+    at_start, at_end = f.wirtinger(panels.start)[0], f.wirtinger(panels.end)[0]
+    return int(np.rint(np.log(at_end / at_start).imag.sum() / (2 * np.pi)))
+
+
+# %% exercise 2: right: loop by loop, as a float that is a whole number
+def zeros_inside(f, n):
+    panels = uniform_panels(f.domain.cage, n)
+    total = 0.0
+    for loop in range(panels.loop.max() + 1):
+        values = f.wirtinger(panels.start[panels.loop == loop])[0]
+        angles = np.unwrap(np.angle(np.append(values, values[0])))
+        total += np.round((angles[-1] - angles[0]) / (2 * np.pi))
+    return total
+
+
+# %% exercise 2: not rounded
+def zeros_inside(f, n):
+    panels = uniform_panels(f.domain.cage, n)
+    at_start, at_end = f.wirtinger(panels.start)[0], f.wirtinger(panels.end)[0]
+    return np.angle(at_end / at_start).sum() / (2 * np.pi)
+
+
+# %% exercise 2: the angle is not divided by a turn
+def zeros_inside(f, n):
+    panels = uniform_panels(f.domain.cage, n)
+    at_start, at_end = f.wirtinger(panels.start)[0], f.wirtinger(panels.end)[0]
+    return round(np.angle(at_end / at_start).sum())
+
+
+# %% exercise 2: f_zbar
+def zeros_inside(f, n):
+    panels = uniform_panels(f.domain.cage, n)
+    at_start, at_end = (f(points) @ [1, 1j] for points in (panels.start, panels.end))
+    return round(np.angle(at_end / at_start).sum() / (2 * np.pi))
+
+
+# %% exercise 2: differences of principal angles
+# Each jump of the principal angle takes a turn back, so the sum is always 0.
+def zeros_inside(f, n):
+    panels = uniform_panels(f.domain.cage, n)
+    at_start, at_end = f.wirtinger(panels.start)[0], f.wirtinger(panels.end)[0]
+    return round((np.angle(at_end) - np.angle(at_start)).sum() / (2 * np.pi))
+
+
 # %% exercise 2: solution
 def zeros_inside(f, n):
     """The number of zeros of f_z, a whole number: (30) over 2 pi, from about n panels."""
@@ -47,3 +130,49 @@ def halved_bound(coefficients):
 # The smallest of many values is an estimate from above; the polynomial may be smaller between them.
 def halved_bound(coefficients):
     return bernstein(coefficients, np.linspace(0, 1, 101)).min()
+
+
+# %% exercise 3: right: the two halves' coefficients, collected
+def halved_bound(coefficients):
+    row, left, right = list(map(float, coefficients)), [], []
+    while row:
+        left.append(row[0])
+        right.append(row[-1])
+        row = [(a + b) / 2 for a, b in zip(row, row[1:])]
+    return min(left + right)
+
+
+# %% exercise 3: right: by matrices of binomial numbers
+def halved_bound(coefficients):
+    from math import comb
+
+    c = np.asarray(coefficients, float)
+    n = len(c)
+    half = np.array([[comb(i, j) / 2**i if j <= i else 0 for j in range(n)] for i in range(n)])
+    return min((half @ c).min(), (half @ c[::-1]).min())
+
+
+# %% exercise 3: without halving
+def halved_bound(coefficients):
+    return min(coefficients)
+
+
+# %% exercise 3: the value in the middle
+def halved_bound(coefficients):
+    return bernstein(coefficients, np.array([0.5]))[0]
+
+
+# %% exercise 3: the left half only
+def halved_bound(coefficients):
+    row = np.asarray(coefficients, dtype=float)
+    least = row[0]
+    while len(row) > 1:
+        row = (row[:-1] + row[1:]) / 2
+        least = min(least, row[0])
+    return least
+
+
+# %% exercise 3: one row of means
+def halved_bound(coefficients):
+    row = np.asarray(coefficients, dtype=float)
+    return ((row[:-1] + row[1:]) / 2).min()

@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+import contextlib
+import os
+import signal
+import threading
 from typing import Any
 
 import ipywidgets
@@ -45,6 +49,46 @@ def test_silent_failures_are_not_right(capsys: pytest.CaptureFixture[str]) -> No
         with check("exercise 3"):
             raise failure
     assert capsys.readouterr().out.count("exercise 3: not yet: ") == 2
+
+
+def test_a_check_ends_when_its_time_is_over(capsys: pytest.CaptureFixture[str]) -> None:
+    with check("exercise 1", seconds=0.1):
+        while True:
+            with contextlib.suppress(Exception):  # the limit is none of the reader's errors
+                pass
+    expected = "exercise 1: not yet: your code takes longer than 0.1 seconds\n"
+    assert capsys.readouterr().out == expected
+
+
+@pytest.mark.skipif(os.name != "posix", reason="elsewhere only running Python code is interrupted")
+def test_a_check_ends_while_the_readers_code_waits(capsys: pytest.CaptureFixture[str]) -> None:
+    with check("exercise 1", seconds=0.1):
+        threading.Event().wait(60)
+    assert "takes longer than 0.1 seconds" in capsys.readouterr().out
+
+
+def test_the_handler_of_interrupts_is_the_same_after_a_check() -> None:
+    before = signal.getsignal(signal.SIGINT)
+    with check("exercise 1", seconds=60):
+        assert signal.getsignal(signal.SIGINT) is not before
+    assert signal.getsignal(signal.SIGINT) is before
+
+
+def test_outside_the_main_thread_a_check_has_no_limit(capsys: pytest.CaptureFixture[str]) -> None:
+    def run() -> None:
+        with check("exercise 1", seconds=0):
+            assert True
+
+    thread = threading.Thread(target=run)
+    thread.start()
+    thread.join()
+    assert capsys.readouterr().out == "exercise 1: right\n"
+
+
+def test_a_failed_check_raises_for_nbgrader(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("NBGRADER_EXECUTION", "autograde")
+    with pytest.raises(AssertionError, match="the map folds"), check("exercise 1"):
+        raise AssertionError("the map folds")
 
 
 def test_an_interrupt_passes() -> None:

@@ -91,6 +91,8 @@ def work(tmp_path_factory: pytest.TempPathFactory) -> Path:
     Image.fromarray(light).convert("RGB").save(folder / "photograph.jpg")
     strokes = {"foreground": [[[300, 300], [400, 400]]], "background": [[[20, 20], [20, 680]]]}
     (folder / "strokes.json").write_text(json.dumps(strokes))
+    (folder / "handed-in" / "ada").mkdir(parents=True)
+    shutil.copy(REPOSITORY / "notebooks" / "07_newton.ipynb", folder / "handed-in" / "ada")
     return folder
 
 
@@ -139,7 +141,7 @@ def runs(command: Command, folder: Path) -> None:
     text, *filters = command.text.split(" | ")
     printed = in_shell(text, folder)
     words = shlex.split(text, comments=True)
-    for flag in ("--out", "--report", "--proof", "--figure"):
+    for flag in ("--out", "--report", "--proof", "--figure", "--csv"):
         if flag in words:
             is_written(words[words.index(flag) + 1], printed, folder)
     for one in filters:
@@ -215,7 +217,7 @@ KINDS: dict[str, tuple[Callable[[Command, Path], None], str]] = {
     r"(voila|jupyter lab|jupyter notebook) \S+|glid-nb lab": (is_served, "clone"),
     r"python docs/\S+\.py": (runs, "clone"),
     r"glid-nb (samples|doctor|demo)( .*)?": (runs, "folder"),
-    r"glid-nb (trace|solve|render|animate|page|audit) .*": (runs, "folder"),
+    r"glid-nb (trace|solve|render|animate|page|audit|grade) .*": (runs, "folder"),
     r"glid-nb (trace|solve|render|animate|page|audit)": (names_a_command, "folder"),
     r"(glid-check|python -c).*": (runs, "folder"),
 }

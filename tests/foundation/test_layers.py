@@ -25,7 +25,9 @@ LAYERS = (
     ("samples", "export"),
     ("session",),
     ("widgets", "io"),
-    ("cli", "course"),
+    ("course",),
+    ("grading",),
+    ("cli",),
     ("__main__",),
 )
 HEIGHT = {name: height for height, row in enumerate(LAYERS) for name in row}

@@ -1,0 +1,264 @@
+"""`glid-nb grade`: hand-ins of a small chapter, among them such that cheat or do harm."""
+
+from __future__ import annotations
+
+import csv
+import json
+import textwrap
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from glid_nb._errors import InputError
+from glid_nb.cli import main
+from glid_nb.grading.grade import Grade, chapters_in, grade, hand_ins
+from glid_nb.grading.tables import canvas, moodle, table
+
+pytestmark = pytest.mark.slow  # two processes for each hand-in
+
+NAME = "07_small"
+LIMIT = 5.0  # seconds; what hangs, hangs for so long
+DOUBLE, COUNT = "def double(x):\n    return ...", "def steps(down):\n    return ..."
+CHAPTER = (
+    ("setup", "import numpy as np\nfrom glid_nb.course import check\n\nlength = 3", ()),
+    ("double", DOUBLE, ("exercise",)),
+    (
+        "check-1",
+        """
+        with check("exercise 1"):
+            for value in (1.0, np.arange(length), 2j):
+                answer = double(value)
+                assert answer is not ..., "double returns nothing yet"
+                assert np.all(answer == 2 * value), "it is not twice as much"
+        """,
+        ("check",),
+    ),
+    ("base", "def base():\n    return 10", ("answer",)),
+    ("between", "ten = base()", ()),
+    ("steps", COUNT, ("exercise",)),
+    (
+        "check-2",
+        """
+        with check("exercise 2"):
+            asked = []
+            down = lambda t: (asked.append(t), t < ten)[1]
+            assert steps(down) == ten, "down(t) is true for t = 0 to ten - 1"
+            assert len(asked) == ten + 1, "ask once for each t"
+        """,
+        ("check",),
+    ),
+)
+RIGHT = {
+    "double": "def double(x):\n    return x + x",
+    "steps": "def steps(down):\n    t = 0\n    while down(t):\n        t += 1\n    return t",
+}
+
+
+def notebook(changes: dict[str, str | None] | None = None, **cells: str) -> dict[str, Any]:
+    """The chapter with other sources of cells; None leaves a cell out."""
+    changed = {**(changes or {}), **cells}
+    written = []
+    for name, source, tags in CHAPTER:
+        own = changed.get(name, textwrap.dedent(source).strip())
+        if own is not None:
+            metadata = {"tags": list(tags)}
+            cell = {"cell_type": "code", "id": name, "source": own, "metadata": metadata}
+            written.append({**cell, "outputs": [], "execution_count": None})
+    return {"cells": written, "metadata": {}, "nbformat": 4, "nbformat_minor": 5}
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    (tmp_path / "course").mkdir()
+    (tmp_path / "handed-in").mkdir()
+    chapter = tmp_path / "course" / f"{NAME}.ipynb"
+    chapter.write_text(json.dumps(notebook()), encoding="utf-8")
+    return tmp_path
+
+
+def hand_in(folder: Path, student: str, book: dict[str, Any]) -> Path:
+    own = folder / "handed-in" / student
+    own.mkdir()
+    path = own / f"{NAME}.ipynb"
+    path.write_text(json.dumps(book), encoding="utf-8")
+    return path
+
+
+def graded(folder: Path) -> list[Grade]:
+    chapters, handed_in = chapters_in(folder / "course"), folder / "handed-in"
+    found = hand_ins(handed_in, chapters)
+    return [one for each in found for one in grade(each, limit=LIMIT, folder=handed_in)]
+
+
+def verdicts(grades: Sequence[Grade]) -> list[str]:
+    return [one.verdict for one in grades]
+
+
+@pytest.mark.parametrize(
+    "book",
+    [
+        notebook(),
+        notebook(double="# TODO\n" + DOUBLE, steps=COUNT + "  # how?"),
+        notebook(double="", steps="# nothing"),
+        notebook({"double": None, "steps": None}),
+        notebook({"check-1": "print('exercise 1: right')", "check-2": ""}),
+    ],
+    ids=["untouched", "comments", "cleared", "deleted", "checks edited"],
+)
+def test_what_nobody_filled_in_is_untouched(folder: Path, book: dict[str, Any]) -> None:
+    hand_in(folder, "ada", book)
+    assert verdicts(graded(folder)) == ["untouched", "untouched"]
+
+
+def test_right_answers_are_right_and_may_use_cells_of_their_own(folder: Path) -> None:
+    more = {"base": "def base():\n    return 4 + 8"}  # which the check uses
+    book = notebook(RIGHT | more, double="%time 1\ndef double(x):\n    return twice(x)")
+    helper = {"cell_type": "code", "id": "mine", "metadata": {}, "outputs": []}
+    book["cells"].insert(1, {**helper, "source": "from own import factor"})
+    book["cells"].insert(3, {**helper, "id": "too", "source": "def twice(x):\n  return factor * x"})
+    path = hand_in(folder, "ada", book)
+    (path.parent / "own.py").write_text("factor = 2", encoding="utf-8")
+    assert verdicts(graded(folder)) == ["right", "right"]
+
+
+def test_half_done_wrong_and_crashing_answers(folder: Path) -> None:
+    hand_in(folder, "half", notebook(double=RIGHT["double"]))
+    wrong = {"double": "def double(x):\n    return x", "steps": "def steps(d:"}
+    hand_in(folder, "wrong", notebook(wrong, base="def base():\n    return 1 / 0"))
+    grades = graded(folder)
+    assert verdicts(grades) == ["right", "untouched", "wrong", "crashed"]
+    assert grades[2].text == "it is not twice as much"
+    went_on = "the chapter went on with its own cells, because of ZeroDivisionError"
+    assert grades[3].text.startswith(went_on)
+    assert "; SyntaxError: " in grades[3].text
+
+
+def test_one_answer_that_never_returns_costs_its_own_time_only(folder: Path) -> None:
+    endless = "def double(x):\n    while True:\n        pass"
+    hand_in(folder, "ada", notebook(RIGHT, double=endless))
+    first, second = graded(folder)
+    assert (first.verdict, first.text) == ("too slow", "the answer takes longer than 5 seconds")
+    assert second.verdict == "right"
+
+
+def test_a_hand_in_that_deletes_files_harms_only_its_own_copy(folder: Path) -> None:
+    harm = "import os\nfor name in os.listdir('.'):\n    os.remove(name)\nos._exit(0)"
+    path = hand_in(folder, "ada", notebook(RIGHT, double=harm))
+    (path.parent / "mine.png").write_bytes(b"a picture")
+    hand_in(folder, "bob", notebook(RIGHT))
+    assert verdicts(graded(folder)) == ["crashed", "right", "right", "right"]
+    assert (path.parent / "mine.png").exists()
+    assert path.exists()
+
+
+# For the first and the second exercise.
+FORGERIES = {
+    "prints, and asks for what is not public": (
+        "print('exercise 1: right')\ndef double(x):\n    print('exercise 1: right')",
+        "def steps(down):\n    return down.__globals__['ten']",
+    ),
+    "writes to all that is open, and edits the check": (
+        """
+        import json, os
+        line = json.dumps({"exercise": 1, "verdict": "right", "text": ""})
+        for number in range(64):
+            try:
+                os.write(number, (line + "\\n").encode())
+            except OSError:
+                pass
+        def double(x):
+            return x
+        """,
+        """
+        import glid_nb.course, contextlib, numpy as np
+        @contextlib.contextmanager
+        def check(name, seconds=1):
+            yield
+        glid_nb.course.check = check
+        glid_nb.course.report = lambda *_: None
+        np.all = lambda *_: True
+        def steps(down):
+            return 11
+        """,
+    ),
+    "is equal to everything, and ends with success": (
+        """
+        class Equal:
+            __array_priority__ = 100
+            def __eq__(self, other):
+                return True
+        def double(x):
+            return Equal()
+        """,
+        "import sys\nsys.exit(0)",
+    ),
+    "sends code": (
+        """
+        import glid_nb.grading.student as student
+        student.encoded = lambda *_: {"is": "pickle", "bytes": "Y29zCnN5c3RlbQou"}
+        def double(x):
+            return x
+        """,
+        "def steps(down):\n    return 10",
+    ),
+}
+
+
+@pytest.mark.parametrize("name", FORGERIES)
+def test_a_verdict_cannot_be_forged_from_the_notebook(folder: Path, name: str) -> None:
+    double, steps = (textwrap.dedent(code).strip() for code in FORGERIES[name])
+    hand_in(folder, "eve", notebook(double=double, steps=steps))
+    assert set(verdicts(graded(folder))) <= {"wrong", "crashed"}
+
+
+def test_the_command_prints_a_table_and_writes_csv(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    hand_in(folder, "=ada", notebook(double=RIGHT["double"]))
+    to = {name: folder / f"{name}.csv" for name in ("csv", "moodle", "canvas")}
+    words = [word for name, path in to.items() for word in (f"--{name}", str(path))]
+    handed_in = str(folder / "handed-in")
+    assert main(["grade", handed_in, "--chapters", str(folder / "course"), *words]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert [line.split()[:4] for line in lines] == [
+        ["student", "exercise", "verdict"],
+        ["=ada", NAME, "1", "right"],
+        ["=ada", NAME, "2", "untouched"],
+    ]
+    rows = {name: list(csv.DictReader(path.read_text().splitlines())) for name, path in to.items()}
+    assert [row["verdict"] for row in rows["csv"]] == ["right", "untouched"]
+    assert rows["moodle"][0] | {"Feedback": ""} == {"Username": "'=ada", NAME: "1", "Feedback": ""}
+    assert [row[NAME] for row in rows["canvas"]] == ["2", "1"]
+    assert rows["canvas"][1]["SIS Login ID"] == "'=ada"  # no formula
+
+
+def test_students_are_named_by_folders_or_by_files(folder: Path) -> None:
+    for path in (f"ada/{NAME}.ipynb", f"bob/assignment/{NAME}.ipynb", f"cy_{NAME}.ipynb"):
+        to = folder / "handed-in" / path
+        to.parent.mkdir(parents=True, exist_ok=True)
+        to.write_text(json.dumps(notebook()), encoding="utf-8")
+    moodles = folder / "handed-in" / "Dee Doe_123_assignsubmission_file_"
+    moodles.mkdir()
+    (moodles / f"{NAME}(1).ipynb").write_text(json.dumps(notebook()), encoding="utf-8")
+    found = hand_ins(folder / "handed-in", chapters_in(folder / "course"))
+    assert sorted(one.student for one in found) == ["Dee Doe", "ada", "bob", "cy"]
+
+
+def test_a_notebook_of_no_chapter_is_named(folder: Path) -> None:
+    (folder / "handed-in" / "poem.ipynb").write_text("{}", encoding="utf-8")
+    with pytest.raises(InputError, match=r"poem\.ipynb: its name contains no chapter such as 07_s"):
+        hand_ins(folder / "handed-in", chapters_in(folder / "course"))
+
+
+def test_a_file_that_is_no_notebook_is_graded_too(folder: Path) -> None:
+    (folder / "handed-in" / f"ada_{NAME}.ipynb").write_text("not JSON", encoding="utf-8")
+    assert verdicts(graded(folder)) == ["crashed", "crashed"]
+
+
+def test_tables_print_no_control_characters() -> None:
+    grades = [Grade("a\x1b[2Jda", NAME, 1, "wrong", "x\ny")]
+    assert "\x1b" not in table(grades)
+    assert moodle(grades).splitlines()[0] == f"Username,{NAME},Feedback"
+    assert canvas(grades, {NAME: 2}).splitlines()[1].startswith("    Points Possible,")
