@@ -259,11 +259,12 @@ return make("div",{className:"glid-legend-part",title:about},make("div",{classNa
 e"},moves&&moving||title),make("div",{className:"glid-legend-bar",style:gradient}),make("div",{className:"\
 glid-legend-ticks"},...labels))}var FIRST="Click the shape to pin a point, then drag the pin · ? shows all keys";var PAINT="Paint a\
 reas that should stay stiff · E erases · Esc when done";var Notices=class{notice=make("div",{className:"\
-glid-notice",role:"status"});prepared=make("div",{className:"glid-prepared",role:"status"});tell(refusal,painting,first){
-const advice=painting?PAINT:first&&FIRST;const{notice}=this;notice.textContent=refusal||advice||"";notice.
-hidden=!notice.textContent;notice.classList.toggle("glid-first",!refusal)}prepare(share){const{prepared}=this;
-prepared.hidden=share>=1;prepared.textContent=`Warming up: ${Math.round(100*share)} %`;prepared.style.
-backgroundSize=`${100*share}% 100%, auto`}};var REACH={mouse:13,pen:16,touch:26};var KEYS=/^(Arrow\w+|Page\w+|Delete|Backspace|Escape|Enter|[0fa,.[\]<>+=xmbe-])$/i;
+glid-notice",role:"status"});prepared=make("div",{className:"glid-prepared",role:"progressbar","aria\
+-label":"Preparing the solver",hidden:true});tell(refusal,painting,first){const advice=painting?PAINT:
+first&&FIRST;const{notice}=this;notice.textContent=refusal||advice||"";notice.hidden=!notice.textContent;
+notice.classList.toggle("glid-first",!refusal)}prepare(share){const{prepared}=this;prepared.hidden=share>=
+1;prepared.setAttribute("aria-valuenow",String(Math.round(100*share)));prepared.style.setProperty("-\
+-glid-share",String(share))}};var REACH={mouse:13,pen:16,touch:26};var KEYS=/^(Arrow\w+|Page\w+|Delete|Backspace|Escape|Enter|[0fa,.[\]<>+=xmbe-])$/i;
 var TARGET_TIP="where it should be. Drag it; Alt turns it; a right click shows more; Shift-click sel\
 ects several";var IMAGE_TIP="where the shape is now. The cyan disk is where it should be";var COVERED="\
 . Another part of the shape covers it";var RING_TIPS={turn:"Drag around the pin to turn the shape th\
