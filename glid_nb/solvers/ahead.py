@@ -15,7 +15,6 @@ from typing import Any
 
 import numpy as np
 
-import glid_nb
 from glid_nb._jax import jax
 from glid_nb._runtime import double_precision, jax_option
 from glid_nb.pose import Stiffness
@@ -69,7 +68,7 @@ def _type(leaf: Any) -> Any:
 
 def start(missing: Sequence[Arguments]) -> subprocess.Popen[bytes] | None:
     """Start a process that compiles programs. None if this system starts no processes."""
-    root = str(Path(glid_nb.__file__).resolve().parents[1])
+    root = str(Path(__file__).resolve().parents[2])  # of the package
     silent = subprocess.DEVNULL
     lowest = getattr(subprocess, "IDLE_PRIORITY_CLASS", 0)  # of Windows
     # Only programs for the CPU are kept, so the process must not take a GPU.
