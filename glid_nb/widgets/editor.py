@@ -48,8 +48,7 @@ _SIDE_WIDTH, _PLOTS_HEIGHT = 460, 382  # CSS pixels
 _EMPTY = "<p style='padding:2em'>Open a picture in the Trace tab; the shape appears here.</p>"
 
 _LEFT = (
-    "{left} was changed by another editor or program and stays as it is; this session is saved to "
-    "{path} from now on."
+    "{left} was changed elsewhere and stays as it is; this session is saved to {path} from now on."
 )
 _NOT_SAVED = (
     "The session could not be saved: {error}. The next change tries again; "

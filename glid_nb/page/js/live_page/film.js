@@ -3,6 +3,7 @@
 import { glideTo, playedFrom } from "../exported/course.js";
 import { Poses } from "../exported/poses.js";
 import { Motion } from "../motion/motion.js";
+import { proofStrip } from "../motion/strip.js";
 import { make } from "../pad/dom.js";
 import { iconButton } from "../pad/icons.js";
 import { poseOf } from "./pins.js";
@@ -16,7 +17,6 @@ import { wayBetween } from "./way.js";
 /** @import { Repeat } from "../motion/motion.js" */
 
 const SECONDS = 1; // from one kept pose to the next
-const STRIPES = 100; // of the strip below the slider
 const STEP = 1 / 25; // s, of the arrow keys on the slider
 
 /**
@@ -268,20 +268,17 @@ export class Film {
     this.#time = Math.min(Math.max(this.#time, this.#motion.start), this.#motion.end);
     this.#slider.min = String(this.#motion.start);
     this.#slider.max = String(this.#motion.end);
-    this.#strip.style.background = this.#stripes(this.#motion);
+    this.#strip.style.background = this.#proved(this.#motion);
     this.#showTime();
     this.#showPlaying();
   }
 
   /** @param {Motion<Float64Array>} motion */
-  #stripes(motion) {
-    const colors = Array.from({ length: STRIPES }, (_, i) => {
-      const time = motion.start + ((i + 0.5) / STRIPES) * (motion.end - motion.start);
+  #proved(motion) {
+    return proofStrip(motion, "var(--accent)", (time) => {
       const { piece } = motion.place(time);
-      const bound = Math.min(this.#knots[piece].sigma2, this.#knots[piece + 1].sigma2);
-      return `${this.screen.color(bound)} ${i}% ${i + 1}%`;
+      return Math.min(this.#knots[piece].sigma2, this.#knots[piece + 1].sigma2);
     });
-    return `linear-gradient(to right, ${colors})`;
   }
 
   /** @param {number} time */
