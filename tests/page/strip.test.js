@@ -15,9 +15,10 @@ function colorIn(name, variable) {
 }
 
 test("what is proved has one colour, and the height of its bound", () => {
-  const layers = proofStrip(motion, "blue", (time) => (time < 1 ? 0.25 : null)).split(", linear");
+  const layers = proofStrip(motion, (time) => (time < 1 ? 0.25 : -1)).split(",linear");
   assert.equal(layers.length, 100);
-  for (const layer of layers.slice(0, 50)) assert.match(layer, /\(blue, blue\).* 25% no-repeat/);
+  for (const layer of layers.slice(0, 50))
+    assert.match(layer, /\(var\(--accent\) 0 0\).* 25% no-repeat/);
   for (const layer of layers.slice(50)) assert.match(layer, /#7f7f7f.* 100% no-repeat/);
 });
 

@@ -7,11 +7,10 @@ last?2*last-within:within;const next=times.findIndex((knot,i)=>i>0&&there<knot);
 length-1:next;const low=high-1;return{piece:low,share:(there-times[low])/(times[high]-times[low])}}at(time){
 const{piece,share}=this.place(time);const{floats,mixed}=this;const low=piece*mixed.length;const high=low+
 mixed.length;for(let i=0;i<mixed.length;i++){mixed[i]=(1-share)*floats[low+i]+share*floats[high+i]}return mixed}};var STRIPES=100;var LEAST_HEIGHT=.06;var UNPROVED="#7f7f7f";function heightOf(bound){return Math.min(
-Math.max(bound,LEAST_HEIGHT),1)}function proofStrip(motion,color,boundAt){const wide=100/STRIPES;const layers=Array.
-from({length:STRIPES},(_,i)=>{const bound=boundAt(motion.start+(i+.5)/STRIPES*(motion.end-motion.start));
-const[fill,height]=bound===null?[UNPROVED,1]:[color,heightOf(bound)];const left=100*i/(STRIPES-1);return`\
-linear-gradient(${fill}, ${fill}) ${left}% 100% / ${wide}% ${100*height}% no-repeat`});return layers.
-join(", ")}function make(tag,properties={},...children){const element=document.createElement(tag);if(element instanceof
+Math.max(bound,LEAST_HEIGHT),1)}function proofStrip(motion,boundAt){const layers=Array.from({length:STRIPES},
+(_,i)=>{const bound=boundAt(motion.start+(i+.5)/STRIPES*(motion.end-motion.start));const[fill,height]=bound<
+0?[UNPROVED,1]:["var(--accent)",heightOf(bound)];const left=100*i/(STRIPES-1);return`linear-gradient\
+(${fill} 0 0) ${left}% 100%/1% ${100*height}% no-repeat`});return layers.join()}function make(tag,properties={},...children){const element=document.createElement(tag);if(element instanceof
 HTMLButtonElement)element.type="button";for(const[name,value]of Object.entries(properties)){if(name.
 startsWith("on"))element.addEventListener(name.slice(2),value);else if(name in element&&name!=="list")
 Reflect.set(element,name,value);else element.setAttribute(name,value)}element.append(...children);return element}
@@ -146,8 +145,8 @@ legend.hidden=!range;if(!range)return;const end=value===LOWER?down(range[1]):up(
 `${LABELS[value]} ${range[0]}`,make("i"),end)}#prepareMotion(){const{motion,slider}=this;const section=document.
 querySelector("section");if(section)section.hidden=false;slider.min=String(motion.start);slider.max=
 String(motion.end);byId("poses",HTMLDivElement).append(...this.poses.buttons);const{sigma2,until}=this.
-data.motion;const boundAt=time=>time<until?sigma2[motion.place(time).piece]??0:null;const background=proofStrip(
-motion,"var(--accent)",boundAt);byId("strip",HTMLDivElement).style.background=background;this.play.addEventListener(
+data.motion;const boundAt=time=>time<until?sigma2[motion.place(time).piece]??0:-1;const background=proofStrip(
+motion,boundAt);byId("strip",HTMLDivElement).style.background=background;this.play.addEventListener(
 "click",()=>this.#playOrPause());slider.addEventListener("input",()=>this.#goTo(Number(slider.value)));
 document.addEventListener("keydown",e=>this.#keydown(e));this.#seek(motion.start);this.#run(null);const still=matchMedia(
 "(prefers-reduced-motion: reduce)").matches;if(this.data.loop&&!still)this.#playOrPause()}#keydown(e){

@@ -186,8 +186,8 @@ class Page {
     byId("poses", HTMLDivElement).append(...this.poses.buttons);
     const { sigma2, until } = this.data.motion;
     const boundAt = (/** @type {number} */ time) =>
-      time < until ? (sigma2[motion.place(time).piece] ?? 0) : null;
-    const background = proofStrip(motion, "var(--accent)", boundAt);
+      time < until ? (sigma2[motion.place(time).piece] ?? 0) : -1;
+    const background = proofStrip(motion, boundAt);
     byId("strip", HTMLDivElement).style.background = background;
     this.play.addEventListener("click", () => this.#playOrPause());
     slider.addEventListener("input", () => this.#goTo(Number(slider.value)));

@@ -3,7 +3,6 @@
 import { glideTo, playedFrom } from "../exported/course.js";
 import { Poses } from "../exported/poses.js";
 import { Motion } from "../motion/motion.js";
-import { proofStrip } from "../motion/strip.js";
 import { make } from "../pad/dom.js";
 import { iconButton } from "../pad/icons.js";
 import { poseOf } from "./pins.js";
@@ -17,6 +16,7 @@ import { wayBetween } from "./way.js";
 /** @import { Repeat } from "../motion/motion.js" */
 
 const SECONDS = 1; // from one kept pose to the next
+const STRIPES = 100; // of the strip below the slider
 const STEP = 1 / 25; // s, of the arrow keys on the slider
 
 /**
@@ -36,7 +36,6 @@ const STEP = 1 / 25; // s, of the arrow keys on the slider
  * @property {() => void} redraw
  * @property {(kept: Kept) => void} take goes on with a kept pose
  * @property {(text: string) => void} say
- * @property {(bound: number) => string} color of a bound on sigma_2
  */
 
 export class Film {
@@ -268,17 +267,20 @@ export class Film {
     this.#time = Math.min(Math.max(this.#time, this.#motion.start), this.#motion.end);
     this.#slider.min = String(this.#motion.start);
     this.#slider.max = String(this.#motion.end);
-    this.#strip.style.background = this.#proved(this.#motion);
+    this.#strip.style.background = this.#stripes(this.#motion);
     this.#showTime();
     this.#showPlaying();
   }
 
   /** @param {Motion<Float64Array>} motion */
-  #proved(motion) {
-    return proofStrip(motion, "var(--accent)", (time) => {
+  #stripes(motion) {
+    const colors = Array.from({ length: STRIPES }, (_, i) => {
+      const time = motion.start + ((i + 0.5) / STRIPES) * (motion.end - motion.start);
       const { piece } = motion.place(time);
-      return Math.min(this.#knots[piece].sigma2, this.#knots[piece + 1].sigma2);
+      const bound = Math.min(this.#knots[piece].sigma2, this.#knots[piece + 1].sigma2);
+      return `rgb(0 114 178/${bound}) ${i}% ${i + 1}%`; // the larger the bound, the fuller
     });
+    return `linear-gradient(to right, ${colors})`;
   }
 
   /** @param {number} time */
