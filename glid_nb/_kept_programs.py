@@ -26,6 +26,10 @@ class KeptPrograms:
     def __init__(self, folder: Path) -> None:
         self._folder = folder
 
+    def has(self, alias: str) -> bool:
+        """Whether a program was saved under ``alias``. It is not read."""
+        return bool(self._read(alias))
+
     def by_alias(self, alias: str) -> Any | None:
         """The program that was last saved under ``alias``; None if there is none."""
         try:

@@ -18,6 +18,7 @@ from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
+from glid_nb._cache_folder import is_refused
 from glid_nb._features import compiler_options, processor
 from glid_nb._jax import jax
 from glid_nb._kept_programs import KeptPrograms
@@ -45,26 +46,44 @@ class Program:
         self._locks: defaultdict[Any, threading.Lock] = defaultdict(threading.Lock)
 
     def __call__(self, *arguments: Any) -> Any:
-        leaves, tree = jax.tree.flatten(arguments)
-        key = (default_device(), tree, *map(jax.typeof, leaves))
+        return self._ready_for(arguments)(*arguments)
+
+    def make(self, *arguments: Any) -> None:
+        """Read or compile the program for the types of these arguments, without a call."""
+        self._ready_for(arguments)
+
+    def is_missing(self, *arguments: Any) -> bool:
+        """Whether a call would compile a program that another process could leave in a file."""
+        key = _key(arguments)
+        folder = self._folder(key, arguments)
+        if folder is None or key in self._ready or is_refused(folder):
+            return False
+        return not KeptPrograms(folder).has(_alias(key))
+
+    def _ready_for(self, arguments: Any) -> Any:
+        key = _key(arguments)
         if (ready := self._ready.get(key)) is None:
             with self._locks[key]:  # a second thread waits for the first one to compile
                 if (ready := self._ready.get(key)) is None:
                     ready = self._ready[key] = self._loaded_or_made(key, arguments)
         if key in self._last_use:
             self._last_use[key] = time.monotonic()
-        return ready(*arguments)
+        return ready
+
+    def _folder(self, key: Any, arguments: Any) -> Path | None:
+        """The folder where the program is kept; None if it is not kept."""
+        folder = jax_option("jax_compilation_cache_dir")
+        kept = folder is not None and can_keep_for(key[0]) and self.may_keep(*arguments)
+        return Path(folder) if kept else None
 
     def _loaded_or_made(self, key: Any, arguments: Any) -> Any:
-        folder = jax_option("jax_compilation_cache_dir")
-        if folder is None or not can_keep_for(key[0]) or not self.may_keep(*arguments):
+        if (folder := self._folder(key, arguments)) is None:
             lowered = self._lowered(arguments, "")
             stage("compile")
             return lowered.compile()
         self._make_room()
         self._last_use[key] = time.monotonic()
-        programs = KeptPrograms(Path(folder))
-        alias = f"glid_nb_arguments_{_digest(repr((package_files(), key)))}"
+        programs, alias = KeptPrograms(folder), _alias(key)
         if (known := programs.by_alias(alias)) is not None:
             return known
         # A unique name keeps the program out of JAX's own cache. A program from that cache would
@@ -98,6 +117,16 @@ class Program:
         traced = jitted.trace(*arguments)
         stage("lower")
         return traced.lower()
+
+
+def _key(arguments: Any) -> tuple[Any, ...]:
+    """The device and the types of the arguments, which determine the program."""
+    leaves, tree = jax.tree.flatten(arguments)
+    return default_device(), tree, *map(jax.typeof, leaves)
+
+
+def _alias(key: tuple[Any, ...]) -> str:
+    return f"glid_nb_arguments_{_digest(repr((package_files(), key)))}"
 
 
 def can_keep_for(device: Any) -> bool:

@@ -42,6 +42,16 @@ def image(name: str) -> NDArray[np.uint8]:
         return np.array(picture.convert("RGBA"))
 
 
+def name_of(pixels: NDArray[np.uint8]) -> str | None:
+    """The name of the sample with exactly these pixels (h, w, 4); None if there is none."""
+    for name in _NAMES:
+        with Image.open(path(name)) as picture:
+            same_size = picture.size == pixels.shape[1::-1]
+        if same_size and np.array_equal(image(name), pixels):
+            return name
+    return None
+
+
 def pose_path(name: str, kind: PoseKind) -> Path:
     """The JSON file of a sample's pose, "gentle" or "extreme".
 

@@ -28,6 +28,7 @@ from glid_nb.session.model import History, Undoable
 from glid_nb.session.status_line import StatusLine, describe
 from glid_nb.session.worker import LatestWins, weakly
 from glid_nb.solvers import Options
+from glid_nb.solvers.method import Inputs
 
 P = ParamSpec("P")
 
@@ -46,10 +47,11 @@ class Deformation(Undoable[EditState], AbstractContextManager["Deformation"]):
     """A domain being deformed: its state, its undo history, and a thread that solves.
 
     Every method may be called from any thread. ``observe`` reports changes by name: ``"state"``
-    (handles, targets, poses, options, undo), ``"frame"`` (a new map), ``"selection"``, ``"status"``
-    and ``"hand"`` (a gesture on a canvas ended). The default pose has no handles. The default
-    options are :data:`~glid_nb.session.edit_state.LIVE_OPTIONS`. With ``begin`` it solves from the
-    start. Otherwise it solves after :meth:`begin` or the first change.
+    (handles, targets, poses, options, undo), ``"frame"`` (a new map), ``"selection"``,
+    ``"status"``, ``"press"`` (a drag begins) and ``"hand"`` (a gesture on a canvas ended). The
+    default pose has no handles. The default options are
+    :data:`~glid_nb.session.edit_state.LIVE_OPTIONS`. With ``begin`` it solves from the start.
+    Otherwise it solves after :meth:`begin` or the first change.
 
     >>> from glid_nb.geometry import Cage, Domain
     >>> square = Domain.from_cage(Cage([[-1, -1], [1, -1], [1, 1], [-1, 1]]))
@@ -81,7 +83,7 @@ class Deformation(Undoable[EditState], AbstractContextManager["Deformation"]):
         self._frame: Frame | None = None
         self._error: Exception | None = None
         self._prepared = 1.0
-        solver = LiveSolver(self._accept, self._fail, self._prepare)
+        self._solver = solver = LiveSolver(self._accept, self._fail, self._prepare)
         self._worker = LatestWins(solver.solve, self, "live solver", waits=False)
         others = weakly(self._solve_others)
         self._others: LatestWins[None] = LatestWins(others, self, "other poses", waits=False)
@@ -263,6 +265,7 @@ class Deformation(Undoable[EditState], AbstractContextManager["Deformation"]):
             actions.nudge(self.state, indices, (0, 0))  # raises for missing handles
             self.dragged = tuple(int(i) for i in indices)
             self._others.cancel()  # the drag needs the processor
+            self.tell("press")
 
     def drag_to(self, targets: ArrayLike) -> None:
         """Move the targets of the dragged handles to (h, 2)."""
@@ -412,6 +415,10 @@ class Deformation(Undoable[EditState], AbstractContextManager["Deformation"]):
         """Whether no solve is running or waiting."""
         with self.locked():
             return self._at_rest() and self._next_other() is None
+
+    def next_inputs(self) -> Inputs:
+        """The problem of the edited pose, with the start that the next solve would have."""
+        return self._solver.inputs(self.state.current)
 
     def stop(self) -> None:
         """Stop solving. The maps stay as they are."""

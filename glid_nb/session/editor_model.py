@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
+from glid_nb import samples
 from glid_nb._arrays import Array
 from glid_nb._files import portable_name
 from glid_nb.geometry import Domain
@@ -174,8 +175,11 @@ class EditorModel(Observed):
 
     @property
     def name(self) -> str:
-        """The stem for names of files: that of the picture's file, or "session" without one."""
-        return portable_name(self._session.tracing.name if self._session else "") or "session"
+        """The stem for names of files: that of the picture's file or sample, else "session"."""
+        if self._session is None:
+            return "session"
+        known = portable_name(self._session.tracing.name)
+        return known or samples.name_of(self._session.image) or "session"
 
     def apply_tracing(self) -> str:
         """Deform the present tracing. This is a step for undo; another picture starts a new

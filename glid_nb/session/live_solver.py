@@ -17,6 +17,7 @@ from glid_nb.session.edit_state import Frame, Task
 from glid_nb.session.worker import LatestWins, weakly
 from glid_nb.solvers import Iteration, Newton, Progress, Result
 from glid_nb.solvers.discretisation import discretise
+from glid_nb.solvers.method import Inputs
 from glid_nb.solvers.problem import moved
 
 FRAME_INTERVAL = 1 / 40
@@ -55,6 +56,19 @@ class LiveSolver:
         self._before: tuple[Iteration, ...] = ()
         self._starts: tuple[int, ...] = ()
         self._published = -np.inf
+
+    def inputs(self, edited: NamedPose) -> Inputs:
+        """The problem of this pose, with the start that the next solve would have."""
+        last = self._last
+        if last is not None and getattr(last.map, "domain", None) is not edited.map.domain:
+            last = None
+        return Inputs(
+            domain=edited.map.domain,
+            pose=edited.pose,
+            energy=edited.energy,
+            options=edited.options,
+            start=_starting_point(edited, last),
+        )
 
     def solve(self, task: Task | None, worker: LatestWins[Task | None]) -> None:
         """Run the task's method and publish its frames. A newer task ends it between two calls."""

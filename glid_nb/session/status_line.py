@@ -33,7 +33,7 @@ def describe(moment: Moment) -> StatusLine:
         return StatusLine("error", f"The solver failed: {text} The last certified map is shown.")
     if moment.busy and moment.paused:
         return StatusLine("idle", f"Paused{_bound(frame)}")
-    if moment.busy and frame is None:
+    if moment.busy and (frame is None or moment.prepared < 1):
         done = "" if moment.prepared == 1 else f" {moment.prepared:.0%}"
         return StatusLine("working", f"Preparing the solver…{done}")
     if moment.busy and frame is not None:

@@ -97,6 +97,14 @@ class LatestWins(Generic[T]):
         with self._changed:
             return self.cancelled or self._pending is not None
 
+    def overtaken_within(self, seconds: float) -> bool:
+        """Wait until the running task should end, at most ``seconds``. Returns whether it
+        should."""
+        with self._changed:
+            return self._changed.wait_for(
+                lambda: self.cancelled or self._pending is not None, seconds
+            )
+
     def close(self) -> None:
         """End the thread. Later tasks are ignored."""
         if self._finalizer.detach():

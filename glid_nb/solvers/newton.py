@@ -155,14 +155,17 @@ class NewtonDescent(SubspaceDescent):
     def advance(self, may_split: bool) -> Advance:
         """One compiled call. Without iterations left, it still evaluates the energies."""
         watch = Stopwatch()
-        if self.factor is None:
-            self.factor = np.zeros(self.problem.p2p_hessian.shape)
-            self.treatment = replace(self.treatment, reuse=False)
-        settings = self.settings(may_split)
-        state = step.run(self.problem, self.coefficients, self.factor, settings)
+        state = step.run(*self.arguments(may_split))
         int(state.outcome)  # waits for the device
         self.factor = state.factor
         return self.take(state, watch.seconds)
+
+    def arguments(self, may_split: bool = True) -> tuple[Any, ...]:
+        """The arguments of the next compiled call, which destroys the factor."""
+        if self.factor is None:
+            self.factor = np.zeros(self.problem.p2p_hessian.shape)
+            self.treatment = replace(self.treatment, reuse=False)
+        return self.problem, self.coefficients, self.factor, self.settings(may_split)
 
     def take(self, state: step.State, seconds: float) -> Advance:
         """Read the state after a compiled call that took ``seconds``."""
@@ -205,10 +208,10 @@ class NewtonDescent(SubspaceDescent):
             # Finer quadrature does not help the projected Hessian.
             coarse = self.discretisation.can_split and self.inputs.options.hessian != "projected"
             if coarse and _is_slow(self.history):
-                self._take_full_hessian()
+                self.take_full_hessian()
         if done.outcome == line_search.INDEFINITE:
             # Rounding or the coarse quadrature may be the cause.
-            if self._take_full_hessian():
+            if self.take_full_hessian():
                 return None
             # Another cause: with two handles in nearly one place, the Hessian is almost singular.
             if self.inputs.options.hessian == "exact":
@@ -216,7 +219,7 @@ class NewtonDescent(SubspaceDescent):
             self.treatment = self.treatment.raised()
             return Ending(Status.BLOCKED) if self.treatment.ridge > _LARGEST_RIDGE else None
         stalled = done.iterations and has_stalled(self.history[self.treatment.full_since or 0 :])
-        if not (done.outcome == line_search.NO_DECREASE or stalled) or self._take_full_hessian():
+        if not (done.outcome == line_search.NO_DECREASE or stalled) or self.take_full_hessian():
             return None
         hidden = _ROUNDING * abs(float(self.evaluated.energy))
         return Ending(Status.STATIONARY if self.decrement**2 / 2 <= hidden else Status.BLOCKED)
@@ -261,7 +264,7 @@ class NewtonDescent(SubspaceDescent):
             self.problem = self.problem._replace(matrices=self._hessian_matrices())
         return count
 
-    def _take_full_hessian(self) -> bool:
+    def take_full_hessian(self) -> bool:
         """Use double precision and all nodes for the Hessian; False if that is already so."""
         if self.treatment.full_since is not None:
             return False

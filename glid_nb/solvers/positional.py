@@ -44,6 +44,11 @@ class Positional(NamedTuple):
         """The gradient (F.7), the sum of (F.4); (G.9) repeats it."""
         return self.matrix.T @ (self.weights * self.residual(coefficients))
 
+    @property
+    def free(self) -> int:
+        """How many more handles, angles or scales the padding has room for."""
+        return int(np.count_nonzero(np.asarray(self.weights).reshape(2, -1).max(axis=0) == 0))
+
 
 def positional_energy(
     map: HarmonicMap, pose: Pose, weight: float, damping: float = 1.0
@@ -66,6 +71,17 @@ def positional_energy(
         matrix = matrix.copy()
         matrix.reshape(2, size, -1)[:, turns] = real_rows(rows, 0)
     return Positional(matrix, aims.ravel(), weights.ravel())
+
+
+def wider(positional: Positional) -> Positional:
+    """With rows of padding for one more bucket."""
+    return Positional(*(_wider(np.asarray(a)) for a in positional))
+
+
+def _wider(rows: NDArray[Any]) -> NDArray[Any]:
+    parts = rows.reshape(2, -1, *rows.shape[1:])
+    more = np.zeros((2, _BUCKET, *parts.shape[2:]))
+    return np.concatenate([parts, more], axis=1).reshape(-1, *rows.shape[1:])
 
 
 def weights_of_images(

@@ -38,6 +38,7 @@ _TOGGLES = (
 )
 _SOURCE_SHARE = 0.4  # share of the width for the undeformed shape
 _LEAST_SIZE, _USUAL_SIZE = 100, (600, 500)  # CSS pixels
+_NARROW = 480  # CSS pixels; a canvas with less room, as on a phone, is as high as it is wide
 
 
 class DeformCanvas(ClosingWidget, ipywidgets.HBox):
@@ -107,6 +108,7 @@ class DeformCanvas(ClosingWidget, ipywidgets.HBox):
         self._resize()
         self.pane.stage.observe(self._resize, ["width", "height"])
         self.pane.stage.observe(self._take_room, ["room"])
+        self.pane.stage.observe(self._on_view, ["view"])
         # Frames come from the solver's thread, events from the page's thread. Both hold the model's
         # lock. The solver's next frame acknowledges events and so sets the pace, except during the
         # preparation of the solver.
@@ -165,9 +167,16 @@ class DeformCanvas(ClosingWidget, ipywidgets.HBox):
             if not alone:
                 asked, tall = self._asked
                 width = min(width, asked or width)
-                height = tall or min(height, width * _USUAL_SIZE[1] // _USUAL_SIZE[0])
+                usual = width * _USUAL_SIZE[1] // _USUAL_SIZE[0]
+                height = tall or min(height, width if width < _NARROW else usual)
             self._set_size(max(width, _LEAST_SIZE), max(height, _LEAST_SIZE))
             self.pane.place_legend()
+
+    def _on_view(self, _: Any = None) -> None:
+        with self.deformation.locked():
+            moment = self.deformation.moment
+            if not (self._closed or moment.busy or moment.dragged):
+                self.pane.place_legend()
 
     def _set_size(self, width: int, height: int) -> None:
         beside = 0 if self.source is None else round(_SOURCE_SHARE * width)

@@ -21,6 +21,7 @@ from glid_nb.imaging.read import ImageSource, png, read_image
 from glid_nb.imaging.render import View
 from glid_nb.motion import Motion
 from glid_nb.pose import Pose
+from glid_nb.session.ahead import ProgramsAhead
 from glid_nb.session.deformation import Deformation
 from glid_nb.session.document import Document, DocumentError, NamedPose
 from glid_nb.session.edit_state import EditError
@@ -47,8 +48,7 @@ _SIDE_WIDTH, _PLOTS_HEIGHT = 460, 382  # CSS pixels
 _EMPTY = "<p style='padding:2em'>Open a picture in the Trace tab; the shape appears here.</p>"
 
 _LEFT = (
-    "{left} was changed by another editor or program and stays as it is; this session is saved to "
-    "{path} from now on."
+    "{left} was changed elsewhere and stays as it is; this session is saved to {path} from now on."
 )
 _NOT_SAVED = (
     "The session could not be saved: {error}. The next change tries again; "
@@ -92,6 +92,7 @@ class Editor(ClosingWidget, ipywidgets.VBox):
     _displayed = False
     _told_path: Path | None = None
     _live: tuple[Domain, LiveEditor] | None = None
+    _ahead: ProgramsAhead | None = None
 
     @one_a_cell
     def __init__(
@@ -355,6 +356,9 @@ class Editor(ClosingWidget, ipywidgets.VBox):
         """
         if self.canvas is not None and self.canvas.drawn and self.monitor.rested:
             self._fill()
+            with self.model.locked():
+                if not self._closed and self._ahead is None:
+                    self._ahead = ProgramsAhead(self.deformation)
 
     def _part(self, name: str) -> Any:
         """A part; made if it is missing. Raises a RuntimeError if the editor is closed."""
@@ -424,6 +428,9 @@ class Editor(ClosingWidget, ipywidgets.VBox):
     def _take_down(self) -> None:
         with self.model.locked():
             shown = (*self._trace_box.children, *self._deform_box.children)
+            if self._ahead is not None:
+                self._ahead.close()
+                self._ahead = None
             if self.canvas is not None:
                 shown += (self.monitor,)
             self._trace_box.children = self._deform_box.children = ()

@@ -37,7 +37,7 @@ _UNSAVED = (
     "This session is not saved in a file yet. Click again to open the other one without saving, or "
     "save this one under another name first."
 )
-_KEPT = "Another editor's work on this picture is kept, last changed on {:%d %B at %H:%M}."
+_KEPT = "Your earlier work on this picture is kept. You last changed it on {:%d %B at %H:%M}."
 
 _Action = Callable[[bool], str | None]  # action(sure) of a button; returns what was done
 
@@ -216,12 +216,15 @@ class FilePanel(Asking, ipywidgets.VBox):
         self._moving = _row("Motion", *([] if self.motion is None else [self.motion]))
         super().__init__(
             [
-                _row("Session", self.path, self.save_button, self.open_button),
+                # Names and formats have whole rows, because they are long.
+                _row("Session", self.path),
+                _row("", self.save_button, self.open_button),
                 _row("", self.autosave),
-                _row("Export", self.format, self.export_button, self.download_button),
+                _row("Export", self.format),
                 self.picture,
                 self._moving,
-                _row("", self.code_button, self.clipboard),
+                _row("", self.export_button, self.download_button, self.code_button),
+                self.clipboard,
                 self.message,
                 self.code,
             ]
@@ -351,6 +354,7 @@ class FilePanel(Asking, ipywidgets.VBox):
         moving = str(self.format.value).startswith(_MOTION)
         self._moving.layout.display = "flex" if moving else "none"
         self.height.value = f"× {self.size[1]} px"
+        self.path.tooltip = self.path.value  # a long path is cut off in its field
         path = self.model.autosave_path
         text = _NO_AUTOSAVE if path is None else f"Saved automatically to {path.absolute()}"
         self.autosave.value = paragraph(text, "color:var(--jp-ui-font-color2,inherit)")

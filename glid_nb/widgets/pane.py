@@ -1,9 +1,12 @@
 """One renderer with a pad over it."""
 
+import functools
+from collections.abc import Sequence
 from typing import Any
 
 import ipywidgets
 import numpy as np
+import shapely
 import traitlets
 
 from glid_nb._arrays import Array
@@ -19,8 +22,10 @@ from glid_nb.widgets.scene import N_VERTICES, UNIFORM_VECTORS, Drawing, Scene, r
 CORNERS = ("bottom right", "bottom left", "top right", "top left")  # the default first
 
 _LEGEND_SIZE = (222, 75)  # CSS pixels, including the distance from the border
+_LEGEND_SHARE = 0.45  # most of the width
 _MARKS = ("targets", "images", "selected", "hidden", "ring")
 _REFERENCE: dict[str, Any] = ipywidgets.widget_serialization
+_POINT = 400.0  # square CSS pixels; as bad is a hidden pin
 _SHARES = (0.0, 0.25, 0.5, 0.75)  # places on an edge of the outline
 _ROOM = 1.12  # size of the view relative to the fitted shape
 # Without a graphics processor a vertex costs tens of microseconds. So the mesh is coarse until the
@@ -160,16 +165,26 @@ class Pane(ClosingWidget, ipywidgets.GridBox):
             return
         x, y, unit = self.stage.view
         width, height = self.stage.width, self.stage.height
-        pixels = (self._everything() - [x, y]) / unit + [width / 2, height / 2]
-        self.stage.legend_corner = emptiest_corner(pixels, width, height, n_bars)
+        loops, targets = self._drawn()
+        loops = [(loop - [x, y]) / unit + [width / 2, height / 2] for loop in loops]
+        pixels = (targets - [x, y]) / unit + [width / 2, height / 2]
+        self.stage.legend_corner = emptiest_corner(pixels, width, height, n_bars, loops)
+
+    def _drawn(self) -> tuple[list[Array], Array]:
+        """The loops of the drawn outline, and the targets."""
+        loops = self.scene.domain.cage.loops
+        shares = np.array(_SHARES)[:, None]  # edges may be longer than a colour bar
+        edges = [(loop[:, None], (np.roll(loop, -1, axis=0) - loop)[:, None]) for loop in loops]
+        dense = [(start + shares * along).reshape(-1, 2) for start, along in edges]
+        map_ = self._drawing.comparison or self._drawing.map
+        images = map_(np.concatenate(dense))
+        ends = np.cumsum([len(loop) for loop in dense])[:-1]
+        return np.split(images, ends), np.reshape(self._drawing.targets, (-1, 2))
 
     def _everything(self) -> Any:
         """Points of the drawn outline, and the targets."""
-        loops = self.scene.domain.cage.loops
-        # Edges may be longer than a colour bar.
-        between = [loop + t * (np.roll(loop, -1, axis=0) - loop) for loop in loops for t in _SHARES]
-        outline = (self._drawing.comparison or self._drawing.map)(np.concatenate(between))
-        return np.concatenate([outline, np.reshape(self._drawing.targets, (-1, 2))])
+        loops, targets = self._drawn()
+        return np.concatenate([*loops, targets])
 
     _seen: tuple[float, float]  # width and height, in world units, that must fit in the view
     _unit: float  # world units per CSS pixel with which they fit
@@ -208,13 +223,21 @@ class Pane(ClosingWidget, ipywidgets.GridBox):
         return scene.shader_map.wire(scene.map) if scene.evaluated_in == "shader" else b""
 
 
-def emptiest_corner(points: Any, width: int, height: int, bars: int = 1) -> str:
-    """The corner where colour bars hide the fewest of (k, 2) CSS pixels from the lower left."""
-    x, y = np.asarray(points, dtype=float).T
+def emptiest_corner(
+    points: Any, width: int, height: int, bars: int = 1, loops: Sequence[Array] = ()
+) -> str:
+    """The corner where colour bars hide least of a shape's ``loops``, inside too, and of (k, 2)
+    ``points``. Places are CSS pixels from the lower left."""
+    x, y = np.asarray(points, dtype=float).reshape(-1, 2).T
+    parts = [shapely.make_valid(shapely.Polygon(loop)) for loop in loops]
+    shape = functools.reduce(shapely.symmetric_difference, parts, shapely.Point())
+    across, up = min(_LEGEND_SIZE[0], _LEGEND_SHARE * width), bars * _LEGEND_SIZE[1]
 
-    def hidden(corner: str) -> int:
-        across = x if "left" in corner else width - x
-        up = y if "bottom" in corner else height - y
-        return int(((across < _LEGEND_SIZE[0]) & (up < bars * _LEGEND_SIZE[1])).sum())
+    def hidden(corner: str) -> float:
+        left = 0 if "left" in corner else width - across
+        bottom = 0 if "bottom" in corner else height - up
+        inside = (left < x) & (x < left + across) & (bottom < y) & (y < bottom + up)
+        covered = shapely.box(left, bottom, left + across, bottom + up).intersection(shape)
+        return float(_POINT * inside.sum() + covered.area)
 
     return min(CORNERS, key=hidden)  # the first of equally good corners

@@ -73,6 +73,16 @@ test("there are some labels on any track, never many", () => {
   }
 });
 
+test("labels have room beside each other", () => {
+  for (const seconds of [1.15, 7, 60, 3600]) {
+    for (const width of [150, 250, 500, 1000]) {
+      const times = labelledTimes(seconds, width);
+      if (times.length > 1) assert.ok(((times[1] - times[0]) / seconds) * width >= 36);
+    }
+  }
+  assert.equal(labelledTimes(1.15, 0).length, labelledTimes(1.15).length); // not measured yet
+});
+
 test("keyframes are found by their times", () => {
   assert.equal(keyAt(keys(0, 1, 3), 1), 1);
   assert.equal(keyAt(keys(0, 1, 3), 1.01), -1);

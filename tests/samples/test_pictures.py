@@ -124,3 +124,10 @@ def test_unknown_names_are_refused_with_the_list() -> None:
         samples.path("gekko")
     with pytest.raises(samples.SampleError, match=r"no sample '\.\./secret'"):
         samples.image("../secret")
+
+
+def test_a_sample_is_known_by_its_pixels() -> None:
+    pixels = samples.image("frog")
+    assert samples.name_of(pixels) == "frog"
+    assert samples.name_of(pixels[::-1]) is None
+    assert samples.name_of(pixels[:100]) is None

@@ -342,6 +342,20 @@ def test_the_status_says_how_far_the_solver_is_prepared(preparation: Preparation
     preparation.go_on("rows", wait=False)
 
 
+def test_the_status_says_so_also_when_a_shape_is_shown(
+    ring: Deformation, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    preparation = Preparation.instead_of_solving(monkeypatch)
+    ring.drag(0, to=(3, 0.5))
+    preparation.go_on("compile")
+    assert ring.moment.frame is not None
+    assert ring.status.text == "Preparing the solver… 50%"
+    ring.drag(0, to=(3.2, 0.5))  # pins still follow
+    assert ring.pose.targets[0].tolist() == [3.2, 0.5]
+    ring.close()
+    preparation.go_on("rows", wait=False)
+
+
 def test_closing_does_not_wait_for_a_solver_that_is_prepared(
     preparation: Preparation, threads: NewThreads
 ) -> None:

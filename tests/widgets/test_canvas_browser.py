@@ -320,30 +320,39 @@ live_solver.solve = prepared
 """
 
 
-def test_the_canvas_says_that_it_is_warming_up_and_takes_pins_meanwhile(
+def test_while_the_solver_is_prepared_nothing_covers_the_picture_and_pins_follow_the_hand(
     open_notebook: OpenNotebook,
 ) -> None:
     book = open_notebook([SETUP, EDITOR])
     hand, page = Hand(book), book.page
-    shown = page.locator(".glid-prepared")
-    assert not shown.is_visible()
-    hand.settle()
-    book.value("None", setup=f"{PREPARED_AS_TOLD}model.set_energy(glid.energies.ARAP())")
-    shown.get_by_text("Warming up: 50 %").wait_for()
-    # Visible right after the cell was run: at the top of the canvas, below the hint.
-    pad, hint, box = (one.bounding_box() for one in (hand.pad, page.locator(".glid-notice"), shown))
-    assert pad is not None
-    assert hint is not None
-    assert box is not None
-    assert hint["y"] + hint["height"] <= box["y"] < box["y"] + box["height"] < pad["y"] + 80
+    bar = page.get_by_role("progressbar", name="Preparing the solver")
+    assert not bar.is_visible()
     for point in THREE:
         hand.click(point)
     book.wait_for("len(model.pose) == 3")
-    book.screenshot("editor-warming-up")
+    hand.settle()
+    book.value("None", setup=f"{PREPARED_AS_TOLD}model.drag(1, to=(6.5, 0.5))")
+    bar.wait_for()
+    page.wait_for_function("one => one.ariaValueNow === '50'", arg=bar.element_handle())
+    page.get_by_text("Preparing the solver… 50%").wait_for()  # in the status line
+    pad, box = hand.pad.bounding_box(), bar.bounding_box()
+    assert pad is not None
+    assert box is not None
+    assert pad["y"] + pad["height"] <= box["y"]  # below the picture
+    # The page draws the last map. The target follows the hand before anything is solved.
+    shown = hand.coefficients()
+    hand.drag(line((6.5, 0.5), (5.0, 2.0), 10))
+    book.wait_for("abs(model.pose.targets[1] - (5, 2)).max() < 0.1 and not model.dragged")
+    marked = "list(canvas.pane.stage.marks['targets'][1])"
+    np.testing.assert_allclose(book.value(marked), hand.targets[1], atol=1e-4)
+    assert hand.coefficients() == shown
+    assert not book.value("may_solve.is_set()")
+    book.screenshot("editor-preparing")
     book.value("None", setup="may_solve.set()")
-    shown.wait_for(state="hidden")
+    bar.wait_for(state="hidden")
     hand.settle()
     assert hand.certified()
+    assert hand.coefficients() != shown
 
 
 def test_what_is_beside_the_canvas_neither_takes_undo_nor_moves_it(

@@ -82,6 +82,11 @@ def test_the_colour_bar_goes_where_it_hides_least() -> None:
     assert emptiest_corner(list(corners.values()), *size) == "top left"
     twice = [*corners.values(), (10, 395), *corners.values()]
     assert emptiest_corner(twice, *size) == "top left"
+    # A head may fill a corner without a point of its outline there.
+    head = np.array([(250, -200), (900, -200), (900, 200), (250, 200)], float)
+    assert emptiest_corner([], *size, loops=[head]) == "bottom left"
+    hole = np.array([(300, -100), (300, 100), (800, 100), (800, -100)], float)
+    assert emptiest_corner([(10, 10)], *size, loops=[head, hole]) == "bottom right"
 
 
 @pytest.mark.parametrize("top", [2.134, 54.6, 5510.3, 1.2345e7, 9.87e201])
@@ -189,7 +194,7 @@ def test_the_next_editor_of_a_picture_offers_what_was_done(
     first.close()
     again = Editor(bar(), n_vertices=300)
     text, bring, _ = again.kept.children
-    assert "is kept" in text.value
+    assert "Your earlier work on this picture is kept" in text.value
     if damaged:
         again.model.kept.write_bytes(b"")
     bring.click()
@@ -871,7 +876,7 @@ def test_a_file_of_another_editor_is_left_and_told(tmp_path: Path) -> None:
         flush(path)
         flush(tmp_path / "bar-2.glid")
     assert second.canvas is not None
-    assert "bar.glid was changed by another editor" in second.canvas.pane.stage.notice
+    assert "bar.glid was changed elsewhere" in second.canvas.pane.stage.notice
     assert "saved to bar-2.glid" in second.canvas.pane.stage.notice
     assert Path(second.files.path.value).name == "bar-2.glid"
     assert first.canvas is not None

@@ -52,6 +52,16 @@ def panel(model: EditorModel, monkeypatch: pytest.MonkeyPatch) -> FilePanel:
     return FilePanel(model)
 
 
+def test_a_sample_names_its_files(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("GLID_NB_DATA", str(tmp_path))
+    for image, name in ((glid.samples.image("bar"), "bar"), (bar(), "session")):
+        model = EditorModel(image)
+        panel = FilePanel(model)
+        assert panel.path.value == panel.path.tooltip == f"{name}.glid"
+        panel.close()
+        model.close()
+
+
 def bytes_here() -> dict[str, bytes]:
     return {path.name: path.read_bytes() for path in Path().iterdir()}
 

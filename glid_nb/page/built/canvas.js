@@ -259,11 +259,12 @@ return make("div",{className:"glid-legend-part",title:about},make("div",{classNa
 e"},moves&&moving||title),make("div",{className:"glid-legend-bar",style:gradient}),make("div",{className:"\
 glid-legend-ticks"},...labels))}var FIRST="Click the shape to pin a point, then drag the pin · ? shows all keys";var PAINT="Paint a\
 reas that should stay stiff · E erases · Esc when done";var Notices=class{notice=make("div",{className:"\
-glid-notice",role:"status"});prepared=make("div",{className:"glid-prepared",role:"status"});tell(refusal,painting,first){
-const advice=painting?PAINT:first&&FIRST;const{notice}=this;notice.textContent=refusal||advice||"";notice.
-hidden=!notice.textContent;notice.classList.toggle("glid-first",!refusal)}prepare(share){const{prepared}=this;
-prepared.hidden=share>=1;prepared.textContent=`Warming up: ${Math.round(100*share)} %`;prepared.style.
-backgroundSize=`${100*share}% 100%, auto`}};var REACH={mouse:13,pen:16,touch:26};var KEYS=/^(Arrow\w+|Page\w+|Delete|Backspace|Escape|Enter|[0fa,.[\]<>+=xmbe-])$/i;
+glid-notice",role:"status"});prepared=make("div",{className:"glid-prepared",role:"progressbar","aria\
+-label":"Preparing the solver",hidden:true});tell(refusal,painting,first){const advice=painting?PAINT:
+first&&FIRST;const{notice}=this;notice.textContent=refusal||advice||"";notice.hidden=!notice.textContent;
+notice.classList.toggle("glid-first",!refusal)}prepare(share){const{prepared}=this;prepared.hidden=share>=
+1;prepared.setAttribute("aria-valuenow",String(Math.round(100*share)));prepared.style.setProperty("-\
+-glid-share",String(share))}};var REACH={mouse:13,pen:16,touch:26};var KEYS=/^(Arrow\w+|Page\w+|Delete|Backspace|Escape|Enter|[0fa,.[\]<>+=xmbe-])$/i;
 var TARGET_TIP="where it should be. Drag it; Alt turns it; a right click shows more; Shift-click sel\
 ects several";var IMAGE_TIP="where the shape is now. The cyan disk is where it should be";var COVERED="\
 . Another part of the shape covers it";var RING_TIPS={turn:"Drag around the pin to turn the shape th\
@@ -311,7 +312,7 @@ const own=control.getAttribute("title");if(own)return own;if(control.matches(".g
 ts *"))return"Plots of the solve";const widget=control.closest(".jupyter-widgets");const label=widget?.
 querySelector(".widget-label")?.textContent?.trim();return label||widget?.getAttribute("title")||labelBefore(
 widget??control)}function labelBefore(one){let before=one.previousElementSibling;while(before&&!before.
-matches(".widget-label"))before=before.previousElementSibling;return before?.textContent?.trim()??""}var PAGE=120;var PARTS=330;var LEAST=480;var GAP=16;var SLACK=20;var SETTLE=80;var Room=class{#root=null;#last={
+matches(".widget-label"))before=before.previousElementSibling;return before?.textContent?.trim()??""}var PAGE=120;var PARTS=330;var LEAST=480;var GAP=16;var SLACK=20;var SETTLE=80;var NARROW=600;var Room=class{#root=null;#last={
 width:0,height:0,alone:0};#decides=false;#told="";#room=null;#timer;constructor(pad,model,signal){this.
 pad=pad;this.model=model;this.signal=signal;this.observer=new ResizeObserver(()=>this.#measureSoon());
 this.observer.observe(pad);window.addEventListener("resize",()=>this.#measureSoon(),{signal});window.
@@ -328,22 +329,22 @@ scape"||!this.#last.alone)return;if(this.pad.matches(":active, :has(.glid-menu, 
 e.stopPropagation();this.alone(false)}#measureSoon(){clearTimeout(this.#timer);this.#timer=setTimeout(
 ()=>this.#measure(),SETTLE)}#measure(){const root=this.pad.closest(".glid-editor");const column=this.
 pad.closest(".glid-column");const around=column?.parentElement;if(!root||!around||!column.clientWidth)
-return;const room=this.#roomIn(root,column,around);if(!this.#root)this.#begin(root,around,room);this.#room=
-room;this.shrink();if(!this.#decides)return;const last=this.#last;const wider=room.width-last.width;
-const same=room.height===last.height&&room.alone===last.alone;if(same&&wider>=0&&wider<SLACK)return;
-this.#last=room;const numbers=[room.width,room.height,room.alone].map(Math.floor);this.#told=String(
-numbers);save(this.model,{room:numbers})}#begin(root,around,room){this.#root=root;this.observer.observe(
-around);nameControls(root,this.signal);const[width=0]=this.model.get("room");this.#decides=room.width>
-width;root.addEventListener("pointerup",()=>this.#decide(),{signal:this.signal})}#decide(){if(this.#decides)
-return;this.#decides=true;this.#last={width:0,height:0,alone:0};this.#measureSoon()}shrink(){const whole=this.
-pad.closest(".glid-deform");if(!whole||!this.#room)return;const panes=whole.querySelectorAll(".glid-\
-pane");const widths=[...panes].map(pane=>Number.parseFloat(pane.style.width)||0);const share=this.#room.
-width/widths.reduce((sum,width)=>sum+width,0);whole.style.zoom=share<1&&!this.#decides?String(share):
-""}#roomIn(root,column,around){const page=document.fullscreenElement===root?0:PAGE;const below=window.
-innerHeight-page;if(root.classList.contains("glid-alone")){return{width:root.clientWidth,height:below,
-alone:1}}const plots=column.nextElementSibling;const beside=around.clientWidth-(plots?.offsetWidth??
-0)-GAP;const width=beside>=LEAST?beside:around.clientWidth;return{width,height:Math.max(LEAST,below-
-PARTS),alone:0}}};var NEAR=8;var N_TIMED=3;var Shapes=class{motion=null;#materials=[];#camera=null;#renderer=null;#loading=0;#lifted=null;#resting=null;constructor(model,view){
+return;root.classList.toggle("glid-narrow",root.clientWidth<NARROW);const room=this.#roomIn(root,column,
+around);if(!this.#root)this.#begin(root,around,room);this.#room=room;this.shrink();if(!this.#decides)
+return;const last=this.#last;const wider=room.width-last.width;const same=room.height===last.height&&
+room.alone===last.alone;if(same&&wider>=0&&wider<SLACK)return;this.#last=room;const numbers=[room.width,
+room.height,room.alone].map(Math.floor);this.#told=String(numbers);save(this.model,{room:numbers})}#begin(root,around,room){
+this.#root=root;this.observer.observe(around);nameControls(root,this.signal);const[width=0]=this.model.
+get("room");this.#decides=room.width>width;root.addEventListener("pointerup",()=>this.#decide(),{signal:this.
+signal})}#decide(){if(this.#decides)return;this.#decides=true;this.#last={width:0,height:0,alone:0};
+this.#measureSoon()}shrink(){const whole=this.pad.closest(".glid-deform");if(!whole||!this.#room)return;
+const panes=whole.querySelectorAll(".glid-pane");const widths=[...panes].map(pane=>Number.parseFloat(
+pane.style.width)||0);const share=this.#room.width/widths.reduce((sum,width)=>sum+width,0);whole.style.
+zoom=share<1&&!this.#decides?String(share):""}#roomIn(root,column,around){const page=document.fullscreenElement===
+root?0:PAGE;const below=window.innerHeight-page;if(root.classList.contains("glid-alone")){return{width:root.
+clientWidth,height:below,alone:1}}const plots=column.nextElementSibling;const beside=around.clientWidth-
+(plots?.offsetWidth??0)-GAP;const width=beside>=LEAST?beside:around.clientWidth;return{width,height:Math.
+max(LEAST,below-PARTS),alone:0}}};var NEAR=8;var N_TIMED=3;var Shapes=class{motion=null;#materials=[];#camera=null;#renderer=null;#loading=0;#lifted=null;#resting=null;constructor(model,view){
 this.model=model;this.view=view;model.on("change:materials change:camera change:renderer",()=>this.load())}async load(){
 this.#loading+=1;const turn=this.#loading;const{model}=this;const references=[model.get("camera"),model.
 get("renderer"),...model.get("materials")];const[camera,renderer,...materials]=await Promise.all(references.

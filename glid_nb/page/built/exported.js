@@ -6,7 +6,11 @@ if(this.repeat==="once")return Math.min(Math.max(time,start),end);const span=end
 last?2*last-within:within;const next=times.findIndex((knot,i)=>i>0&&there<knot);const high=next<0?times.
 length-1:next;const low=high-1;return{piece:low,share:(there-times[low])/(times[high]-times[low])}}at(time){
 const{piece,share}=this.place(time);const{floats,mixed}=this;const low=piece*mixed.length;const high=low+
-mixed.length;for(let i=0;i<mixed.length;i++){mixed[i]=(1-share)*floats[low+i]+share*floats[high+i]}return mixed}};function make(tag,properties={},...children){const element=document.createElement(tag);if(element instanceof
+mixed.length;for(let i=0;i<mixed.length;i++){mixed[i]=(1-share)*floats[low+i]+share*floats[high+i]}return mixed}};var STRIPES=100;var LEAST_HEIGHT=.06;var UNPROVED="#7f7f7f";function heightOf(bound){return Math.min(
+Math.max(bound,LEAST_HEIGHT),1)}function proofStrip(motion,boundAt){const layers=Array.from({length:STRIPES},
+(_,i)=>{const bound=boundAt(motion.start+(i+.5)/STRIPES*(motion.end-motion.start));const[fill,height]=bound<
+0?[UNPROVED,1]:["var(--accent)",heightOf(bound)];const left=100*i/(STRIPES-1);return`linear-gradient\
+(${fill} 0 0) ${left}% 100%/1% ${100*height}% no-repeat`});return layers.join()}function make(tag,properties={},...children){const element=document.createElement(tag);if(element instanceof
 HTMLButtonElement)element.type="button";for(const[name,value]of Object.entries(properties)){if(name.
 startsWith("on"))element.addEventListener(name.slice(2),value);else if(name in element&&name!=="list")
 Reflect.set(element,name,value);else element.setAttribute(name,value)}element.append(...children);return element}
@@ -105,15 +109,15 @@ const k=i%sizes.length;const to=width*Math.floor(i/sizes.length);for(let j=0;j<w
 share/sizes[k]*few[width*k+j]});return Float32Array.from(values)}async function cornersOf(triangles){
 const numbers=await unpacked(triangles,3);return Array.from({length:numbers.length/3},(_,i)=>{const[
 first,second,third]=numbers.subarray(3*i,3*i+3);return[first,first+second,first+third]})}var LABELS={2:"Stretch σ₁",3:"Stretch σ₂",4:"Dilatation k"};var LOWER="3";var PLAIN="0";var STEP=1/
-25;var FAST=5;var THUMBNAIL=56;var STRIPES=100;var UNPROVED="#7f7f7f";function byId(id,kind){const found=document.
-getElementById(id);if(!(found instanceof kind))throw new Error(`the page has no ${id}`);return found}
-var Page=class{overlay=byId("overlay",HTMLSelectElement);undeformed=byId("source",HTMLInputElement);slider=byId(
-"time",HTMLInputElement);play=byId("play",HTMLButtonElement);clock=byId("clock",HTMLOutputElement);here=byId(
-"here",HTMLOutputElement);view=new View(()=>this.draw(),{nearest:1e-4,farthest:100});#course=null;#due=0;constructor(canvas,data,renderer,rows,heights){
-this.canvas=canvas;this.data=data;this.renderer=renderer;this.identity=rows.subarray(0,data.width);this.
-motion=new Motion(data.motion,rows.subarray(data.width));const{height_times:times}=data;const{repeat}=this.
-motion;this.layers=times.length>1?new Motion({times,repeat},heights):null;this.time=this.motion.start;
-this.poses=new Poses(data.motion.keyframes,time=>this.#run(glideTo(this.motion,this.time,time)),time=>this.#thumbnail(
+25;var FAST=5;var THUMBNAIL=56;function byId(id,kind){const found=document.getElementById(id);if(!(found instanceof
+kind))throw new Error(`the page has no ${id}`);return found}var Page=class{overlay=byId("overlay",HTMLSelectElement);undeformed=byId(
+"source",HTMLInputElement);slider=byId("time",HTMLInputElement);play=byId("play",HTMLButtonElement);clock=byId(
+"clock",HTMLOutputElement);here=byId("here",HTMLOutputElement);view=new View(()=>this.draw(),{nearest:1e-4,
+farthest:100});#course=null;#due=0;constructor(canvas,data,renderer,rows,heights){this.canvas=canvas;
+this.data=data;this.renderer=renderer;this.identity=rows.subarray(0,data.width);this.motion=new Motion(
+data.motion,rows.subarray(data.width));const{height_times:times}=data;const{repeat}=this.motion;this.
+layers=times.length>1?new Motion({times,repeat},heights):null;this.time=this.motion.start;this.poses=
+new Poses(data.motion.keyframes,time=>this.#run(glideTo(this.motion,this.time,time)),time=>this.#thumbnail(
 time),()=>!this.#course&&this.draw());this.#hearPointers();this.#showColors()}begin(){if(this.data.motion.
 keyframes.length)this.#prepareMotion();new ResizeObserver(()=>this.fit()).observe(this.canvas);this.
 fit();document.documentElement.dataset.ready="true"}fit(){const{clientWidth,clientHeight}=this.canvas;
@@ -140,40 +144,37 @@ value}=this.overlay;const range=this.data.ranges[value];const legend=byId("legen
 legend.hidden=!range;if(!range)return;const end=value===LOWER?down(range[1]):up(range[1]);legend.replaceChildren(
 `${LABELS[value]} ${range[0]}`,make("i"),end)}#prepareMotion(){const{motion,slider}=this;const section=document.
 querySelector("section");if(section)section.hidden=false;slider.min=String(motion.start);slider.max=
-String(motion.end);byId("poses",HTMLDivElement).append(...this.poses.buttons);byId("strip",HTMLDivElement).
-style.background=this.#strip();this.play.addEventListener("click",()=>this.#playOrPause());slider.addEventListener(
-"input",()=>this.#goTo(Number(slider.value)));document.addEventListener("keydown",e=>this.#keydown(e));
-this.#seek(motion.start);this.#run(null);const still=matchMedia("(prefers-reduced-motion: reduce)").
-matches;if(this.data.loop&&!still)this.#playOrPause()}#strip(){const{motion}=this;const{sigma2,until}=this.
-data.motion;const span=motion.end-motion.start;const colors=Array.from({length:STRIPES},(_,i)=>{const time=motion.
-start+(i+.5)/STRIPES*span;const bound=sigma2[motion.place(time).piece]??0;const stop=Math.round((1-Math.
-min(bound,1))*(this.#stops-1));return`${time<until?this.#css(stop):UNPROVED} ${i}% ${i+1}%`});return`\
-linear-gradient(to right, ${colors})`}#keydown(e){const target=e.target;if(e.ctrlKey||e.metaKey||e.altKey||
-target.tagName==="SELECT")return;if(e.key===" "){if(target.matches("button, input[type=checkbox]"))return;
-e.preventDefault();this.#playOrPause();return}const to=this.#timeOf(e);if(to===null)return;e.preventDefault();
-this.#goTo(Math.min(Math.max(to,this.motion.start),this.motion.end))}#timeOf(e){const step=e.shiftKey?
-FAST*STEP:STEP;if(e.key==="ArrowLeft")return this.time-step;if(e.key==="ArrowRight")return this.time+
-step;if(e.key==="Home")return this.motion.start;return e.key==="End"?this.motion.end:null}#goTo(time){
-this.#run(null);this.#seek(time)}#seek(time){const{motion}=this;this.time=time===motion.end?time:motion.
-within(time);this.slider.value=String(this.time);this.clock.textContent=`${this.time.toFixed(2)} / ${motion.
-end.toFixed(2)} s`;const{piece}=motion.place(this.time);this.here.textContent=provedNow(this.data.motion,
-piece,this.time);this.poses.mark(motion.within(this.time));this.draw()}#run(course){cancelAnimationFrame(
-this.#due);this.#course=course&&{...course,began:performance.now()};if(course)this.#due=requestAnimationFrame(
-now=>this.#tick(now));this.play.textContent=course?.plays?"❚❚":"▶";this.play.setAttribute("ari\
-a-label",course?.plays?"Pause":"Play")}#tick(now){if(!this.#course)return;const{began,lasts,at}=this.#course;
-const passed=Math.min(Math.max(now-began,0),lasts);this.#seek(at(passed));if(passed===lasts)this.#run(
-null);else this.#due=requestAnimationFrame(next=>this.#tick(next))}#playOrPause(){const playing=this.#course?.
-plays;this.#run(playing?null:playedFrom(this.motion,this.time,this.data.loop))}};function fail(message){
-const problem=byId("problem",HTMLParagraphElement);problem.textContent=message;problem.hidden=false}
-function loaded(address){return new Promise((resolve,reject)=>{const picture=new Image;picture.onerror=
-()=>reject(new CannotShow("The picture in this page is damaged."));picture.onload=()=>resolve(picture);
-picture.src=address})}async function show(){const data=JSON.parse(byId("data",HTMLScriptElement).text);
-const canvas=document.querySelector("canvas");const options={antialias:true,premultipliedAlpha:true,
-preserveDrawingBuffer:true};const gl=canvas?.getContext("webgl2",options);if(!canvas||!gl||!window.DecompressionStream){
-throw new CannotShow("This page needs WebGL 2 and a browser of 2023 or later.")}const source=await unpacked(
-data.source,2);const rows=await restored(data.coefficients,data.width);const heights=await restored(
-data.heights,source.length/2);const triangles=await cornersOf(data.triangles);const cage=new Float32Array(
-bytesOf(data.cage));const lowest=heights.subarray(0,source.length/2);const renderer=new Renderer(canvas,
-gl,data,{source,heights:lowest,triangles},cage);const page=new Page(canvas,data,renderer,rows,heights);
-renderer.setPicture(await loaded(data.picture));page.begin()}show().catch(error=>{fail(error.message);
-if(!(error instanceof CannotShow))throw error});})();
+String(motion.end);byId("poses",HTMLDivElement).append(...this.poses.buttons);const{sigma2,until}=this.
+data.motion;const boundAt=time=>time<until?sigma2[motion.place(time).piece]??0:-1;const background=proofStrip(
+motion,boundAt);byId("strip",HTMLDivElement).style.background=background;this.play.addEventListener(
+"click",()=>this.#playOrPause());slider.addEventListener("input",()=>this.#goTo(Number(slider.value)));
+document.addEventListener("keydown",e=>this.#keydown(e));this.#seek(motion.start);this.#run(null);const still=matchMedia(
+"(prefers-reduced-motion: reduce)").matches;if(this.data.loop&&!still)this.#playOrPause()}#keydown(e){
+const target=e.target;if(e.ctrlKey||e.metaKey||e.altKey||target.tagName==="SELECT")return;if(e.key===
+" "){if(target.matches("button, input[type=checkbox]"))return;e.preventDefault();this.#playOrPause();
+return}const to=this.#timeOf(e);if(to===null)return;e.preventDefault();this.#goTo(Math.min(Math.max(
+to,this.motion.start),this.motion.end))}#timeOf(e){const step=e.shiftKey?FAST*STEP:STEP;if(e.key==="\
+ArrowLeft")return this.time-step;if(e.key==="ArrowRight")return this.time+step;if(e.key==="Home")return this.
+motion.start;return e.key==="End"?this.motion.end:null}#goTo(time){this.#run(null);this.#seek(time)}#seek(time){
+const{motion}=this;this.time=time===motion.end?time:motion.within(time);this.slider.value=String(this.
+time);this.clock.textContent=`${this.time.toFixed(2)} / ${motion.end.toFixed(2)} s`;const{piece}=motion.
+place(this.time);this.here.textContent=provedNow(this.data.motion,piece,this.time);this.poses.mark(motion.
+within(this.time));this.draw()}#run(course){cancelAnimationFrame(this.#due);this.#course=course&&{...course,
+began:performance.now()};if(course)this.#due=requestAnimationFrame(now=>this.#tick(now));this.play.textContent=
+course?.plays?"❚❚":"▶";this.play.setAttribute("aria-label",course?.plays?"Pause":"Play")}#tick(now){
+if(!this.#course)return;const{began,lasts,at}=this.#course;const passed=Math.min(Math.max(now-began,
+0),lasts);this.#seek(at(passed));if(passed===lasts)this.#run(null);else this.#due=requestAnimationFrame(
+next=>this.#tick(next))}#playOrPause(){const playing=this.#course?.plays;this.#run(playing?null:playedFrom(
+this.motion,this.time,this.data.loop))}};function fail(message){const problem=byId("problem",HTMLParagraphElement);
+problem.textContent=message;problem.hidden=false}function loaded(address){return new Promise((resolve,reject)=>{
+const picture=new Image;picture.onerror=()=>reject(new CannotShow("The picture in this page is damag\
+ed."));picture.onload=()=>resolve(picture);picture.src=address})}async function show(){const data=JSON.
+parse(byId("data",HTMLScriptElement).text);const canvas=document.querySelector("canvas");const options={
+antialias:true,premultipliedAlpha:true,preserveDrawingBuffer:true};const gl=canvas?.getContext("webg\
+l2",options);if(!canvas||!gl||!window.DecompressionStream){throw new CannotShow("This page needs Web\
+GL 2 and a browser of 2023 or later.")}const source=await unpacked(data.source,2);const rows=await restored(
+data.coefficients,data.width);const heights=await restored(data.heights,source.length/2);const triangles=await cornersOf(
+data.triangles);const cage=new Float32Array(bytesOf(data.cage));const lowest=heights.subarray(0,source.
+length/2);const renderer=new Renderer(canvas,gl,data,{source,heights:lowest,triangles},cage);const page=new Page(
+canvas,data,renderer,rows,heights);renderer.setPicture(await loaded(data.picture));page.begin()}show().
+catch(error=>{fail(error.message);if(!(error instanceof CannotShow))throw error});})();

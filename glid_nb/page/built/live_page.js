@@ -176,7 +176,7 @@ element.matches(":focus")}place(t){return ie(this.element,t)}send(t,e,s={},n={})
 toWorld(e),{unit:a}=this.view;return this.link.put({type:t,x:o,y:r,unit:a,reach:this.#h(s.pointerType)*
 a,button:s.button??0,shift:!!s.shiftKey,alt:!!s.altKey,time:s.timeStamp??performance.now(),...n})}press(t,e){
 this.send("key",[this.view.width/2,this.view.height/2],e,{key:t})}hover(t=this.rests){this.rests=t,this.
-mode===null&&(this.found=t&&this.#i(t,"mouse"),this.#y(),this.behaviour.changed())}keydown(t){let e=yt(
+mode===null&&(this.found=t&&this.#i(t,"mouse"),this.#b(),this.behaviour.changed())}keydown(t){let e=yt(
 t),s=t.ctrlKey||t.metaKey,n=s?void 0:this.behaviour.actions[e.toLowerCase()],o=J(t);!o&&!n&&e!==" "&&
 (t.altKey||!this.behaviour.keys.test(e)||s&&e!=="a")||(t.preventDefault(),t.stopPropagation(),e===" "?
 (t.repeat||(this.#o=!0),this.#w(!0)):n?n():((e==="Escape"||o)&&this.#E(),this.press(o??e,t)))}#r(t){
@@ -185,7 +185,7 @@ mouse"]??this.behaviour.reach.mouse}#i(t,e){return this.behaviour.find(this.view
 e)*this.view.unit)}#f(t){if(this.pointers.has(t.pointerId)||this.pointers.size>1)return;t.preventDefault(),
 this.element.focus({preventScroll:!0}),this.#o=!1;let e=this.place(t);this.pointers.set(t.pointerId,
 e),this.element.setPointerCapture(t.pointerId);let s=this.pointers.size===2;s&&this.#p(t),this.#t=e,
-this.mode=s||t.button===1||t.button===0&&this.#s?"pan":"hand",this.mode==="hand"&&this.#a(e,t),this.#y()}#a(t,e){
+this.mode=s||t.button===1||t.button===0&&this.#s?"pan":"hand",this.mode==="hand"&&this.#a(e,t),this.#b()}#a(t,e){
 let{behaviour:s}=this,n=this.#i(t,e.pointerType),o=e.button===0;o&&!e.shiftKey&&!e.altKey&&n?.mark!==
 void 0&&(this.grip={from:this.view.toWorld(t),points:s.held(n)}),this.#e=o&&!!s.pans?.(n,e),this.encloses=
 o&&!s.painting?s.encloses?.(n,e):null,this.path=o?[this.view.toWorld(t)]:[],this.send("down",t,e,{part:n?.
@@ -196,18 +196,18 @@ let e=t instanceof PointerEvent&&t.pointerType==="touch";t.button===2&&!e&&this.
 use")}#p(t){this.mode==="hand"&&this.send("cancel",this.#t,t),this.#E()}#u(t){let e=this.place(t),s=t.
 pointerType==="touch";if(!this.pointers.has(t.pointerId)){s||this.hover(e);return}s||(this.rests=e);
 let n=w(e,this.#t);if(n>ps&&clearTimeout(this.#n),this.mode==="hand"&&this.#e&&n>oe&&(this.#p(t),this.
-mode="pan",this.#y()),this.mode==="pan"){this.view.follow(this.pointers,t.pointerId,e);return}this.pointers.
-set(t.pointerId,e),this.mode==="hand"&&this.#c(e,t,n)}#c(t,e,s){let n=this.view.toWorld(t);if(this.#x(
+mode="pan",this.#b()),this.mode==="pan"){this.view.follow(this.pointers,t.pointerId,e);return}this.pointers.
+set(t.pointerId,e),this.mode==="hand"&&this.#c(e,t,n)}#c(t,e,s){let n=this.view.toWorld(t);if(this.#y(
 t,n,s),!this.encloses&&!this.behaviour.painting&&this.send("move",t,e,{replaces:`move ${e.pointerId}`}),
 this.grip){let o=n[0]-this.grip.from[0],r=n[1]-this.grip.from[1];for(let[a,[h,c]]of this.grip.points)
-this.held.set(a,[h+o,c+r])}this.behaviour.changed()}#x(t,e,s){if(this.encloses==="box"){let[o]=this.
+this.held.set(a,[h+o,c+r])}this.behaviour.changed()}#y(t,e,s){if(this.encloses==="box"){let[o]=this.
 path;this.path=s>oe?X(o,e):[o];return}let n=this.path.at(-1);n&&w(t,this.view.toScreen(n))>=ms&&this.
 path.push(e)}#g(t,e){if(!this.pointers.has(t.pointerId))return;let s=this.place(t);if(this.pointers.
 delete(t.pointerId),this.mode==="hand"){let{path:n}=this;this.send(e,s,t,{path:n,encloses:!!this.encloses}).
-then(()=>{this.grip||this.held.clear(),this.path===n&&(this.path=[]),this.behaviour.changed()})}this.#b(),
-this.pointers.size||(this.mode=null),this.#y()}#b(){clearTimeout(this.#n),this.grip=null,this.behaviour.
-changed()}#E(){this.#b(),this.held.clear(),this.path=[]}#v(t){!this.behaviour.ownsWheel&&!this.focused&&
-!t.ctrlKey||(t.stopPropagation(),this.view.wheel(t,this.place(t)))}#w(t){this.#s=t,this.#y()}#y(){this.
+then(()=>{this.grip||this.held.clear(),this.path===n&&(this.path=[]),this.behaviour.changed()})}this.#x(),
+this.pointers.size||(this.mode=null),this.#b()}#x(){clearTimeout(this.#n),this.grip=null,this.behaviour.
+changed()}#E(){this.#x(),this.held.clear(),this.path=[]}#v(t){!this.behaviour.ownsWheel&&!this.focused&&
+!t.ctrlKey||(t.stopPropagation(),this.view.wheel(t,this.place(t)))}#w(t){this.#s=t,this.#b()}#b(){this.
 element.style.cursor=this.#A()}#A(){return this.mode==="pan"||this.grip?"grabbing":this.#s?"grab":this.
 behaviour.cursor(this.found)}};async function re(i){try{return await navigator.clipboard.writeText(i),!0}catch{return gs(i)}}function gs(i){
 let t=document.activeElement,e=document.createElement("textarea");e.value=i,e.setAttribute("readonly",
@@ -269,25 +269,25 @@ return i*i*(3-2*i)}var ye=1,xe=100,Ss=1/25,st=class{kept=[];seen=!1;element=f("d
 "div",{className:"poses",role:"group","aria-label":"Kept poses"});#e=f("button",{className:"play",title:"\
 Play or pause (Space)"});#s=f("input",{type:"range",step:String(Ss),"aria-label":"Time, seconds"});#o=f(
 "i",{title:"Certified σ₂ at the knots"});#n=f("output",{className:"clock"});#r=S("trash","Remove \
-this pose",()=>this.#A());#h=new WeakMap;#i=null;#f=[];#a=0;#d=0;#m=null;#l=0;#p=null;#u=!1;#c=null;#x=!0;#g=null;#b=null;constructor(t,e){
+this pose",()=>this.#A());#h=new WeakMap;#i=null;#f=[];#a=0;#d=0;#m=null;#l=0;#p=null;#u=!1;#c=null;#y=!0;#g=null;#x=null;constructor(t,e){
 this.start=t,this.screen=e;let s=f("div",{className:"track"},this.#s,this.#o),n=f("div",{className:"\
 player"},this.#e,s,this.#n);this.player=n,this.element.append(this.#t,this.#r,n),this.#e.addEventListener(
 "click",()=>this.playOrPause()),this.#s.addEventListener("input",()=>this.#C(Number(this.#s.value))),
-this.#O()}#E(){return this.#p??=this.start(),this.#p}get playing(){return!!this.#m?.plays}drawOne(){
-this.#b?.drawOne()}async load(t,e){let s=await this.#E(),n=[];for(let[o,r]of t.keyframes.entries()){
+this.#S()}#E(){return this.#p??=this.start(),this.#p}get playing(){return!!this.#m?.plays}drawOne(){
+this.#x?.drawOne()}async load(t,e){let s=await this.#E(),n=[];for(let[o,r]of t.keyframes.entries()){
 let{coefficients:a}=t.knots[t.times.indexOf(r)],h=e[o]??[],c=await s.map({type:"place",pose:x(h),coefficients:a});
 n.push({pins:h,frame:c})}this.kept=n,this.#L(t),this.#v()}async keep(t){this.kept=[...this.kept,t],this.#g=
-null,this.#a=this.#w[this.kept.length-1],this.#v(),await this.#S()}release(){this.#k(null),this.#x=!0,
+null,this.#a=this.#w[this.kept.length-1],this.#v(),await this.#O()}release(){this.#k(null),this.#y=!0,
 this.#c=null,this.seen&&(this.seen=!1,this.screen.show(null),this.#M())}playOrPause(){let t=this.#i;
 if(!t)return;let e=this.seen?this.#a:t.start;this.#k(this.playing?null:de(t,e,!0))}#v(){let t=this.#w,
-e=s=>this.kept[t.indexOf(s)];this.#b=new tt(t,s=>this.#y(s,e(s)),s=>this.screen.thumbnail(e(s).frame),
-()=>this.screen.redraw()),this.#t.replaceChildren(...this.#b.buttons),this.element.hidden=this.kept.
+e=s=>this.kept[t.indexOf(s)];this.#x=new tt(t,s=>this.#b(s,e(s)),s=>this.screen.thumbnail(e(s).frame),
+()=>this.screen.redraw()),this.#t.replaceChildren(...this.#x.buttons),this.element.hidden=this.kept.
 length===0,this.player.hidden=this.kept.length<2,this.#M(),this.screen.redraw()}get#w(){return this.
-kept.map((t,e)=>this.#g?.[e]??e*ye)}#y(t,e){let s=this.#i;if(!s||!this.seen){this.#a=t,this.screen.take(
+kept.map((t,e)=>this.#g?.[e]??e*ye)}#b(t,e){let s=this.#i;if(!s||!this.seen){this.#a=t,this.screen.take(
 e),this.#M();return}this.#k(pe(s,this.#a,t),()=>{this.release(),this.screen.take(e),this.#M()})}#A(){
 let t=this.#T;t<0||(this.release(),this.kept=this.kept.filter((e,s)=>s!==t),this.#g=null,this.#a=0,this.#v(),
-this.#S())}get#T(){return this.#w.findIndex(t=>Math.abs(t-this.#a)<.001)}async#S(){this.#d+=1;let t=this.#d;
-if(this.#g=null,this.#i=null,this.#O(),!(this.kept.length<2)){this.#n.textContent="finding the way…";
+this.#O())}get#T(){return this.#w.findIndex(t=>Math.abs(t-this.#a)<.001)}async#O(){this.#d+=1;let t=this.#d;
+if(this.#g=null,this.#i=null,this.#S(),!(this.kept.length<2)){this.#n.textContent="finding the way…";
 try{let e=await this.#I(()=>t!==this.#d);if(t!==this.#d)return;let s=e.map((n,o)=>o*ye*(this.kept.length-
 1)/(e.length-1));this.#L({times:s,knots:e,keyframes:this.#w,repeat:"ping-pong"})}catch(e){if(t!==this.#d)
 return;this.#n.textContent="no way was found",this.screen.say(`The poses cannot be joined: ${e.message}`)}}}async#I(t){
@@ -298,20 +298,20 @@ await this.#E(),t,e,s);return this.#h.set(t,{start:s,to:e,knots:o}),o}#L({times:
 repeat:n}){let o=e[0].coefficients.length,r=new Float64Array(o*e.length);for(let[a,{coefficients:h}]of e.
 entries())r.set(h,a*o);this.#i=new et({times:t,repeat:n},r),this.#f=e,this.#g=s,this.#a=Math.min(Math.
 max(this.#a,this.#i.start),this.#i.end),this.#s.min=String(this.#i.start),this.#s.max=String(this.#i.
-end),this.#o.style.background=this.#F(this.#i),this.#P(),this.#O()}#F(t){return`linear-gradient(to r\
-ight, ${Array.from({length:xe},(s,n)=>{let o=t.start+(n+.5)/xe*(t.end-t.start),{piece:r}=t.place(o),
-a=Math.min(this.#f[r].sigma2,this.#f[r+1].sigma2);return`${this.screen.color(a)} ${n}% ${n+1}%`})})`}#C(t){
-this.#k(null),this.#R(t)}#R(t){let e=this.#i;e&&(this.#a=t===e.end?t:e.within(t),this.#c=this.#a,this.#x=
-!1,this.#P(),this.#u||this.#B(e))}async#B(t){this.#u=!0;try{let e=await this.#E();for(;this.#c!==null;){
+end),this.#o.style.background=this.#F(this.#i),this.#P(),this.#S()}#F(t){return`linear-gradient(to r\
+ight, ${Array.from({length:xe},(s,n)=>{let o=t.start+(n+.5)/xe*(t.end-t.start),{piece:r}=t.place(o);
+return`rgb(0 114 178/${Math.min(this.#f[r].sigma2,this.#f[r+1].sigma2)}) ${n}% ${n+1}%`})})`}#C(t){this.#k(
+null),this.#R(t)}#R(t){let e=this.#i;e&&(this.#a=t===e.end?t:e.within(t),this.#c=this.#a,this.#y=!1,
+this.#P(),this.#u||this.#B(e))}async#B(t){this.#u=!0;try{let e=await this.#E();for(;this.#c!==null;){
 let s=t.at(this.#c).slice();this.#c=null;let n=await e.map({type:"place",pose:x([]),coefficients:s});
-if(this.#x)break;this.seen=!0,this.screen.show(n)}}catch{this.screen.say("This instant is not proved\
+if(this.#y)break;this.seen=!0,this.screen.show(n)}}catch{this.screen.say("This instant is not proved\
 , so the frame before stays.")}finally{this.#u=!1}}#P(){let t=this.#i;t&&(this.#s.value=String(this.#a),
 this.#n.textContent=`${this.#a.toFixed(1)} / ${t.end.toFixed(1)} s`,this.#M())}#M(){let{repeat:t,last:e=0}=this.#i??
-{},s=t==="ping-pong"&&this.#a>e;this.#b?.mark(s?2*e-this.#a:this.#a),this.#r.hidden=this.#T<0}#k(t,e=()=>{}){
+{},s=t==="ping-pong"&&this.#a>e;this.#x?.mark(s?2*e-this.#a:this.#a),this.#r.hidden=this.#T<0}#k(t,e=()=>{}){
 cancelAnimationFrame(this.#l),this.#m=t&&{...t,began:performance.now()},t&&(this.#l=requestAnimationFrame(
-s=>this.#_(s,e))),this.#O()}#_(t,e){if(!this.#m)return;let{began:s,lasts:n,at:o}=this.#m,r=Math.min(
+s=>this.#_(s,e))),this.#S()}#_(t,e){if(!this.#m)return;let{began:s,lasts:n,at:o}=this.#m,r=Math.min(
 Math.max(t-s,0),n);if(this.#R(o(r)),r<n){this.#l=requestAnimationFrame(a=>this.#_(a,e));return}this.#k(
-null),e()}#O(){let{playing:t}=this;this.#e.disabled=!this.#i,this.#s.disabled=!this.#i,this.#e.textContent=
+null),e()}#S(){let{playing:t}=this;this.#e.disabled=!this.#i,this.#s.disabled=!this.#i,this.#e.textContent=
 t?"❚❚":"▶",this.#e.setAttribute("aria-label",t?"Pause":"Play")}};var Os={mouse:13,pen:16,touch:26},Ls=/^(Arrow\w+|Delete|Backspace|Escape|Enter|[0fax,.<>+=-])$/i,Rs=2,
 Ps=5,_s=.1,Is=.5,Ns=6,Fs=30,Cs=12,Bs=.06,Ds=.12,be=Math.PI/36,Mt=1.05,Ee={ArrowLeft:[-1,0],ArrowRight:[
 1,0],ArrowUp:[0,1],ArrowDown:[0,-1]},Us={"<":[be,1],">":[-be,1],"+":[0,Mt],"=":[0,Mt],"-":[0,1/Mt]},
@@ -346,14 +346,14 @@ let[e,s]=[t.map(([h])=>h),t.map(([,h])=>h)],n=(h,c)=>h>=Math.min(...c)&&h<=Math.
 editing,a=[...o.keys()].filter(h=>{let[c,l]=o[h].target;return n(c,e)&&n(l,s)});this.editing.select(
 [...r,...a])}#a(){this.#t=null,this.editing.cancelGesture()}#d(t){this.editing.pin(t)||this.around.say(
 "There is no shape here. Choose a place on it.")}#m(t,e){let{editing:s,around:n}=this,o={undo:()=>s.
-undo(),redo:()=>s.redo(),Delete:()=>s.remove(),Backspace:()=>s.remove(),Escape:()=>this.#p(),Enter:()=>this.#x(
+undo(),redo:()=>s.redo(),Delete:()=>s.remove(),Backspace:()=>s.remove(),Escape:()=>this.#p(),Enter:()=>this.#y(
 e),0:n.reset,f:n.fit,a:()=>s.select([...s.pins.keys()]),x:()=>s.turn(()=>({angle:null,scale:null})),
 ",":()=>this.#u(-1),".":()=>this.#u(1)},r=Us[t];Ee[t]?this.#c(Ee[t],e):r?this.#l(r):(o[t]??o[t.toLowerCase()])?.(),
 n.redraw()}#l([t,e]){let{editing:s}=this;s.turn(n=>{let{angle:o,scale:r}=s.turnOf(n);return t?{angle:o+
 t}:{scale:r*e}})}#p(){if(this.editing.inGesture){this.#a();return}this.editing.select([]),this.cursorAt=
 null}#u(t){this.editing.selectNext(t),this.cursorAt=null}#c([t,e],{x:s,y:n,unit:o,shift:r}){let{editing:a}=this;
 if(a.selected.length&&!this.cursorAt){let u=r?Is:_s;a.nudge([u*t,u*e]);return}let h=(r?Fs:Ns)*o,[c,l]=this.
-cursorAt??[s,n];this.cursorAt=[c+h*t,l+h*e]}#x({x:t,y:e,reach:s}){let n=this.cursorAt;if(!n){this.cursorAt=
+cursorAt??[s,n];this.cursorAt=[c+h*t,l+h*e]}#y({x:t,y:e,reach:s}){let n=this.cursorAt;if(!n){this.cursorAt=
 [t,e];return}let o=Z(this.editing.marks,n,s)?.mark;this.cursorAt=null,o===void 0?this.#d(n):this.editing.
 select([Number(o)])}};var ve=[["Pins",[["Click or tap the shape","pin a point"],["Drag a pin, or the shape","move it there\
 ; the shape follows, and never folds"],["Drag the ring; Alt on the pin","turn the shape there; the k\
@@ -415,25 +415,25 @@ return i.offset_cage.forEach(([o,r],a)=>{s[a]=o,s[e+a]=r}),s}var Le={0:"Picture"
 "pad");#e=f("select",{id:"overlay","aria-label":"What is shown"});#s=S("undo","Undo (Ctrl+Z)",()=>this.#u(
 "undo"));#o=S("redo","Redo (Ctrl+Shift+Z)",()=>this.#u("redo"));#n=S("trash","Remove the selected pi\
 ns (Delete)",()=>this.#u("Delete"));#r=ne(ve);#h=null;#i=0;#f=!0;#a;constructor(t,{stage:e,editing:s,
-view:n},o){this.data=t,this.stage=e,this.editing=s,this.view=n,this.film=new st(o,{show:a=>this.#b(a),
+view:n},o){this.data=t,this.stage=e,this.editing=s,this.view=n,this.film=new st(o,{show:a=>this.#x(a),
 thumbnail:a=>this.#E(a),redraw:()=>this.redraw(),take:({pins:a,frame:h})=>s.replace(a,h.coefficients),
-say:a=>this.report.say(a),color:a=>this.#T(a)}),this.hand=new nt(s,n,{fit:()=>this.fit(),reset:()=>this.#c(),
-redraw:()=>this.redraw(),play:()=>this.film.playOrPause(),say:a=>this.report.say(a),help:this.#r.toggle}),
-this.pad=new Q(this.#t,n,this.hand,this.hand);let r=f("canvas",{className:"paper"});this.#t.append(r),
-this.#a=Ut(r,n,this.hand.signal,a=>this.#v(a)),n.changed=()=>this.redraw(),s.told=()=>{this.#f=!0,document.
-documentElement.dataset.settled="false",this.report.plot(s.frame),this.redraw()},this.#d(),this.#l(),
-this.redraw()}#d(){for(let[h,c]of Object.entries(Le))this.#e.append(new Option(c,h));let t=f("div",{
-id:"menu",popover:"auto"},...this.#m());t.addEventListener("click",()=>t.hidePopover());let e=S("exp\
-ort","Copy, download, reset",void 0);e.popoverTargetElement=t;let s=[this.#s,this.#o,this.#n];m("too\
-ls").append(...s,this.#e,e,this.#r.button),document.body.append(t,this.#r.table);let n=f("b",{"aria-\
-hidden":"true"},"+"),r=f("button",{className:"keep",title:"Keep this pose",onclick:()=>this.#x()});r.
-append(n,"Keep pose"),m("dock").prepend(r,this.film.element),this.data.poses[0].length&&(m("hint").textContent=
-"Drag a pin.");let a=Array.from({length:this.#y},(h,c)=>this.#A(c));document.documentElement.style.setProperty(
-"--colors",a.join())}#m(){let{data:t,editing:e,report:s}=this,n=(o,r)=>f("button",{onclick:r},o);return[
+say:a=>this.report.say(a)}),this.hand=new nt(s,n,{fit:()=>this.fit(),reset:()=>this.#c(),redraw:()=>this.
+redraw(),play:()=>this.film.playOrPause(),say:a=>this.report.say(a),help:this.#r.toggle}),this.pad=new Q(
+this.#t,n,this.hand,this.hand);let r=f("canvas",{className:"paper"});this.#t.append(r),this.#a=Ut(r,
+n,this.hand.signal,a=>this.#v(a)),n.changed=()=>this.redraw(),s.told=()=>{this.#f=!0,document.documentElement.
+dataset.settled="false",this.report.plot(s.frame),this.redraw()},this.#d(),this.#l(),this.redraw()}#d(){
+for(let[h,c]of Object.entries(Le))this.#e.append(new Option(c,h));let t=f("div",{id:"menu",popover:"\
+auto"},...this.#m());t.addEventListener("click",()=>t.hidePopover());let e=S("export","Copy, downloa\
+d, reset",void 0);e.popoverTargetElement=t;let s=[this.#s,this.#o,this.#n];m("tools").append(...s,this.#e,
+e,this.#r.button),document.body.append(t,this.#r.table);let n=f("b",{"aria-hidden":"true"},"+"),r=f(
+"button",{className:"keep",title:"Keep this pose",onclick:()=>this.#y()});r.append(n,"Keep pose"),m(
+"dock").prepend(r,this.film.element),this.data.poses[0].length&&(m("hint").textContent="Drag a pin.");
+let a=Array.from({length:this.#b},(h,c)=>this.#A(c));document.documentElement.style.setProperty("--c\
+olors",a.join())}#m(){let{data:t,editing:e,report:s}=this,n=(o,r)=>f("button",{onclick:r},o);return[
 n("Copy the pose as Python",async()=>s.say(await le(t,e))),n("Download the picture",()=>{ue(t,this.stage,
 this.shown),this.redraw()}),n("Download the map and its proof",async()=>{this.film.release(),s.say(await fe(
 t,e))}),n("Fit the window",()=>this.fit()),n("Back to the undeformed shape",()=>this.#c())]}#l(){this.#e.
-addEventListener("change",()=>{this.#S(),this.redraw()});let t=n=>{!this.film.seen||n.button===1||(this.
+addEventListener("change",()=>{this.#T(),this.redraw()});let t=n=>{!this.film.seen||n.button===1||(this.
 film.release(),n.stopImmediatePropagation(),n.preventDefault())};this.#t.addEventListener("pointerdo\
 wn",t,{capture:!0}),document.addEventListener("keydown",n=>this.#p(n));let{dataset:e}=this.#t;document.
 addEventListener("keydown",()=>Object.assign(e,{keys:""}),!0),document.addEventListener("pointerdown",
@@ -441,7 +441,7 @@ addEventListener("keydown",()=>Object.assign(e,{keys:""}),!0),document.addEventL
 -scheme: dark)").addEventListener("change",()=>this.report.draw())}#p(t){let e=t.target;if(this.#t.contains(
 e)||t.key==="Tab")return;let s=e.matches("input, select")&&!J(t),n=e.matches("button")&&/^(Enter| )$/.
 test(t.key);if(!(s||n)){if(t.key!==" "){this.pad.keydown(t);return}t.preventDefault(),this.film.playOrPause()}}#u(t){
-this.film.release(),this.pad.press(t)}#c(){this.film.release(),this.editing.replace([],U(this.data.outline))}#x(){
+this.film.release(),this.pad.press(t)}#c(){this.film.release(),this.editing.replace([],U(this.data.outline))}#y(){
 this.film.release();let{pins:t,frame:e}=this.editing;this.film.keep({pins:t,frame:e}),this.report.tell(
 `Pose ${this.film.kept.length} is kept`),m("hint").hidden=!0}get shown(){return this.#h??this.editing.
 frame}fit(){let t=B(this.#t),e=this.shown.images??[];Object.assign(this.view,t.size,D(e,t,this.data.
@@ -449,17 +449,16 @@ margin)),this.report.draw(),this.redraw()}redraw(){this.#a(),!this.#i&&(this.#i=
 ()=>{this.#i=0,this.#f&&this.#w(),this.film.drawOne();let{width:t,height:e,unit:s,x:n,y:o}=this.view,
 r={width:t,height:e,unit:s,x:n,y:o};this.stage.paint(this.shown,r,this.#e.value,this.#g),document.documentElement.
 dataset.drawn=String(this.shown.id)}))}get#g(){return this.pad.held.size>0||this.film.playing||!this.
-editing.settled}#b(t){this.#h=t,this.report.proved(this.shown),this.redraw()}#E(t){let e={width:Re,height:Re},
+editing.settled}#x(t){this.#h=t,this.report.proved(this.shown),this.redraw()}#E(t){let e={width:Re,height:Re},
 s={...e,left:0,top:0,size:e},n=D(t.images??[],s,this.data.margin);return this.stage.paint(t,{...e,...n},
 Vs),this.stage.canvas}#v(t){let{editing:e,pad:s,hand:n,view:o}=this;if(this.#h)return;let r=s.focused?
 n.cursorAt:null,{marks:a}=e;ee(t,o,a,{hovered:s.found?.mark,held:s.held,cursor:r}),Ae(t,o,a,e.missed,
 e.refused),s.encloses&&s.path.length>2&&te(t,o,s.path)}#w(){let{editing:t,report:e}=this;this.#f=!1,
 this.#s.disabled=!t.canUndo,this.#o.disabled=!t.canRedo,this.#n.disabled=t.selected.length===0,t.canUndo&&
 (m("hint").hidden=!0),e.draw(),e.proved(this.shown),e.pins(t),document.documentElement.dataset.settled=
-String(t.settled)}get#y(){return this.data.colors.length/3}#A(t){return`rgb(${this.data.colors.slice(
-3*t,3*t+3).map(s=>Math.round(255*s))})`}#T(t){return this.#A(Math.round((1-Math.min(t,1))*(this.#y-1)))}#S(){
-let{value:t}=this.#e,e=this.data.ranges[t],s=m("legend");s.hidden=!e,e&&s.replaceChildren(`${Le[t]} ${e[0]}`,
-f("i"),`${e[1]}`)}};var ht=class{#t;#e=0;#s=new Map;constructor(t,e=()=>{}){this.#t=t,this.onmap=e,t.onmessage=({data:s})=>this.#n(
+String(t.settled)}get#b(){return this.data.colors.length/3}#A(t){return`rgb(${this.data.colors.slice(
+3*t,3*t+3).map(s=>Math.round(255*s))})`}#T(){let{value:t}=this.#e,e=this.data.ranges[t],s=m("legend");
+s.hidden=!e,e&&s.replaceChildren(`${Le[t]} ${e[0]}`,f("i"),`${e[1]}`)}};var ht=class{#t;#e=0;#s=new Map;constructor(t,e=()=>{}){this.#t=t,this.onmap=e,t.onmessage=({data:s})=>this.#n(
 s)}ask(t){let e=this.#o(t);return new Promise((s,n)=>this.#s.set(e,{resolve:s,reject:n}))}async map(t){
 let e=await this.ask(t);if(e.type!=="map")throw new Error(`the answer is no map but of type ${e.type}`);
 return e}drag(t){return this.#o({type:"drag",pose:t})}place(t,e){return this.#o({type:"place",pose:t,

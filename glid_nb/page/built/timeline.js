@@ -101,53 +101,55 @@ cancelAnimationFrame(this.#frame);this.#frame=0;this.moved()}release(time){this.
 if(this.seen){this.seen=false;this.show(null)}this.moved()}#seek(time){const{clock}=this;if(!clock){
 this.release(0);return}this.time=time===clock.end?time:clock.within(time);this.seen=true;const{place}=this;
 const interval=this.#intervals.find(({end})=>place<=end)??this.#intervals.at(-1);const shown=this.show(
-interval?.motion?.at(place)??null,place);this.moved();return shown}};var LATER=1.15;var LEAST=1;var MOST_LABELS=12;var STEPS=[.1,.2,.5,1,2,5,10,30,60,300,600];var LONGEST_STEP=1800;
-var SAME=1e-9;var ROUNDING=.006;function withReturn({keyframes,repeat,back}){const last=keyframes.at(
--1);if(repeat!=="loop"||keyframes.length<2||!last)return keyframes;const[first]=keyframes;return[...keyframes,
-{...first,time:last.time+back,name:`Back to ${first.name}`}]}function spanOf(keyframes){return Math.
-max(LEAST,keyframes.at(-1)?.time??0)*LATER}function roomAt(keyframes,index,span){const{time}=keyframes[index];
+interval?.motion?.at(place)??null,place);this.moved();return shown}};var LATER=1.15;var LEAST=1;var MOST_LABELS=12;var LABEL=38;var STEPS=[.1,.2,.5,1,2,5,10,30,60,300,600];
+var LONGEST_STEP=1800;var SAME=1e-9;var ROUNDING=.006;function withReturn({keyframes,repeat,back}){const last=keyframes.
+at(-1);if(repeat!=="loop"||keyframes.length<2||!last)return keyframes;const[first]=keyframes;return[
+...keyframes,{...first,time:last.time+back,name:`Back to ${first.name}`}]}function spanOf(keyframes){
+return Math.max(LEAST,keyframes.at(-1)?.time??0)*LATER}function roomAt(keyframes,index,span){const{time}=keyframes[index];
 const before=index>0?time-keyframes[index-1].time:span;const after=index+1<keyframes.length?keyframes[index+
-1].time-time:span;return Math.min(before,after)}function labelledTimes(span){const step=STEPS.find(one=>span/
-one<=MOST_LABELS)??LONGEST_STEP;return Array.from({length:Math.floor(span/step)+1},(_,i)=>i*step)}function keyAt(keyframes,time){
-return keyframes.findIndex(key=>Math.abs(key.time-time)<SAME)}function nextKey(keyframes,time,sign){
-const beyond=[...keyframes.keys()].filter(i=>sign*(keyframes[i].time-time)>SAME);return(sign>0?beyond[0]:
-beyond.at(-1))??null}function landing(keyframes,index,time,least){const gap2=Math.ceil(100*least)/100;
-const others=keyframes.filter((_,i)=>i!==index).map(key=>key.time);const earliest=index<keyframes.length?
-0:(others.at(-1)??0)+gap2;const free=at=>at>=earliest&&others.every(other=>Math.abs(at-other)>gap2-ROUNDING);
-const places=[Math.max(time,earliest),...others.flatMap(other=>[other-gap2,other+gap2])];const far=at=>Math.
-abs(at-time);return places.map(at=>Math.round(100*at)/100).filter(free).sort((a,b)=>far(a)-far(b))[0]}function scaleOf(element){const{width,height}=element.getBoundingClientRect();const across=width/element.
-offsetWidth||1;return{across,down:height/element.offsetHeight||across}}var SNAP=6;var STILL=4;var SLIM=8;var WIDE=60;var LEAST_HEIGHT=.06;var Track=class{span=1;keys=make(
-"div",{className:"glid-keys"});head=make("div",{className:"glid-playhead"});ruler=make("div",{className:"\
-glid-ruler",tabIndex:0,role:"slider","aria-label":"Time","aria-valuemin":0});#drag=null;#scrubbing=null;#shown=null;constructor(hand){
+1].time-time:span;return Math.min(before,after)}function labelledTimes(span,width=0){const most=width?
+Math.min(width/LABEL,MOST_LABELS):MOST_LABELS;const step=STEPS.find(one=>span/one<=most)??LONGEST_STEP;
+return Array.from({length:Math.floor(span/step)+1},(_,i)=>i*step)}function keyAt(keyframes,time){return keyframes.
+findIndex(key=>Math.abs(key.time-time)<SAME)}function nextKey(keyframes,time,sign){const beyond=[...keyframes.
+keys()].filter(i=>sign*(keyframes[i].time-time)>SAME);return(sign>0?beyond[0]:beyond.at(-1))??null}function landing(keyframes,index,time,least){
+const gap2=Math.ceil(100*least)/100;const others=keyframes.filter((_,i)=>i!==index).map(key=>key.time);
+const earliest=index<keyframes.length?0:(others.at(-1)??0)+gap2;const free=at=>at>=earliest&&others.
+every(other=>Math.abs(at-other)>gap2-ROUNDING);const places=[Math.max(time,earliest),...others.flatMap(
+other=>[other-gap2,other+gap2])];const far=at=>Math.abs(at-time);return places.map(at=>Math.round(100*
+at)/100).filter(free).sort((a,b)=>far(a)-far(b))[0]}var LEAST_HEIGHT=.06;function heightOf(bound){return Math.min(Math.max(bound,LEAST_HEIGHT),1)}function scaleOf(element){const{width,height}=element.getBoundingClientRect();const across=width/element.
+offsetWidth||1;return{across,down:height/element.offsetHeight||across}}var SNAP=6;var STILL=4;var SLIM=8;var WIDE=60;var INSET=34;var Track=class{span=1;keys=make("div",{className:"\
+glid-keys"});head=make("div",{className:"glid-playhead"});ruler=make("div",{className:"glid-ruler",tabIndex:0,
+role:"slider","aria-label":"Time","aria-valuemin":0});#drag=null;#scrubbing=null;#shown=null;constructor(hand){
 this.hand=hand;this.strip=make("div",{className:"glid-strip",role:"img",onpointerleave:()=>hand.hover(
 "")});const parts=[this.ruler,this.keys,this.strip,this.head];this.element=make("div",{className:"gl\
-id-track"},...parts);this.element.addEventListener("pointerdown",e=>this.#down(e));this.element.addEventListener(
-"pointermove",e=>this.#scrub(e));this.element.addEventListener("lostpointercapture",e=>this.#up(e))}focus(){
-this.ruler.focus({preventScroll:true})}drop(){this.#drag=null;this.#scrubbing=null;this.hand.hover("");
-this.hand.dropped()}landing(index,time){const least=SLIM/this.#inside().width*this.span;return landing(
-this.#shown?.keyframes??[],index,time,least)}showHead(place,seen){this.head.style.left=this.#at(place);
-this.head.classList.toggle("glid-seen",seen);this.element.dataset.time=String(place);this.element.dataset.
-span=String(this.span);this.ruler.setAttribute("aria-valuenow",place.toFixed(2));this.ruler.setAttribute(
-"aria-valuetext",seconds(place))}showKeys(shown,thumbnails){this.#shown=shown;if(this.#drag||this.#scrubbing!==
-null)return;const all=withReturn(shown);this.span=spanOf(all);this.ruler.setAttribute("aria-valuemax",
-this.span.toFixed(2));const root=this.keys.getRootNode();const active=root.activeElement;const focused=[
-...this.keys.children].indexOf(active);this.keys.replaceChildren(...all.map(({name,time,thumbnail},i)=>{
-const title=`${name} at ${seconds(time)}`;const width=`${this.#wide(roomAt(all,i,this.span))} - 2px`;
-const own=i<shown.keyframes.length;const picture=thumbnail===void 0?void 0:thumbnails[thumbnail];return make(
-"button",{className:own?"glid-key":"glid-key glid-return",title:`${title}; drag it to another time`,
-"aria-label":title,"aria-pressed":i===shown.active,style:`left: ${this.#at(time)}; width: clamp(${SLIM}\
-px, ${width}, ${WIDE}px)`,onpointerdown:e=>this.#grab(e,i,time),onclick:e=>{if(!e.detail)this.hand.select(
-i%shown.keyframes.length)}},...picture?[make("img",{src:picture,alt:"",draggable:false})]:[])}));const key=this.
-keys.children[focused];if(key instanceof HTMLElement)key.focus()}showSpans(spans,label){this.strip.replaceChildren(
-...spans.flatMap(span=>this.#pieces(span)));this.strip.setAttribute("aria-label",label);const labels=labelledTimes(
-this.span).map(time=>make("span",{style:`left: ${this.#at(time)}`},`${Number(time.toFixed(1))}`));this.
-ruler.replaceChildren(...labels)}#pieces({start,end,status,reason,times,sigma2}){const proved=sigma2.
-map((bound,i)=>{const when=`from ${seconds(times[i])} to ${seconds(times[i+1])}`;const height=Math.min(
-Math.max(bound,LEAST_HEIGHT),1);const text2=`σ₂ ≥ ${bound.toFixed(3)} ${when}`;return this.#piece(
-times[i],times[i+1],"proved",text2,height)});if(status==="proved")return proved;const from=status===
-"fails"?times.at(-1)??start:start;const text=reason||`Not proved yet from ${seconds(start)} to ${seconds(
-end)}`;return[...proved,this.#piece(from,end,status,text,1)]}#piece(start,end,kind,text,height){const width=`\
-calc(${this.#wide(end-start)})`;return make("div",{className:`glid-piece glid-${kind}`,title:text,onpointerenter:()=>this.
+id-track"},...parts);new ResizeObserver(()=>this.#label()).observe(this.ruler);this.element.addEventListener(
+"pointerdown",e=>this.#down(e));this.element.addEventListener("pointermove",e=>this.#scrub(e));this.
+element.addEventListener("lostpointercapture",e=>this.#up(e))}focus(){this.ruler.focus({preventScroll:true})}drop(){
+this.#drag=null;this.#scrubbing=null;this.hand.hover("");this.hand.dropped()}landing(index,time){const least=SLIM/
+this.#inside().width*this.span;return landing(this.#shown?.keyframes??[],index,time,least)}showHead(place,seen){
+this.head.style.left=this.#at(place);this.head.classList.toggle("glid-seen",seen);this.element.dataset.
+time=String(place);this.element.dataset.span=String(this.span);this.ruler.setAttribute("aria-valueno\
+w",place.toFixed(2));this.ruler.setAttribute("aria-valuetext",seconds(place))}showKeys(shown,thumbnails){
+this.#shown=shown;if(this.#drag||this.#scrubbing!==null)return;const all=withReturn(shown);this.span=
+spanOf(all);this.ruler.setAttribute("aria-valuemax",this.span.toFixed(2));const root=this.keys.getRootNode();
+const active=root.activeElement;const focused=[...this.keys.children].indexOf(active);this.keys.replaceChildren(
+...all.map(({name,time,thumbnail},i)=>{const title=`${name} at ${seconds(time)}`;const width=`${this.#wide(
+roomAt(all,i,this.span))} - 2px`;const own=i<shown.keyframes.length;const picture=thumbnail===void 0?
+void 0:thumbnails[thumbnail];return make("button",{className:own?"glid-key":"glid-key glid-return",title:`${title}\
+; drag it to another time`,"aria-label":title,"aria-pressed":i===shown.active,style:`left: ${this.#at(
+time)}; width: clamp(${SLIM}px, ${width}, ${WIDE}px)`,onpointerdown:e=>this.#grab(e,i,time),onclick:e=>{
+if(!e.detail)this.hand.select(i%shown.keyframes.length)}},...picture?[make("img",{src:picture,alt:"",
+draggable:false})]:[])}));const key=this.keys.children[focused];if(key instanceof HTMLElement)key.focus()}showSpans(spans,label){
+this.strip.replaceChildren(...spans.flatMap(span=>this.#pieces(span)));this.strip.setAttribute("aria\
+-label",label);this.#label()}#label(){const{ruler,span}=this;const labels=labelledTimes(span,Math.max(
+ruler.clientWidth-2*INSET,0)).map(time=>make("span",{style:`left: ${this.#at(time)}`},`${Number(time.
+toFixed(1))}`));ruler.replaceChildren(...labels)}#pieces({start,end,status,reason,times,sigma2}){const proved=sigma2.
+map((bound,i)=>{const when=`from ${seconds(times[i])} to ${seconds(times[i+1])}`;const height=heightOf(
+bound);const text2=`σ₂ ≥ ${bound.toFixed(3)} ${when}`;return this.#piece(times[i],times[i+1],"p\
+roved",text2,height)});if(status==="proved")return proved;const from=status==="fails"?times.at(-1)??
+start:start;const text=reason||`Not proved yet from ${seconds(start)} to ${seconds(end)}`;return[...proved,
+this.#piece(from,end,status,text,1)]}#piece(start,end,kind,text,height){const width=`calc(${this.#wide(
+end-start)})`;return make("div",{className:`glid-piece glid-${kind}`,title:text,onpointerenter:()=>this.
 hand.hover(text),style:`left: ${this.#at(start)}; width: ${width}; --glid-height: ${height}`})}#wide(time){
 return`${time/this.span} * (100% - 2 * var(--glid-inset))`}#at(time){return`calc(var(--glid-inset) +\
  ${this.#wide(time)})`}#inside(){const{left,width}=this.element.getBoundingClientRect();const length=getComputedStyle(

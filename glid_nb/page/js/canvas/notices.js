@@ -1,4 +1,5 @@
-// What the canvas says in words: a refusal, or what the hand can do now; how far it has warmed up.
+// What the canvas says in words: a refusal, or what the hand can do now. A thin bar below the picture
+// shows how far the solver is prepared; the status line says the same in words.
 
 import { make } from "../pad/dom.js";
 
@@ -7,7 +8,12 @@ const PAINT = "Paint areas that should stay stiff · E erases · Esc when done";
 
 export class Notices {
   notice = make("div", { className: "glid-notice", role: "status" });
-  prepared = make("div", { className: "glid-prepared", role: "status" });
+  prepared = make("div", {
+    className: "glid-prepared",
+    role: "progressbar",
+    "aria-label": "Preparing the solver",
+    hidden: true,
+  });
 
   /**
    * @param {string} refusal
@@ -26,7 +32,7 @@ export class Notices {
   prepare(share) {
     const { prepared } = this;
     prepared.hidden = share >= 1;
-    prepared.textContent = `Warming up: ${Math.round(100 * share)} %`;
-    prepared.style.backgroundSize = `${100 * share}% 100%, auto`;
+    prepared.setAttribute("aria-valuenow", String(Math.round(100 * share)));
+    prepared.style.setProperty("--glid-share", String(share));
   }
 }

@@ -16,6 +16,7 @@ const LEAST = 480; // of the height, and of the width beside the plots
 const GAP = 16; // between canvas and plots
 const SLACK = 20; // a scroll bar that comes and goes changes nothing
 const SETTLE = 80; // ms
+const NARROW = 600; // an editor with less width, as on a phone, has its canvas first
 
 export class Room {
   /** @type {HTMLElement | null} the editor */
@@ -103,6 +104,7 @@ export class Room {
     const column = this.pad.closest(".glid-column");
     const around = column?.parentElement;
     if (!root || !around || !column.clientWidth) return;
+    root.classList.toggle("glid-narrow", root.clientWidth < NARROW);
     const room = this.#roomIn(root, column, around);
     if (!this.#root) this.#begin(root, around, room);
     this.#room = room;

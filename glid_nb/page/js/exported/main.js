@@ -1,6 +1,7 @@
 // Shows a picture under a map, or plays its motion, from the data in the page.
 
 import { Motion } from "../motion/motion.js";
+import { proofStrip } from "../motion/strip.js";
 import { make } from "../pad/dom.js";
 import { View } from "../pad/view.js";
 import { glideTo, playedFrom } from "./course.js";
@@ -20,8 +21,6 @@ const PLAIN = "0"; // the picture alone
 const STEP = 1 / 25; // s, of the arrow keys
 const FAST = 5; // times as far with Shift
 const THUMBNAIL = 56; // CSS pixels
-const STRIPES = 100; // of the strip below the slider
-const UNPROVED = "#7f7f7f";
 
 /**
  * @template {HTMLElement} T
@@ -185,7 +184,11 @@ class Page {
     slider.min = String(motion.start);
     slider.max = String(motion.end);
     byId("poses", HTMLDivElement).append(...this.poses.buttons);
-    byId("strip", HTMLDivElement).style.background = this.#strip();
+    const { sigma2, until } = this.data.motion;
+    const boundAt = (/** @type {number} */ time) =>
+      time < until ? (sigma2[motion.place(time).piece] ?? 0) : -1;
+    const background = proofStrip(motion, boundAt);
+    byId("strip", HTMLDivElement).style.background = background;
     this.play.addEventListener("click", () => this.#playOrPause());
     slider.addEventListener("input", () => this.#goTo(Number(slider.value)));
     document.addEventListener("keydown", (e) => this.#keydown(e));
@@ -193,20 +196,6 @@ class Page {
     this.#run(null);
     const still = matchMedia("(prefers-reduced-motion: reduce)").matches;
     if (this.data.loop && !still) this.#playOrPause();
-  }
-
-  // The bound on sigma_2 at every time, as colours.
-  #strip() {
-    const { motion } = this;
-    const { sigma2, until } = this.data.motion;
-    const span = motion.end - motion.start;
-    const colors = Array.from({ length: STRIPES }, (_, i) => {
-      const time = motion.start + ((i + 0.5) / STRIPES) * span;
-      const bound = sigma2[motion.place(time).piece] ?? 0;
-      const stop = Math.round((1 - Math.min(bound, 1)) * (this.#stops - 1));
-      return `${time < until ? this.#css(stop) : UNPROVED} ${i}% ${i + 1}%`;
-    });
-    return `linear-gradient(to right, ${colors})`;
   }
 
   /** @param {KeyboardEvent} e */

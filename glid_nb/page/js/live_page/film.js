@@ -36,7 +36,6 @@ const STEP = 1 / 25; // s, of the arrow keys on the slider
  * @property {() => void} redraw
  * @property {(kept: Kept) => void} take goes on with a kept pose
  * @property {(text: string) => void} say
- * @property {(bound: number) => string} color of a bound on sigma_2
  */
 
 export class Film {
@@ -279,7 +278,7 @@ export class Film {
       const time = motion.start + ((i + 0.5) / STRIPES) * (motion.end - motion.start);
       const { piece } = motion.place(time);
       const bound = Math.min(this.#knots[piece].sigma2, this.#knots[piece + 1].sigma2);
-      return `${this.screen.color(bound)} ${i}% ${i + 1}%`;
+      return `rgb(0 114 178/${bound}) ${i}% ${i + 1}%`; // the larger the bound, the fuller
     });
     return `linear-gradient(to right, ${colors})`;
   }

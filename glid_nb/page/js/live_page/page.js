@@ -67,7 +67,6 @@ export class LivePage {
       redraw: () => this.redraw(),
       take: ({ pins, frame }) => editing.replace(pins, frame.coefficients),
       say: (text) => this.report.say(text),
-      color: (bound) => this.#color(bound),
     });
     this.hand = new Hand(editing, view, {
       fit: () => this.fit(),
@@ -276,11 +275,6 @@ export class LivePage {
   #css(stop) {
     const color = this.data.colors.slice(3 * stop, 3 * stop + 3);
     return `rgb(${color.map((share) => Math.round(255 * share))})`;
-  }
-
-  /** @param {number} bound on sigma_2 */
-  #color(bound) {
-    return this.#css(Math.round((1 - Math.min(bound, 1)) * (this.#stops - 1)));
   }
 
   #showLegend() {

@@ -5,6 +5,7 @@
 const LATER = 1.15; // room behind the last keyframe, to drag it there
 const LEAST = 1; // s
 const MOST_LABELS = 12;
+const LABEL = 38; // CSS pixels that a label needs
 const STEPS = [0.1, 0.2, 0.5, 1, 2, 5, 10, 30, 60, 300, 600]; // s between labels
 const LONGEST_STEP = 1800;
 const SAME = 1e-9; // s
@@ -50,9 +51,11 @@ export function roomAt(keyframes, index, span) {
  * The times that get a label.
  *
  * @param {number} span
+ * @param {number} width of the span in CSS pixels; 0 while it is not known
  */
-export function labelledTimes(span) {
-  const step = STEPS.find((one) => span / one <= MOST_LABELS) ?? LONGEST_STEP;
+export function labelledTimes(span, width = 0) {
+  const most = width ? Math.min(width / LABEL, MOST_LABELS) : MOST_LABELS;
+  const step = STEPS.find((one) => span / one <= most) ?? LONGEST_STEP;
   return Array.from({ length: Math.floor(span / step) + 1 }, (_, i) => i * step);
 }
 

@@ -2,6 +2,7 @@
 //
 // A keyframe is dragged along time, or clicked; elsewhere a pointer scrubs.
 
+import { heightOf } from "../motion/strip.js";
 import { make } from "../pad/dom.js";
 import { scaleOf } from "../pad/place.js";
 import { labelledTimes, landing, roomAt, spanOf, withReturn } from "./scale.js";
@@ -29,7 +30,7 @@ const SNAP = 6; // around a keyframe, of a pointer that scrubs
 const STILL = 4; // that a click may move
 const SLIM = 8; // width of a keyframe, at least
 const WIDE = 60; // at most
-const LEAST_HEIGHT = 0.06; // of a proved piece, as a share of the strip's
+const INSET = 34; // --glid-inset of the style sheet
 
 export class Track {
   span = 1; // s, what it shows
@@ -60,6 +61,7 @@ export class Track {
     });
     const parts = [this.ruler, this.keys, this.strip, this.head];
     this.element = make("div", { className: "glid-track" }, ...parts);
+    new ResizeObserver(() => this.#label()).observe(this.ruler);
     this.element.addEventListener("pointerdown", (e) => this.#down(e));
     this.element.addEventListener("pointermove", (e) => this.#scrub(e));
     this.element.addEventListener("lostpointercapture", (e) => this.#up(e));
@@ -148,17 +150,22 @@ export class Track {
   showSpans(spans, label) {
     this.strip.replaceChildren(...spans.flatMap((span) => this.#pieces(span)));
     this.strip.setAttribute("aria-label", label);
-    const labels = labelledTimes(this.span).map((time) =>
+    this.#label();
+  }
+
+  #label() {
+    const { ruler, span } = this;
+    const labels = labelledTimes(span, Math.max(ruler.clientWidth - 2 * INSET, 0)).map((time) =>
       make("span", { style: `left: ${this.#at(time)}` }, `${Number(time.toFixed(1))}`),
     );
-    this.ruler.replaceChildren(...labels);
+    ruler.replaceChildren(...labels);
   }
 
   /** @param {Span} span */
   #pieces({ start, end, status, reason, times, sigma2 }) {
     const proved = sigma2.map((bound, i) => {
       const when = `from ${seconds(times[i])} to ${seconds(times[i + 1])}`;
-      const height = Math.min(Math.max(bound, LEAST_HEIGHT), 1);
+      const height = heightOf(bound);
       const text = `σ₂ ≥ ${bound.toFixed(3)} ${when}`;
       return this.#piece(times[i], times[i + 1], "proved", text, height);
     });

@@ -1,0 +1,165 @@
+"""The editor on a phone, in dark themes and in high contrast, and nothing of it cut off."""
+
+from __future__ import annotations
+
+import itertools
+
+import pytest
+from playwright.sync_api import Locator
+
+from .conftest import OpenNotebook
+from .editor_page import SETUP, Hand
+
+pytestmark = [pytest.mark.browser, pytest.mark.slow]
+
+EDITOR = """
+editor = glid.Editor(picture, n_vertices=300)
+canvas, model = editor.canvas, editor.deformation
+editor
+"""
+PINNED = "model.add_handles([(-6.0, 0.0), (6.0, 0.0)]); model.save_pose(); model.select([0])"
+
+_BOX = """(one) => {
+  const { x, y, width, height } = one.getBoundingClientRect();
+  return [x, y, width, height];
+}"""
+# The contrasts of a colour with black and with white, by WCAG.
+_CONTRASTS = """(one) => {
+  const [r, g, b] = getComputedStyle(one).backgroundColor.match(/[0-9.]+/g).map(Number)
+    .map((v) => v / 255).map((v) => v <= 0.04045 ? v / 12.92 : ((v + 0.055) / 1.055) ** 2.4);
+  const luminance = 0.2126 * r + 0.7152 * g + 0.0722 * b;
+  return [(luminance + 0.05) / 0.05, 1.05 / (luminance + 0.05)];
+}"""
+# By how many pixels the longest row of a menu is wider than the menu's text.
+_CUT_OFF = """(menu) => {
+  const pen = document.createElement('canvas').getContext('2d');
+  const style = getComputedStyle(menu);
+  pen.font = `${style.fontSize} ${style.fontFamily}`;
+  const padding = parseFloat(style.paddingLeft) + parseFloat(style.paddingRight);
+  const longest = Math.max(...[...menu.options].map((one) => pen.measureText(one.text).width));
+  return longest + padding - menu.clientWidth;
+}"""
+
+
+def box(of: Locator) -> list[float]:
+    return of.evaluate(_BOX)
+
+
+def overlap(a: list[float], b: list[float]) -> bool:
+    return all(
+        a[i] < b[i] + b[i + 2] and b[i] < a[i] + a[i + 2]  # along x, and along y
+        for i in (0, 1)
+    )
+
+
+def test_on_a_phone_the_canvas_comes_first_and_the_tools_have_two_rows(
+    open_notebook: OpenNotebook,
+) -> None:
+    book = open_notebook([SETUP, EDITOR])
+    hand, page = Hand(book), book.page
+    wide = box(hand.pad)
+    book.value("None", setup=PINNED)
+    hand.settle()
+    book.value("None", setup="model.tell('hand')")
+    page.get_by_label("Depth").wait_for()
+    page.set_viewport_size({"width": 390, "height": 844})
+    page.locator(".glid-editor.glid-narrow").wait_for()
+    book.wait_for("canvas.pane.stage.room[0] < 300")
+    hand.wait_until_still()
+    root, pad = box(page.locator(".glid-editor")), box(hand.pad)
+    assert pad[2] >= 0.93 * root[2]  # of the 274 pixels that JupyterLab leaves
+    assert pad[3] >= 0.9 * pad[2]
+    column = page.locator(".glid-column")
+    rows = [column.locator(part) for part in (".glid-tools", ".glid-bars", ".glid-timeline")]
+    places = [box(row) for row in rows]
+    assert pad[1] + pad[3] <= places[0][1]  # the canvas is above all of them
+    for (_, above, _, height), (_, below, _, _) in itertools.pairwise(places):
+        assert above + height <= below + 1
+        assert height < 50  # one row
+    assert box(page.locator(".glid-timeline .glid-bar"))[3] < 50
+    # What has no room is scrolled to.
+    for row in (".glid-tools", ".glid-timeline .glid-bar"):
+        last = page.locator(f"{row} > :last-child")
+        assert box(last)[0] > root[0] + root[2]
+        last.scroll_into_view_if_needed()
+        assert sum(box(last)[::2]) <= root[0] + root[2] + 1
+    depth = page.get_by_label("Depth")
+    depth.scroll_into_view_if_needed()
+    assert sum(box(depth)[::2]) <= root[0] + root[2] + 1
+    # No label of the ruler lies over another one.
+    labels = [box(label) for label in page.locator(".glid-ruler span").all()]
+    assert len(labels) > 1
+    assert not any(overlap(a, b) for a, b in itertools.pairwise(labels))
+    book.screenshot("editor-phone")
+    # The wide window has its order and its size again.
+    page.set_viewport_size({"width": 1366, "height": 768})
+    page.locator(".glid-editor:not(.glid-narrow)").wait_for()
+    book.wait_for("canvas.pane.stage.room[0] > 500")
+    hand.wait_until_still()
+    assert box(hand.pad)[2:] == wide[2:]
+    assert sum(box(rows[0])[1::2]) <= box(hand.pad)[1]
+
+
+def test_nothing_is_cut_off_covered_or_askew(open_notebook: OpenNotebook) -> None:
+    book = open_notebook([SETUP, EDITOR])
+    hand, page = Hand(book), book.page
+    book.value("None", setup=PINNED)
+    hand.settle()
+    # The list of exports and the name have the whole row.
+    page.get_by_role("tab", name="Files").click()
+    formats = page.get_by_title("What to export")
+    formats.wait_for()
+    assert formats.evaluate(_CUT_OFF) <= 0
+    # The second columns of all tables of keys are aligned, and so are the first headings.
+    page.get_by_role("button", name="Keys and gestures").first.click()
+    table = page.locator(".glid-help:popover-open")
+    table.wait_for()
+    left = {round(box(cell)[0]) for cell in table.locator("td").all()}
+    assert len(left) == 2  # one place in each of the two columns
+    headings = [box(one) for one in table.locator("h4").all()]
+    first = {round(one[0]): one[1] for one in reversed(headings)}
+    assert len(first) == 2
+    assert len({round(y) for y in first.values()}) == 1
+    book.screenshot("editor-help")
+    page.keyboard.press("Escape")
+    # A notice and a refused number are both read.
+    book.value("None", setup="canvas.pane.stage.notice = 'So it is.'; model.tell('hand')")
+    scale = page.get_by_label("Scale")
+    scale.fill("-1")
+    scale.press("Enter")
+    refusal = page.get_by_text("'-1' is out of range")
+    refusal.wait_for()
+    notice = page.locator(".glid-notice", has_text="So it is.")
+    notice.wait_for()
+    book.screenshot("editor-two-notices")
+    assert not overlap(box(notice), box(refusal))
+
+
+def test_pale_and_dark_outlines_are_seen_in_dark_themes_and_high_contrast(
+    open_notebook: OpenNotebook,
+) -> None:
+    book = open_notebook([SETUP, EDITOR])
+    page = book.page
+    Hand(book)
+    pane = page.locator(".glid-pane").first
+    try:
+        for theme in ("JupyterLab Dark", "JupyterLab Dark High Contrast"):
+            book.theme(theme)
+            assert min(pane.evaluate(_CONTRASTS)) > 3  # with black and with white
+            book.screenshot(f"editor-{theme.replace(' ', '-')}")
+    finally:
+        book.theme("JupyterLab Light")
+    # Where the system forces its colours, pressed buttons still look pressed.
+    page.locator(".glid-tools button", has_text="Cage").click()
+    book.wait_for("canvas.show_cage")
+    page.emulate_media(forced_colors="active")
+    try:
+        color = "one => getComputedStyle(one).backgroundColor"
+        pressed, other = (
+            page.locator(".glid-tools button", has_text=name).evaluate(color)
+            for name in ("Cage", "Offset")
+        )
+        book.screenshot("editor-forced-colours")
+        assert pressed != other
+    finally:
+        page.emulate_media(forced_colors="none")
