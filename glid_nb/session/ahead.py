@@ -9,7 +9,7 @@ from glid_nb.session.worker import LatestWins, weakly
 from glid_nb.solvers import Newton, Result, ahead
 from glid_nb.solvers.method import Inputs
 
-REST = 1.0  # seconds at rest before anything is compiled
+REST = 2.0  # seconds at rest before anything is compiled
 _LOOK = 0.05  # seconds between two looks at the other process
 
 
