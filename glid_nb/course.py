@@ -1,15 +1,13 @@
-"""Helpers of the course: checks of exercises, figures with sliders, and domains.
+"""Helpers of the course: checks of exercises, and domains.
 
 An exercise is checked by ``with check("exercise 1"): assert ...``.
 """
 
 import importlib.util
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
-from typing import Any
 
-import ipywidgets
 import numpy as np
 
 from glid_nb._errors import InputError
@@ -61,22 +59,6 @@ def check(name: str) -> Iterator[None]:
         print(f"{name}: not yet: {raised}")
     else:
         print(f"{name}: right")
-
-
-def interact(show: Callable[..., Any], **sliders: Any) -> ipywidgets.VBox:
-    """The figure that ``show`` makes, with sliders for its arguments. It uses no Output widget,
-    because nbclient may wait for one forever."""
-    picture = ipywidgets.Image()
-
-    def draw(_: Any = None) -> None:
-        picture.value, size = show(**{k: s.value for k, s in sliders.items()})._repr_png_()
-        picture.width = size["width"]
-
-    for name, slider in sliders.items():
-        slider.description = name
-        slider.observe(draw, "value")
-    draw()
-    return ipywidgets.VBox([*sliders.values(), picture]).add_class("widget-interact")
 
 
 def bar() -> Domain:

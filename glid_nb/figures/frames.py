@@ -141,7 +141,7 @@ def _hold_still(figures: Sequence[NotebookFigure]) -> None:
             continue
         x, y = _union(same, Axes.get_xlim), _union(same, Axes.get_ylim)
         for axes in same:
-            axes.set(xlim=x, ylim=y)
+            axes.set(xlim=x, ylim=y, adjustable="box")  # "datalim" would change the limits
 
 
 def _union(same: Sequence[Axes], limits: Callable[[Axes], Any]) -> tuple[float, float]:

@@ -20,7 +20,7 @@ from unittest.mock import MagicMock
 import nbformat
 import pytest
 
-from glid_nb import InputError, course, figures
+from glid_nb import InputError, figures
 
 FOLDER = Path(__file__).parents[2] / "notebooks"
 NOTEBOOKS = sorted(FOLDER.glob("[0-9][0-9]_*.ipynb"))
@@ -117,10 +117,9 @@ def inlined(code: str) -> set[str]:
 
 @pytest.fixture
 def without_figures(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Figures and sliders draw nothing here, because nbval runs the notebooks with them."""
+    """Figures draw nothing here, because nbval runs the notebooks with them."""
     for name in figures.__all__:
         monkeypatch.setattr(figures, name, lambda *_, **__: MagicMock())
-    monkeypatch.setattr(course, "interact", lambda *_, **__: None)
 
 
 @pytest.mark.usefixtures("without_figures")
