@@ -74,22 +74,27 @@ def live(draw: Callable[..., NotebookFigure], *start: Any, **values: Iterable[An
         if not isinstance(one, NotebookFigure):
             raise InputError(f"the function returns {type(one).__name__}, not a figure")
     _hold_still(figures)
-    svgs = [_svg(figure) for figure in figures]
-    lines: dict[str, int] = {}
     data = {
         "controls": [
             {"name": name, "values": list(map(_text, given)), "start": i, "check": _is_check(given)}
             for (name, given), i in zip(positions.items(), begin, strict=True)
         ],
-        "lines": lines,
-        "frames": [[lines.setdefault(line, len(lines)) for line in s.splitlines()] for s in svgs],
+        **_in_lines([_svg(figure) for figure in figures]),
         "titles": [_titles(figure) for figure in figures],
     }
-    data["lines"] = list(lines)
     shown = int(np.ravel_multi_index(begin, [len(given) for given in positions.values()]))
     words = ", ".join(f"{name} = {_text(value)}" for name, value in combinations[shown].items())
     alt = ": ".join(filter(None, [words, _titles(figures[shown])]))
     return LiveFigure(_markup(data, alt, figures[shown]), figures[shown])
+
+
+def _in_lines(frames: Sequence[str]) -> dict[str, Any]:
+    """All lines of the frames, each once, and each frame as the numbers of its lines."""
+    known: dict[str, int] = {}
+    numbers = [
+        [known.setdefault(line, len(known)) for line in frame.splitlines()] for frame in frames
+    ]
+    return {"lines": list(known), "frames": numbers}
 
 
 def _plain(name: str, given: Iterable[Any]) -> list[Any]:
