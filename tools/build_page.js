@@ -14,6 +14,7 @@ export const BUILT = path.join(ROOT, "glid_nb", "page", "built");
 const WIDGETS = {
   canvas: "canvas/main.js",
   clipboard: "clipboard/main.js",
+  live_editor: "live_editor/main.js",
   loader: "pad/loader.js",
   timeline: "timeline/main.js",
   tracer: "tracer/main.js",

@@ -54,6 +54,12 @@ class Energy(ABC):
     """Whether ``lambda_1 = 2 alpha_1`` is the only eigenvalue of ``K`` (23) that can be negative.
     Then a correction projects the Hessian (25), at a fifth of the cost of assembling it."""
 
+    def __init_subclass__(cls, **kwargs: Any) -> None:
+        super().__init_subclass__(**kwargs)
+        for name in ("density", "differentials"):
+            if (method := vars(cls).get(name)) is not None:
+                setattr(cls, name, _in_double_precision(method))
+
     def __new__(cls, *_: Any, **__: Any) -> Self:
         settle()  # other code may have imported JAX in the meantime
         return super().__new__(cls)
@@ -69,11 +75,27 @@ class Energy(ABC):
 
     @abstractmethod
     def density(self, x: Scalars, y: Scalars) -> Scalars:
-        """``E(x, y)`` at each sample."""
+        """``E(x, y)`` at each sample. Of numbers and NumPy arrays in double precision."""
 
     @abstractmethod
     def differentials(self, x: Scalars, y: Scalars) -> Differentials:
         """First and second derivatives of :meth:`density` at each sample."""
+
+
+def _in_double_precision(method: Callable[[Any, Scalars, Scalars], Any]) -> Callable[..., Any]:
+    """Wrap a method of ``x`` and ``y`` so that it computes numbers and NumPy arrays in 64 bits.
+
+    JAX would use 32 bits for them, unless the caller has changed that. JAX's own arrays have a type
+    already.
+    """
+
+    @functools.wraps(method)
+    def wrapped(self: Energy, x: Scalars, y: Scalars) -> Any:
+        if isinstance(x, jax.Array) or isinstance(y, jax.Array):
+            return method(self, x, y)
+        return double_precision(method)(self, x, y)
+
+    return wrapped
 
 
 E = TypeVar("E", bound=Energy)

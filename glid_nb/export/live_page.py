@@ -63,7 +63,7 @@ def live_page_html(
         known = ", ".join(ENERGIES)
         raise InputError(f"a live page has no energy {energy.name!r}; choose one of {known}")
     texture = as_rgba8(image)
-    domain = _rounded(shown if isinstance(shown, Domain) else shown.domain)
+    domain = page_domain(shown if isinstance(shown, Domain) else shown.domain)
     start = HarmonicMap.identity(domain) if isinstance(shown, Domain) else shown
     check_picture((texture.shape[1], texture.shape[0]), start)
     poses = list(pose) if isinstance(pose, Sequence) else [pose]
@@ -81,7 +81,7 @@ def live_page_html(
             "stiff": stiff_nodes(domain, first.stiffness) if stiff and first is not None else None,
         },
         "start": _start(start),
-        "poses": [_pins(one) for one in poses],
+        "poses": [pins_of(one) for one in poses],
         "motion": _motion(start) if isinstance(start, Motion) else None,
         **_mesh(domain, first),
         **_shaders(domain),
@@ -128,7 +128,8 @@ def _start(start: HarmonicMap | Motion) -> list[float]:
     return np.concatenate(parts).tolist()
 
 
-def _pins(pose: Pose | None) -> list[dict[str, Any]]:
+def pins_of(pose: Pose | None) -> list[dict[str, Any]]:
+    """The pins of a pose as the page takes them."""
     if pose is None:
         return []
     return [
@@ -208,9 +209,10 @@ def _lettered(data: bytes) -> str:
     return _LETTERS[pairs].tobytes().decode("ascii")
 
 
-def _rounded(domain: Domain) -> Domain:
-    """The domain with fewer digits, which make the page smaller; the same one if its cages are too
-    close to each other for that."""
+def page_domain(domain: Domain) -> Domain:
+    """The domain of a live page, with fewer digits, which make the page smaller.
+
+    It is the same one if its cages are too close to each other for that."""
     side = domain.cage.longer_side
     digits = -math.floor(math.log10(_DIGITS * side))
     cages = (domain.cage, domain.offset_cage)

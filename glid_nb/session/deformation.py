@@ -522,7 +522,7 @@ class Deformation(Undoable[EditState], AbstractContextManager["Deformation"]):
             while self._go_on(at_rest=True):
                 if not self._others.wait(rest()):
                     return False
-            return True
+            return self._others.wait(rest())  # it may still be telling of the last pose
         except KeyboardInterrupt:
             self.stop()
             raise

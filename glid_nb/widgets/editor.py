@@ -15,7 +15,7 @@ from glid_nb import export
 from glid_nb._jax import once_loaded
 from glid_nb._runtime import enable_compilation_cache
 from glid_nb.certificate import Certificate
-from glid_nb.geometry import MeshMap
+from glid_nb.geometry import Domain, MeshMap
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging.read import ImageSource, png, read_image
 from glid_nb.imaging.render import View
@@ -33,6 +33,7 @@ from glid_nb.widgets.canvas import DeformCanvas, Toolbar, check_size
 from glid_nb.widgets.closing import ClosingWidget, close_with_parts, one_a_cell
 from glid_nb.widgets.controls import REFUSED, paragraph
 from glid_nb.widgets.file_panel import FilePanel, KeptOffer, OpenPanel
+from glid_nb.widgets.live_editor import LiveEditor
 from glid_nb.widgets.monitor import SolverMonitor
 from glid_nb.widgets.pins import PinBar
 from glid_nb.widgets.solver_panel import SolverPanel
@@ -90,6 +91,7 @@ class Editor(ClosingWidget, ipywidgets.VBox):
 
     _displayed = False
     _told_path: Path | None = None
+    _live: tuple[Domain, LiveEditor] | None = None
 
     @one_a_cell
     def __init__(
@@ -132,7 +134,7 @@ class Editor(ClosingWidget, ipywidgets.VBox):
         show = {"replaced": self._build, "saved": self._show_saving}
         self.model.observe(lambda what: show[what]())
         self.tabs.observe(self._on_tab, ["selected_index"])
-        self._endings = (self._take_down, self.model.close)
+        self._endings = (self._take_down, self._close_live, self.model.close)
 
     def __repr__(self) -> str:
         """The text that a notebook shows if it cannot show widgets."""
@@ -150,6 +152,29 @@ class Editor(ClosingWidget, ipywidgets.VBox):
         if bundle is not None and image is not None:
             bundle["image/png"] = base64.b64encode(self._snapshot(image)).decode()
         return bundle
+
+    def _display_(self) -> Any:
+        """What marimo shows, which has no pythreejs."""
+        if not self.model.has_shape:
+            return "Nothing is traced yet. Pass a picture: glid_nb.Editor(image)."
+        return self.live
+
+    @property
+    def live(self) -> LiveEditor:
+        """The edited pose as a live editor, one for each domain.
+
+        Poses from its page come back to this editor, which solves them with JAX. Raises an
+        InputError for an energy that the page's solver does not have.
+        """
+        current, known = self.deformation.state.current, self._live
+        if known is not None and known[0] is current.map.domain:
+            return known[1]
+        how = {"energy": current.energy, "p2p_weight": current.options.p2p_weight}
+        live = LiveEditor(self.document.image, current.map, current.pose, **how)
+        self._close_live()
+        self._live = current.map.domain, live
+        live.observe(lambda _: self.deformation.set_pose(live.pose), ["edit"])
+        return live
 
     def _snapshot(self, image: NDArray[np.uint8]) -> bytes:
         if self.model.has_shape and len(self.pose):
@@ -403,6 +428,10 @@ class Editor(ClosingWidget, ipywidgets.VBox):
                 shown += (self.monitor,)
             self._trace_box.children = self._deform_box.children = ()
         close_with_parts(*shown)
+
+    def _close_live(self) -> None:
+        if self._live is not None:
+            self._live[1].close()
 
     def _show_saving(self) -> None:
         error, left, path = self.model.save_error, self.model.left_path, self.model.autosave_path

@@ -33,7 +33,9 @@ from ..support.documented import PAGES, REPOSITORY, Command, checkout, commands,
 
 pytestmark = pytest.mark.slow
 
-COMMANDS = [command for path in PAGES for command in commands(path)]
+SHOWN = [command for path in PAGES for command in commands(path)]
+# What several pages show is tried once.
+COMMANDS = list({tuple(command.words): command for command in reversed(SHOWN)}.values())[::-1]
 # Whether all Markdown pictures of a page are loaded; None without pictures.
 PICTURES = """() => {
   const text = '.jp-RenderedMarkdown img, .jp-RenderedHTMLCommon img';

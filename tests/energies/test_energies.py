@@ -106,6 +106,24 @@ def test_densities_are_those_of_the_singular_values(
     np.testing.assert_array_less(np.abs(got - expected), tolerance * (expected + 1e-3))
 
 
+@pytest.mark.parametrize(("energy", "formula"), CLOSED, ids=IDS)
+def test_numbers_are_evaluated_in_double_precision(
+    energy: Energy, formula: Callable[[Any, Any], Any]
+) -> None:
+    """The bug: JAX evaluated numbers, and arrays of NumPy, in 32 bits."""
+    x, y = squares(1.4, 0.8)
+    expected = formula(1.4, 0.8)
+    for one in (energy, CustomEnergy(energy.density)):
+        for kind in (float, np.asarray, np.atleast_1d):
+            value = np.asarray(one.density(kind(x), kind(y)))
+            assert value.dtype == np.float64
+            np.testing.assert_allclose(value, expected, rtol=1e-14)
+    for value in energy.differentials(float(x), float(y)):
+        assert np.asarray(value).dtype == np.float64
+    single = jnp.asarray([x], jnp.float32)
+    assert energy.density(single, single / 9).dtype == jnp.float32  # an array of JAX keeps its type
+
+
 def test_no_two_energies_are_one_to_a_compiled_program() -> None:
     """jit finds its programs by the structure of the trees.
 

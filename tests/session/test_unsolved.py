@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import json
+import threading
 import zipfile
 from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor, wait
 from dataclasses import replace
 from pathlib import Path
 
@@ -50,6 +52,27 @@ def model() -> Iterator[EditorModel]:
     assert deformation.solve(TIMEOUT)
     yield model
     model.close()
+
+
+def test_a_wait_for_all_poses_ends_after_the_news_of_the_last(model: EditorModel) -> None:
+    """The bug: it ended between the last solve and its news, so the motion was not begun."""
+    began, go_on, told = threading.Event(), threading.Event(), []
+
+    def slow_reader(what: str) -> None:
+        if threading.current_thread().name == "other poses":
+            began.set()
+            go_on.wait(TIMEOUT)
+            told.append(what)
+
+    model.deformation.observe(slow_reader)
+    retrace(model)
+    assert began.wait(TIMEOUT)
+    with ThreadPoolExecutor(1) as pool:
+        solved = pool.submit(model.deformation.solve, TIMEOUT)
+        assert not wait([solved], 0.2).done  # long enough to look for other poses
+        go_on.set()
+        assert solved.result(TIMEOUT)
+    assert told == ["state"]
 
 
 def retrace(model: EditorModel) -> None:

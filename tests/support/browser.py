@@ -20,6 +20,7 @@ import shutil
 import signal
 import socket
 import subprocess
+import sys
 import threading
 import time
 import uuid
@@ -243,13 +244,8 @@ class Host:
 
     def _wait_until_it_listens(self) -> None:
         """Some servers name their address before they listen there."""
-        host, port = self.url.split("/")[2].split(":")
-        for _ in range(600):
-            with socket.socket() as tried:
-                if tried.connect_ex((host, int(port))) == 0:
-                    return
-            time.sleep(0.1)
-        raise RuntimeError(f"nothing listens at {self.url}")
+        if not _listens(self.url):
+            raise RuntimeError(f"nothing listens at {self.url}")
 
     def _read(self) -> None:
         assert self._process.stderr is not None
@@ -282,6 +278,46 @@ class Host:
         self._reader.join()
         assert self._process.stderr is not None
         self._process.stderr.close()
+
+
+@contextlib.contextmanager
+def marimo_server(notebook: Path, log: Path) -> Iterator[str]:
+    """The address at which marimo serves a notebook of its own kind."""
+    url = f"http://127.0.0.1:{_free_port()}"
+    _, host, port = url.split(":")
+    words = [sys.executable, "-m", "marimo", "run", str(notebook), "--headless", "--no-token"]
+    words += ["--host", host.strip("/"), "--port", port]
+    paths = [str(REPOSITORY), *filter(None, [os.environ.get("PYTHONPATH")])]
+    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(paths)}
+    with (
+        log.open("wb") as out,
+        subprocess.Popen(
+            words,
+            env=environment,
+            cwd=notebook.parent,
+            stdin=subprocess.DEVNULL,
+            stdout=out,
+            stderr=out,
+            start_new_session=True,
+        ) as process,
+    ):
+        try:
+            if not _listens(url):
+                raise RuntimeError(f"{shlex.join(words)} did not start:\n{log.read_text()}")
+            yield url
+        finally:
+            os.killpg(process.pid, signal.SIGTERM)
+
+
+def _listens(url: str) -> bool:
+    """Wait until a server listens at an address."""
+    host, port = url.split("/")[2].split(":")
+    for _ in range(600):
+        with socket.socket() as tried:
+            if tried.connect_ex((host, int(port))) == 0:
+                return True
+        time.sleep(0.1)
+    return False
 
 
 def _free_port() -> int:

@@ -105,6 +105,7 @@ def test_a_drag_between_keyframes_makes_one_and_goes_on(panel: TimelinePanel) ->
     model.drag(0, (-6, 2))
     assert panel.animation.wait(TIMEOUT)
     model.go_to_pose(0)
+    assert panel.animation.wait(TIMEOUT)  # it was kept before it was solved
 
     def press(kind: str, x: float, y: float, **more: Any) -> str | None:
         event = {"type": kind, "x": x, "y": y, "button": 0, "shift": False}

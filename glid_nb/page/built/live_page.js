@@ -96,15 +96,15 @@ this.#r(j(this.pins,[...t.keys()],e),this.selected)}nudge([t,e]){let s=({target:
 t,o+e]});this.#r(j(this.pins,this.selected,s),this.selected)}turn(t){let e=(s,n)=>{let{angle:o,scale:r}=t(
 n);return{...o===void 0?{}:{angle:o===null?null:pt(o)},...r===void 0?{}:{scale:r===null?null:Ft(r)}}};
 this.selected.length&&this.#r(j(this.pins,this.selected,e),this.selected)}beginGesture(){this.inGesture||
-(this.#t.note(this.now),this.inGesture=!0)}endGesture(){this.inGesture=!1}cancelGesture(){if(!this.inGesture)
-return;this.inGesture=!1;let t=this.#t.drop();t&&this.#h(t)}undo(){let t=this.#t.undo(this.now);t&&this.#h(
-t)}redo(){let t=this.#t.redo(this.now);t&&this.#h(t)}replace(t,e){this.#t.note(this.now),this.#h({pins:t,
-selected:[],coefficients:e})}#r(t,e){this.inGesture||this.#t.note(this.now);let s=t.length<this.pins.
-length;this.pins=t,this.selected=e,t.length?this.#s=this.solving.drag(x(t)):this.#i(this.rest),s&&(this.#e=
-this.#s),this.told()}#h({pins:t,selected:e,coefficients:s}){this.pins=t,this.selected=e.filter(n=>n<
-t.length),this.#i(s),t.length&&(this.#s=this.solving.drag(x(t))),this.told()}#i(t){let e=this.solving.
-place(x(this.pins),t);this.#s=e,this.#e=e}#f(t){t.id<this.#e||!t.certificate.certified||(this.frame=
-t,this.told())}};function m(i){return V(i,HTMLElement)}function V(i,t){let e=document.getElementById(i);if(!(e instanceof
+(this.#t.note(this.now),this.inGesture=!0)}endGesture(){this.inGesture&&(this.inGesture=!1,this.told())}cancelGesture(){
+if(!this.inGesture)return;this.inGesture=!1;let t=this.#t.drop();t&&this.#h(t)}undo(){let t=this.#t.
+undo(this.now);t&&this.#h(t)}redo(){let t=this.#t.redo(this.now);t&&this.#h(t)}replace(t,e){this.#t.
+note(this.now),this.#h({pins:t,selected:[],coefficients:e})}#r(t,e){this.inGesture||this.#t.note(this.
+now);let s=t.length<this.pins.length;this.pins=t,this.selected=e,t.length?this.#s=this.solving.drag(
+x(t)):this.#i(this.rest),s&&(this.#e=this.#s),this.told()}#h({pins:t,selected:e,coefficients:s}){this.
+pins=t,this.selected=e.filter(n=>n<t.length),this.#i(s),t.length&&(this.#s=this.solving.drag(x(t))),
+this.told()}#i(t){let e=this.solving.place(x(this.pins),t);this.#s=e,this.#e=e}#f(t){t.id<this.#e||!t.
+certificate.certified||(this.frame=t,this.told())}};function m(i){return V(i,HTMLElement)}function V(i,t){let e=document.getElementById(i);if(!(e instanceof
 t))throw new Error(`the page has no ${i}`);return e}function f(i,t={},...e){let s=document.createElement(i);s instanceof HTMLButtonElement&&(s.type="but\
 ton");for(let[n,o]of Object.entries(t))n.startsWith("on")?s.addEventListener(n.slice(2),o):n in s&&n!==
 "list"?Reflect.set(s,n,o):s.setAttribute(n,o);return s.append(...e),s}function T(i){let t=i.getContext(
@@ -495,6 +495,6 @@ min(o[l-1]??1/0,o[l]??1/0)}));return{times:e,knots:h,keyframes:s,repeat:n}}async
 farthest:1});Object.assign(o,B(m("pad")).size),Object.assign(o,D(s.source,B(m("pad")),y.margin));let r=new lt(
 i,t,y,s,n),a=await r.choose(e,o),h=new z(e,s,a,U(y.outline)),c=new at(y,{stage:r,editing:h,view:o},async()=>{
 let u=await Fe();return await u.map({type:"points",points:r.points}),u});h.begin(y.poses[0]),y.motion&&
-await c.film.load(await tn(y.motion),y.poses),Ce.view=o;let{dataset:l}=document.documentElement;l.mover=
-r.mover,l.frame=r.frameTime.toFixed(1),l.ready="true"}en().catch(i=>{let t=m("problem");if(t.textContent=
-i.message,t.hidden=!1,!(i instanceof E))throw i});})();
+await c.film.load(await tn(y.motion),y.poses),Object.assign(Ce,{view:o,editing:h});let{dataset:l}=document.
+documentElement;l.mover=r.mover,l.frame=r.frameTime.toFixed(1),l.ready="true"}en().catch(i=>{let t=m(
+"problem");if(t.textContent=i.message,t.hidden=!1,!(i instanceof E))throw i});})();

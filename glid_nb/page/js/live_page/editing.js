@@ -210,7 +210,9 @@ export class Editing {
   }
 
   endGesture() {
+    if (!this.inGesture) return;
     this.inGesture = false;
+    this.told();
   }
 
   /** Goes back to where the gesture began. */

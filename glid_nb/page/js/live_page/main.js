@@ -17,8 +17,8 @@ import { coefficientsOf, identityOf } from "./wire.js";
 
 /**
  * What the first script of html/live_page.html has unpacked. The page adds its view, so that other
- * scripts and tests can tell where a point is on the screen.
- * @typedef {{ data: LiveData, worker: string, view?: View }} Unpacked
+ * scripts and tests can tell where a point is on the screen, and what it edits (live_editor/main.js).
+ * @typedef {{ data: LiveData, worker: string, view?: View, editing?: Editing }} Unpacked
  */
 const unpackedPage = /** @type {Unpacked} */ (Reflect.get(globalThis, "glidPage"));
 const { data, worker } = unpackedPage;
@@ -98,7 +98,7 @@ async function open() {
   });
   editing.begin(data.poses[0]);
   if (data.motion) await page.film.load(await unpackedReel(data.motion), data.poses);
-  unpackedPage.view = view;
+  Object.assign(unpackedPage, { view, editing });
   const { dataset } = document.documentElement;
   dataset.mover = stage.mover;
   dataset.frame = stage.frameTime.toFixed(1);
