@@ -59,7 +59,7 @@ html_math_renderer = "mathml"
 # Notebooks show what they were saved with.
 nb_execution_mode = "off"
 nb_merge_streams = True
-# Widgets are not live without a kernel; nothing is fetched for them.
+# Saved outputs have no widgets; nothing is fetched for them.
 nb_ipywidgets_js: dict[str, dict[str, str]] = {}
 nb_mime_priority_overrides = [("html", "application/vnd.jupyter.widget-view+json", None)]
 myst_enable_extensions = ["amsmath", "colon_fence", "deflist", "dollarmath", "attrs_inline"]

@@ -1,4 +1,4 @@
-"""Helpers of the course: checks of exercises, figures with sliders, and domains.
+"""Helpers of the course: checks of exercises, and domains.
 
 An exercise is checked by ``with check("exercise 1"): assert ...``.
 """
@@ -8,13 +8,12 @@ import os
 import re
 import signal
 import threading
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from types import FrameType
 from typing import Any
 
-import ipywidgets
 import numpy as np
 
 from glid_nb._errors import InputError
@@ -137,22 +136,6 @@ def why(failure: BaseException, seconds: float) -> str:
     if isinstance(failure, TypeError) and re.search("NoneType|ellipsis", lines[0]):
         return f"the cell still holds None or `...`, or returns nothing ({raised})"
     return raised
-
-
-def interact(show: Callable[..., Any], **sliders: Any) -> ipywidgets.VBox:
-    """The figure that ``show`` makes, with sliders for its arguments. It uses no Output widget,
-    because nbclient may wait for one forever."""
-    picture = ipywidgets.Image()
-
-    def draw(_: Any = None) -> None:
-        picture.value, size = show(**{k: s.value for k, s in sliders.items()})._repr_png_()
-        picture.width = size["width"]
-
-    for name, slider in sliders.items():
-        slider.description = name
-        slider.observe(draw, "value")
-    draw()
-    return ipywidgets.VBox([*sliders.values(), picture]).add_class("widget-interact")
 
 
 def bar() -> Domain:

@@ -20,9 +20,10 @@ const WIDGETS = {
   tracer: "tracer/main.js",
 };
 const SCRIPTS = { exported: "exported/main.js" };
-// The live page, and its worker. They are minified, because the page has to stay below 60 kB.
-const LIVE = { live: "live/main.js", live_page: "live_page/main.js" };
-const LIVE_STYLE = { live_page: "live_page/live_page.css" };
+// The live page and its worker are minified, because the page has to stay below 60 kB. So is what
+// every figure with sliders contains.
+const SMALL = { frames: "frames/main.js", live: "live/main.js", live_page: "live_page/main.js" };
+const SMALL_STYLES = { frames: "frames/frames.css", live_page: "live_page/live_page.css" };
 const STYLES = {
   canvas: "canvas/canvas.css",
   exported: "exported/exported.css",
@@ -51,8 +52,8 @@ export async function bundles() {
   const built = await Promise.all([
     build({ ...shared, entryPoints: WIDGETS, format: "esm" }),
     build({ ...shared, entryPoints: SCRIPTS, format: "iife" }),
-    build({ ...shared, entryPoints: LIVE, format: "iife", minify: true }),
-    build({ ...shared, entryPoints: LIVE_STYLE, minify: true }),
+    build({ ...shared, entryPoints: SMALL, format: "iife", minify: true }),
+    build({ ...shared, entryPoints: SMALL_STYLES, minify: true }),
     build({ ...shared, entryPoints: STYLES }),
   ]);
   const files = built.flatMap(({ outputFiles }) => outputFiles ?? []);

@@ -2,7 +2,8 @@
 
 Every link and anchor between its pages must resolve. In Chromium, every page must open at the width
 of a phone and of a desktop, without an error in the console, a request outside the folder, or
-sideways scrolling, and a live page in it must start. Searching must find a page. Pages are opened
+sideways scrolling. A live page in it must start, and every slider of a figure must change the
+picture. Searching must find a page. Pages are opened
 as files, without a server.
 ``--links`` checks only the links.
 """
@@ -20,7 +21,7 @@ from playwright.sync_api import Browser, ConsoleMessage, Request
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 
-from tests.support.browser import launched_chromium
+from tests.support.browser import launched_chromium, still_sliders
 
 WIDTHS = {390: 844, 1280: 800}
 SEARCH = "winding"
@@ -101,8 +102,10 @@ class Visitor:
             self.page.wait_for_url(f"{self.home}docs/**")
         for live in self.page.locator("iframe.live").all():
             live.content_frame.locator("html[data-ready=true]").wait_for(state="attached")
+        figures = self.page.locator("figure.glid-frames").all()
+        still = [fault for figure in figures for fault in still_sliders(figure)]
         wide = self.page.evaluate(_OVERFLOW)
-        return [*self.notes, *(f"wider than the page: {element}" for element in wide)]
+        return [*self.notes, *still, *(f"wider than the page: {element}" for element in wide)]
 
     def search(self, word: str) -> list[str]:
         """The faults of searching for an existing word; raises an error if nothing is found."""

@@ -31,14 +31,6 @@ def chapter(path: Path) -> tuple[str, str, str]:
     )
 
 
-def hide_live_widgets(_app: Sphinx, document: nodes.document) -> None:
-    """A widget's text says nothing; a page without a kernel shows its scripted twin beside it."""
-    for block in list(document.findall(nodes.literal_block)):
-        if re.match(r"(interactive|Editor|CageTracer)\(", block.astext()):
-            words = "In the running notebook there is something to move here."
-            block.replace_self(nodes.paragraph("", words, classes=["widget"]))
-
-
 def offer_notebook(app: Sphinx, page: str, _template: str, context: dict[str, Any], _: Any) -> None:
     """Tell a chapter's page where the file is that the course's table links."""
     if page.startswith("notebooks/"):
@@ -64,7 +56,6 @@ class Course(SphinxDirective):
 
 def setup(app: Sphinx) -> dict[str, Any]:
     app.add_directive("course", Course)
-    app.connect("doctree-read", hide_live_widgets)
     # Before the theme looks which parts of the sidebar are empty.
     app.connect("html-page-context", offer_notebook, priority=100)
     return {"parallel_read_safe": True, "parallel_write_safe": True}

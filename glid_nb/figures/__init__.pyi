@@ -4,6 +4,8 @@ from .curves import derivative_curve as derivative_curve
 from .curves import energy_levels as energy_levels
 from .curves import function as function
 from .drawing import figure_png as figure_png
+from .frames import LiveFigure as LiveFigure
+from .frames import live as live
 from .overview_figure import overview as overview
 from .shapes import basis as basis
 from .shapes import boundary as boundary

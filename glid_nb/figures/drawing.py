@@ -23,8 +23,8 @@ from glid_nb.pose import Pose
 
 _MISS = 0.004  # of the axes' size: handles farther from their target get a line
 _SHOWN_DPI = 150.0  # resolution of a figure in a notebook
-_CSS_DPI = 108.0  # its size there: CSS pixels per inch
-_MANY = 256  # a collection with more values than this is a field
+CSS_DPI = 108.0  # its size there: CSS pixels per inch
+MANY = 256  # a collection with more values than this is a field
 _ROUND, _COARSE = (1, 1.1, 1.2, 1.5, 2, 2.5, 3, 4, 5, 7), (1, 2, 5)  # ticks of a decade
 
 ON_WHITE: Any = [withStroke(linewidth=2.0, foreground="white")]  # legible on every picture
@@ -42,10 +42,10 @@ class NotebookFigure(Figure):
         return f"<{type(self).__name__}>"
 
     def _repr_png_(self) -> tuple[bytes, dict[str, int]]:
-        width, height = (_CSS_DPI * self.get_size_inches()).round().astype(int).tolist()
+        width, height = (CSS_DPI * self.get_size_inches()).round().astype(int).tolist()
         file, picture = io.BytesIO(), Image.open(io.BytesIO(figure_png(self, _SHOWN_DPI)))
         values = [collection.get_array() for collection in self.findobj(Collection)]
-        field = any(array is not None and array.size > _MANY for array in values)
+        field = any(array is not None and array.size > MANY for array in values)
         # A palette has too few colours for a smooth field, which would then show bands.
         smooth = field and not self.findobj(AxesImage)
         drawn = (_rounded if smooth else _in_256_colors)(picture.convert("RGB"))

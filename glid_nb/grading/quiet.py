@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 from unittest.mock import MagicMock
 
-from glid_nb import course, figures
+from glid_nb import figures
 
 
 def namespace_of_a_chapter() -> dict[str, Any]:
@@ -13,10 +13,9 @@ def namespace_of_a_chapter() -> dict[str, Any]:
 
 
 def without_figures() -> None:
-    """From now on figures and sliders of this process draw nothing."""
+    """From now on figures of this process draw nothing."""
     for name in dir(figures):
         setattr(figures, name, _nothing)
-    course.interact = _nothing
 
 
 def _nothing(*_: Any, **__: Any) -> Any:

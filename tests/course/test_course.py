@@ -8,10 +8,9 @@ import signal
 import threading
 from typing import Any
 
-import ipywidgets
 import pytest
 
-from glid_nb import course, figures
+from glid_nb import course
 from glid_nb.course import check
 
 
@@ -94,24 +93,6 @@ def test_a_failed_check_raises_for_nbgrader(monkeypatch: pytest.MonkeyPatch) -> 
 def test_an_interrupt_passes() -> None:
     with pytest.raises(KeyboardInterrupt), check("exercise 1"):
         raise KeyboardInterrupt
-
-
-def test_sliders_draw_a_figure_anew_without_an_output_widget() -> None:
-    drawn: list[float] = []
-
-    def show(a: float) -> Any:
-        drawn.append(a)
-        return figures.function([0, a], {"y": [0, 1]}, "x", "y")
-
-    slider = ipywidgets.FloatSlider(1.0, min=1, max=4)
-    box = course.interact(show, a=slider)
-    _, picture = box.children
-    before = bytes(picture.value)
-    assert before.startswith(b"\x89PNG")
-    slider.value = 3
-    assert drawn == [1, 3]
-    assert bytes(picture.value) != before
-    assert not any(isinstance(part, ipywidgets.Output) for part in box.children)
 
 
 def test_nothing_is_said_of_packages_that_are_there(capsys: pytest.CaptureFixture[str]) -> None:

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 
+from glid_nb.figures import function, live
 from tools.check_site import broken_links, faults_in_browser
 
 GOOD = '<link rel="icon" href="data:,"><h1 id="a">A page</h1><a href="index.html#a">a</a>'
@@ -32,20 +33,26 @@ def test_a_link_to_nothing_is_found(tmp_path: Path, target: str) -> None:
 
 @pytest.mark.browser
 @pytest.mark.slow
-def test_a_browser_sees_errors_requests_and_wide_pages(tmp_path: Path) -> None:
+def test_a_browser_sees_errors_requests_wide_pages_and_dead_sliders(tmp_path: Path) -> None:
     bodies = {
         "plain": "",
         "error": "<script>throw Error('as it must')</script>",
         "request": '<img src="https://a.example/b.png">',
         "wide": '<div style="width: 2000px">wide</div>',
     }
+    for name, slope in {"moving": 1, "still": 0}.items():
+        figure = live(lambda a, slope=slope: function([0, 1], {"line": [0, slope * a]}), a=[1, 2])
+        bodies[name] = figure._repr_mimebundle_()[0]["text/html"]
+    bodies["dead"] = '<figure class="glid-frames"></figure>'
     pages = site(tmp_path, **{name: GOOD + body for name, body in bodies.items()})
     results = '<ul id="search-results"><li><a href="plain.html">found</a></li></ul>'
     found = list(faults_in_browser(site(pages, search=GOOD + results)))
     for name, words in {
         "error": "as it must",
         "request": "asks for https://a.example/b.png",
+        "dead": "a figure has no slider",
+        "still": "the slider a does not move the picture",
         "wide": "wider than the page: <div",
     }.items():
         assert sum(fault.startswith(f"{name}.html") and words in fault for fault in found) == 2
-    assert not any(fault.startswith("plain") for fault in found)
+    assert not any(fault.startswith(("plain", "moving")) for fault in found)

@@ -21,7 +21,7 @@ from unittest.mock import MagicMock
 import nbformat
 import pytest
 
-from glid_nb import InputError, course, figures
+from glid_nb import InputError, figures
 from glid_nb.grading.chapters import Cell
 from glid_nb.grading.referee import Remote, Student, StudentError
 from glid_nb.grading.student import Link
@@ -156,10 +156,9 @@ def inlined(code: str) -> set[str]:
 
 @pytest.fixture
 def without_figures(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Figures and sliders draw nothing here, because nbval runs the notebooks with them."""
+    """Figures draw nothing here, because nbval runs the notebooks with them."""
     for name in figures.__all__:
         monkeypatch.setattr(figures, name, lambda *_, **__: MagicMock())
-    monkeypatch.setattr(course, "interact", lambda *_, **__: None)
 
 
 @pytest.mark.usefixtures("without_figures")

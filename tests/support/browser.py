@@ -39,6 +39,7 @@ from playwright.sync_api import (
     ViewportSize,
     sync_playwright,
 )
+from playwright.sync_api import TimeoutError as NotInTime
 
 from .documented import REPOSITORY, documented
 
@@ -164,6 +165,26 @@ def launched_chromium() -> Iterator[Browser]:
         )
         yield browser
         browser.close()
+
+
+def still_sliders(figure: Locator) -> list[str]:
+    """Move each slider and check box of a figure by the keyboard. One sentence for each that leaves
+    the picture unchanged."""
+    inputs, picture = figure.locator("input"), figure.locator("img")
+    try:
+        inputs.first.wait_for(timeout=5_000)
+    except NotInTime:
+        return ["a figure has no slider"]
+    found = []
+    for one in inputs.all():
+        at_first = one.evaluate("(slider) => slider.value === slider.min")
+        key = "End" if at_first else "Home"
+        before = picture.screenshot()
+        one.press("Space" if one.get_attribute("type") == "checkbox" else key)
+        picture.evaluate("(picture) => picture.decode()")  # an error if it cannot be shown
+        if picture.screenshot() == before:
+            found.append(f"the slider {one.get_attribute('aria-label')} does not move the picture")
+    return found
 
 
 class Host:

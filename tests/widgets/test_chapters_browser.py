@@ -9,7 +9,7 @@ from typing import Any
 import nbformat
 import pytest
 
-from ..support.browser import LabNotebook, VoilaPage
+from ..support.browser import LabNotebook, VoilaPage, still_sliders
 from .conftest import OpenNotebook
 
 pytestmark = [pytest.mark.browser, pytest.mark.slow]
@@ -17,11 +17,9 @@ pytestmark = [pytest.mark.browser, pytest.mark.slow]
 FOLDER = Path(__file__).parents[2] / "notebooks"
 IMAGE = ".jp-OutputArea-output img"
 RUNS = {
-    "lab": ("04", LabNotebook),
-    "lab-09": ("09", LabNotebook),
-    "lab-12": ("12", LabNotebook),
+    "lab": ("09", LabNotebook),
     "notebook": ("04", functools.partial(LabNotebook, interface="notebook")),
-    "voila-09": ("09", VoilaPage),
+    "voila": ("04", VoilaPage),
 }
 
 
@@ -38,8 +36,11 @@ def test_a_chapter_runs_and_shows_as_many_pictures_as_are_saved(
     cells = code(chapter)
     book = open_notebook([cell.source for cell in cells], shown_by)
     outputs = [o for c in cells for o in c.outputs]
-    saved = [o for o in outputs if "NotebookFigure" in o.get("data", {}).get("text/plain", "")]
+    texts = [output.get("data", {}).get("text/plain") for output in outputs]
+    saved = [text for text in texts if text in ("<NotebookFigure>", "<LiveFigure>")]
     book.page.locator(IMAGE).nth(len(saved) - 1).wait_for(state="attached", timeout=60_000)
-    book.page.locator(".widget-interact img").first.wait_for(state="attached")
+    for figure in book.page.locator("figure.glid-frames").all():
+        assert not still_sliders(figure)
+    assert texts.count("<LiveFigure>") == book.page.locator("figure.glid-frames").count() > 0
     assert not book.page.get_by_text("Traceback (most recent call last)").count()
     book.screenshot(f"chapter-{name}")
