@@ -6,10 +6,10 @@ import anywidget
 import numpy as np
 import traitlets
 
+from glid_nb import export
 from glid_nb._errors import InputError
 from glid_nb.certificate import Certificate, certify
 from glid_nb.energies import Energy
-from glid_nb.export.live_page import live_page_html, page_domain, pins_of
 from glid_nb.geometry import Domain
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging.read import ImageSource, read_image
@@ -70,8 +70,8 @@ class LiveEditor(ClosingWidget, anywidget.AnyWidget):
         picture = read_image(image)
         if shown is None:
             shown = Domain.from_cage(trace(picture).cage)
-        html = live_page_html(picture, shown, pose, energy, p2p_weight, title)
-        domain = page_domain(shown if isinstance(shown, Domain) else shown.domain)
+        html = export.live_page_html(picture, shown, pose, energy, p2p_weight, title)
+        domain = export.page_domain(shown if isinstance(shown, Domain) else shown.domain)
         start = shown if isinstance(shown, HarmonicMap) else HarmonicMap.identity(domain)
         self._pose = pose if pose is not None else Pose([], [])
         self._take(HarmonicMap(domain, start.phi, start.psi))
@@ -103,7 +103,7 @@ class LiveEditor(ClosingWidget, anywidget.AnyWidget):
         map = self.map
         pose.check_inside(map.domain)
         values = np.concatenate([f(one) for one in (map.phi, map.psi) for f in (np.real, np.imag)])
-        self.edit = {"by": _KERNEL, "pins": pins_of(pose), "coefficients": values.tolist()}
+        self.edit = {"by": _KERNEL, "pins": export.pins_of(pose), "coefficients": values.tolist()}
 
     @traitlets.validate("edit")
     def _check_edit(self, proposal: dict[str, Any]) -> dict[str, Any]:

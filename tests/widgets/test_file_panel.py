@@ -397,7 +397,7 @@ def test_the_motion_is_exported_in_the_background(model: EditorModel, tmp_path: 
     assert motion.worker.wait(60)
     assert "Stopped" in panel.message.value
     assert not list(tmp_path.glob("*.zip"))
-    motion.close()
+    panel.close()
     animation.close()
 
 
