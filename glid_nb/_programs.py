@@ -73,8 +73,9 @@ class Program:
     def _folder(self, key: Any, arguments: Any) -> Path | None:
         """The folder where the program is kept; None if it is not kept."""
         folder = jax_option("jax_compilation_cache_dir")
-        kept = folder is not None and can_keep_for(key[0]) and self.may_keep(*arguments)
-        return Path(folder) if kept else None
+        if folder is None or not can_keep_for(key[0]) or not self.may_keep(*arguments):
+            return None
+        return Path(folder)
 
     def _loaded_or_made(self, key: Any, arguments: Any) -> Any:
         if (folder := self._folder(key, arguments)) is None:
