@@ -44,15 +44,16 @@ GIVES = {
 def diagnosis() -> dict[str, Any]:
     """The whole diagnosis of `glid-nb doctor`, as values for JSON."""
     needed, extras = _requirements()
+    programs = _folder(cache_directory() / "compiled", "GLID_NB_CACHE")
     return {
         "python": f"{platform.python_version()} ({sys.executable})",
         "system": f"{platform.platform()}, {os.cpu_count()} processors",
         "host": host(),
         "libraries": {one.name: _state_of(one) for one in needed},
-        "jax": _jax_state(),
+        "jax": _jax_state(programs["writable"]),
         "blas": blas_libraries(),
         "folders": {
-            "compiled programs": _folder(cache_directory() / "compiled", "GLID_NB_CACHE"),
+            "compiled programs": programs,
             "kept work": _folder(data_directory(), "GLID_NB_DATA"),
         },
         "extras": {
@@ -158,7 +159,7 @@ def _state_of(one: Requirement) -> dict[str, Any]:
     return {"installed": _installed(one), "needed": str(one.specifier), "fits": _is_met(one)}
 
 
-def _jax_state() -> dict[str, Any]:
+def _jax_state(writable: bool) -> dict[str, Any]:
     """Devices and fast paths; or ``error``, the reason why JAX does not work here."""
     try:
         devices = [f"{one.platform} {one.id}: {one.device_kind}" for one in jax.local_devices()]
@@ -167,7 +168,7 @@ def _jax_state() -> dict[str, Any]:
         return {
             "devices": devices,
             "LAPACK in place": device.platform == "cpu" and _features.lapack_in_place(),
-            "programs kept": can_keep_for(device) and _features.executables() is not None,
+            "programs kept": writable and can_keep_for(device) and bool(_features.executables()),
             "XLA options set": sorted(_features.compiler_options()),
             "XLA options left out": sorted(_features.unknown_options()),
             "JAX's cache": None if configured is None else str(configured),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -58,6 +59,7 @@ def test_a_folder_that_cannot_be_written_is_named(
     code, out, err = run("doctor")
     assert code == 1
     assert "cannot be written to" in out
+    assert re.search(r"programs kept\W+no\b", out)
     assert "name another one in GLID_NB_CACHE" in err
 
 
