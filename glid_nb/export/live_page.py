@@ -119,11 +119,16 @@ def _check_poses(shown: Domain | HarmonicMap | Motion, poses: Sequence[Pose | No
 
 
 def _start(start: HarmonicMap | Motion) -> list[float]:
-    """Real and imaginary parts of phi, then of psi, in double precision."""
+    """The coefficients of the map to begin with; empty for the identity."""
     map = start.keyframes[0] if isinstance(start, Motion) else start
     identity = HarmonicMap.identity(map.domain)
     if np.array_equal(map.phi, identity.phi) and np.array_equal(map.psi, identity.psi):
         return []
+    return coefficients_of(map)
+
+
+def coefficients_of(map: HarmonicMap) -> list[float]:
+    """Real and imaginary parts of phi, then of psi, as the page takes them."""
     parts = [part(one) for one in (map.phi, map.psi) for part in (np.real, np.imag)]
     return np.concatenate(parts).tolist()
 
@@ -212,7 +217,8 @@ def _lettered(data: bytes) -> str:
 def page_domain(domain: Domain) -> Domain:
     """The domain of a live page, with fewer digits, which make the page smaller.
 
-    It is the same one if its cages are too close to each other for that."""
+    It is the same one if its cages are too close to each other for that.
+    """
     side = domain.cage.longer_side
     digits = -math.floor(math.log10(_DIGITS * side))
     cages = (domain.cage, domain.offset_cage)

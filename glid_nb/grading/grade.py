@@ -18,6 +18,7 @@ from pathlib import Path
 
 from glid_nb._errors import InputError
 from glid_nb.grading.chapters import Notebook, answers
+from glid_nb.grading.verdicts import CRASHED, RIGHT, SLOW, UNTOUCHED
 
 _CHAPTER = re.compile(r"\d\d_\w+")
 _MOODLE = re.compile(r"_\d+_assignsubmission_file_?$")
@@ -52,7 +53,7 @@ class Grade:
     chapter: str
     exercise: int
     verdict: str
-    """right, wrong, untouched, crashed or too slow"""
+    """One of `verdicts`."""
     text: str
 
 
@@ -105,11 +106,11 @@ def grade(hand_in: HandIn, *, limit: float, folder: Path) -> Iterator[Grade]:
         given = answers(chapter, Notebook.from_json(json.loads(hand_in.text)))
     except (ValueError, RecursionError, InputError) as error:
         text = f"the file is no notebook: {error}"
-        yield from (told(i, "crashed", text) for i in range(1, count + 1))
+        yield from (told(i, CRASHED, text) for i in range(1, count + 1))
         return
     if all(given[cell.id].untouched for cell in chapter.exercises):
         for i, cell in enumerate(chapter.exercises, 1):
-            yield told(i, "untouched", given[cell.id].untouched)
+            yield told(i, UNTOUCHED, given[cell.id].untouched)
         return
     with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as name:
         work = Path(name) / "work"
@@ -155,11 +156,11 @@ def _judged(
     try:
         out, errors = process.communicate(line, timeout=seconds)
         last = errors.decode(errors="replace").strip().splitlines()[-1:]
-        why = "crashed", " ".join(["the grading ended early", *last])
+        why = CRASHED, " ".join(["the grading ended early", *last])
     except subprocess.TimeoutExpired:
         _end(process)
         out, _ = process.communicate()
-        why = "too slow", f"the whole chapter takes longer than {seconds:g} seconds"
+        why = SLOW, f"the whole chapter takes longer than {seconds:g} seconds"
     finally:
         _end(process)
     verdicts = dict[int, tuple[str, str]]()
@@ -193,5 +194,5 @@ def points(grades: Sequence[Grade]) -> dict[str, dict[str, int]]:
     found = dict[str, dict[str, int]]()
     for one in grades:
         of_student = found.setdefault(one.student, {})
-        of_student[one.chapter] = of_student.get(one.chapter, 0) + (one.verdict == "right")
+        of_student[one.chapter] = of_student.get(one.chapter, 0) + (one.verdict == RIGHT)
     return found

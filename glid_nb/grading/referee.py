@@ -25,9 +25,9 @@ from glid_nb import course
 from glid_nb._errors import InputError
 from glid_nb.grading.chapters import Answer, Cell, Notebook, answers
 from glid_nb.grading.quiet import namespace_of_a_chapter, without_figures
+from glid_nb.grading.verdicts import CRASHED, RIGHT, SLOW, UNTOUCHED, WRONG
 from glid_nb.grading.wire import WireError, decoded, encoded
 
-RIGHT, WRONG, UNTOUCHED, CRASHED, SLOW = "right", "wrong", "untouched", "crashed", "too slow"
 _CHAPTER = 900  # seconds that a chapter's own cells may take in the process of the answers
 _LONGEST = 1 << 28  # bytes of a message
 

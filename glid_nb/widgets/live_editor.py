@@ -19,7 +19,7 @@ from glid_nb.pose import Pose
 from glid_nb.widgets.closing import ClosingWidget, one_a_cell
 from glid_nb.widgets.pad import answer_during_cells
 
-_KERNEL = "kernel"
+_KERNEL = "kernel"  # who has changed the pose, if no view has; live_editor/main.js knows it too
 
 
 class LiveEditor(ClosingWidget, anywidget.AnyWidget):
@@ -100,10 +100,9 @@ class LiveEditor(ClosingWidget, anywidget.AnyWidget):
 
     @pose.setter
     def pose(self, pose: Pose) -> None:
-        map = self.map
-        pose.check_inside(map.domain)
-        values = np.concatenate([f(one) for one in (map.phi, map.psi) for f in (np.real, np.imag)])
-        self.edit = {"by": _KERNEL, "pins": export.pins_of(pose), "coefficients": values.tolist()}
+        pose.check_inside(self.map.domain)
+        coefficients = export.coefficients_of(self.map)
+        self.edit = {"by": _KERNEL, "pins": export.pins_of(pose), "coefficients": coefficients}
 
     @traitlets.validate("edit")
     def _check_edit(self, proposal: dict[str, Any]) -> dict[str, Any]:

@@ -9,6 +9,7 @@ import pickle
 import shutil
 import threading
 import zlib
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -19,6 +20,8 @@ import pytest
 from glid_nb import _cache_folder, _kept_programs, _programs
 from glid_nb._programs import Program
 from glid_nb._runtime import watched
+
+from ..support.cache import kept_in
 
 TIMEOUT = 60.0
 
@@ -41,11 +44,9 @@ def stages(program: Program, *arguments: Any) -> list[str]:
 
 
 @pytest.fixture(autouse=True)
-def folder(tmp_path: Path) -> Any:
-    before = jax.config.jax_compilation_cache_dir
-    jax.config.update("jax_compilation_cache_dir", str(tmp_path))
-    yield tmp_path
-    jax.config.update("jax_compilation_cache_dir", before)
+def folder(tmp_path: Path) -> Iterator[Path]:
+    with kept_in(tmp_path) as folder:
+        yield folder
 
 
 ONES, TWOS = np.ones(3, np.float32), np.full(3, 2, np.float32)

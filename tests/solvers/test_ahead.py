@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -16,6 +17,7 @@ from glid_nb.pose import Pose, Stiffness
 from glid_nb.solvers import Options, ahead
 from glid_nb.solvers.method import Inputs
 
+from ..support.cache import kept_in
 from ..support.domains import domain
 
 pytestmark = pytest.mark.slow
@@ -27,11 +29,9 @@ STIFF = replace(POSE, targets=[(2.2, 0.1), (-2, 0)], stiffness=Stiffness().paint
 
 
 @pytest.fixture(autouse=True)
-def folder(tmp_path: Path) -> Any:
-    before = jax.config.jax_compilation_cache_dir
-    jax.config.update("jax_compilation_cache_dir", str(tmp_path))
-    yield tmp_path
-    jax.config.update("jax_compilation_cache_dir", before)
+def folder(tmp_path: Path) -> Iterator[Path]:
+    with kept_in(tmp_path) as folder:
+        yield folder
 
 
 def inputs(pose: Pose) -> Inputs:

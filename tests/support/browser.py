@@ -212,10 +212,7 @@ class Host:
             "JUPYTERLAB_SETTINGS_DIR": str(own / "settings"),
             "JUPYTERLAB_WORKSPACES_DIR": str(own / "workspaces"),
             "IPYTHONDIR": str(own / "ipython"),
-            # The kernels import the package that is being tested.
-            "PYTHONPATH": os.pathsep.join(
-                [str(REPOSITORY), *filter(None, [os.environ.get("PYTHONPATH")])]
-            ),
+            "PYTHONPATH": _import_path(),
         }
         self.url = f"http://127.0.0.1:{port}"
         self._log: list[str] = []
@@ -287,8 +284,7 @@ def marimo_server(notebook: Path, log: Path) -> Iterator[str]:
     _, host, port = url.split(":")
     words = [sys.executable, "-m", "marimo", "run", str(notebook), "--headless", "--no-token"]
     words += ["--host", host.strip("/"), "--port", port]
-    paths = [str(REPOSITORY), *filter(None, [os.environ.get("PYTHONPATH")])]
-    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(paths)}
+    environment = {**os.environ, "PYTHONPATH": _import_path()}
     with (
         log.open("wb") as out,
         subprocess.Popen(
@@ -307,6 +303,11 @@ def marimo_server(notebook: Path, log: Path) -> Iterator[str]:
             yield url
         finally:
             os.killpg(process.pid, signal.SIGTERM)
+
+
+def _import_path() -> str:
+    """The path with which a server's kernels import the package that is being tested."""
+    return os.pathsep.join([str(REPOSITORY), *filter(None, [os.environ.get("PYTHONPATH")])])
 
 
 def _listens(url: str) -> bool:
@@ -526,6 +527,22 @@ class LabNotebook(NotebookPage):
         if "error" in reply:
             raise AssertionError(f"the kernel says of {expression!r}: {reply['error']}")
         return json.loads(ast.literal_eval(reply["text"]))
+
+    @contextlib.contextmanager
+    def running(self, code: str) -> Iterator[None]:
+        """Let the kernel run code during the block, which has to make it end."""
+        self.page.evaluate(
+            """(code) => {
+              const kernel = jupyterapp.shell.currentWidget.sessionContext.session.kernel;
+              window.running = kernel.requestExecute({code}).done;
+            }""",
+            code,
+        )
+        self.page.wait_for_function(
+            "() => jupyterapp.shell.currentWidget.sessionContext.session.kernel.status === 'busy'"
+        )
+        yield
+        self.page.evaluate("() => window.running")
 
     def theme(self, name: str) -> None:
         """Change JupyterLab's theme, for example to "JupyterLab Dark"."""

@@ -11,6 +11,7 @@ from traitlets import TraitError
 
 import glid_nb as glid
 from glid_nb import HarmonicMap, InputError, Pose
+from glid_nb.export import coefficients_of
 from glid_nb.pose import PoseError
 from glid_nb.widgets import Editor, LiveEditor
 
@@ -31,8 +32,7 @@ def live() -> Iterator[LiveEditor]:
 
 def from_page(live: LiveEditor, pins: list[dict[str, Any]], map: HarmonicMap) -> None:
     """A pose and a map from a view on the page."""
-    parts = [map.phi.real, map.phi.imag, map.psi.real, map.psi.imag]
-    coefficients = np.concatenate(parts).tolist()
+    coefficients = coefficients_of(map)
     live.set_state({"edit": {"by": "view", "pins": pins, "coefficients": coefficients}})
 
 

@@ -51,6 +51,12 @@ def _(glid):
     glid.Editor(glid.samples.image("gecko"), "session.glid")
     return
 """
+WAIT_FOR_A_DRAG = """
+import threading
+moved = threading.Event()
+live.observe(lambda _: live.pose.targets[1, 1] > 1 and moved.set(), ["edit"])
+in_time = moved.wait(60)
+"""
 LEFT, RIGHT, UP = (-6.0, 0.0), (6.0, 0.0), (5.5, 2.0)
 
 
@@ -99,21 +105,8 @@ def test_a_page_and_its_kernel_tell_each_other_also_during_a_cell(
     hand.pin(LEFT, RIGHT)
     book.wait_for("len(live.pose) == 2")
     # Code that waits for an event, which only a drag on the page sets.
-    book.page.evaluate(
-        """() => {
-          const kernel = jupyterapp.shell.currentWidget.sessionContext.session.kernel;
-          window.running = kernel.requestExecute({code: `
-import threading
-moved = threading.Event()
-live.observe(lambda _: live.pose.targets[1, 1] > 1 and moved.set(), ["edit"])
-in_time = moved.wait(60)`}).done;
-        }"""
-    )
-    book.page.wait_for_function(
-        "() => jupyterapp.shell.currentWidget.sessionContext.session.kernel.status === 'busy'"
-    )
-    hand.drag(RIGHT, UP)
-    book.page.evaluate("() => window.running")
+    with book.running(WAIT_FOR_A_DRAG):
+        hand.drag(RIGHT, UP)
     assert book.value("in_time")
     reached = "live.map(live.pose.handles).tolist()"
     np.testing.assert_allclose(book.value(reached), [LEFT, UP], atol=0.05)

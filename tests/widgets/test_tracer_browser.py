@@ -274,22 +274,15 @@ def test_scribbles_themes_and_a_reload(open_notebook: OpenNotebook) -> None:
 def test_it_answers_while_another_cell_runs(open_notebook: OpenNotebook) -> None:
     hand = tracer_of(open_notebook, "frog")
     # Code that waits for an event, which only a change by hand sets.
-    hand.page.evaluate(
-        """() => {
-          const kernel = jupyterapp.shell.currentWidget.sessionContext.session.kernel;
-          window.running = kernel.requestExecute({code: `
+    code = """
 import threading
 changed = threading.Event()
 stop = tracer.on_change(changed.set)
 in_time = changed.wait(60)
-stop()`}).done;
-        }"""
-    )
-    hand.page.wait_for_function(
-        "() => jupyterapp.shell.currentWidget.sessionContext.session.kernel.status === 'busy'"
-    )
-    hand.root.get_by_role("radio", name="Brightness").click()
-    hand.page.evaluate("() => window.running")
+stop()
+"""
+    with hand.book.running(code):
+        hand.root.get_by_role("radio", name="Brightness").click()
     assert hand.book.value("[in_time, tracer.options.method]") == [True, "threshold"]
 
 

@@ -1,0 +1,3 @@
+"""The verdicts on an exercise."""
+
+RIGHT, WRONG, UNTOUCHED, CRASHED, SLOW = "right", "wrong", "untouched", "crashed", "too slow"
