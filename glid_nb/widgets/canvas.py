@@ -26,6 +26,7 @@ from glid_nb.widgets.gestures import Event
 from glid_nb.widgets.layers import EvaluatedIn
 from glid_nb.widgets.overlays import OVERLAYS
 from glid_nb.widgets.pad import answer_during_cells
+from glid_nb.widgets.page_solver import PageSolver
 from glid_nb.widgets.pane import Pane
 from glid_nb.widgets.scene import Drawing, Range
 
@@ -53,9 +54,13 @@ class DeformCanvas(ClosingWidget, ipywidgets.HBox):
     a new model. The canvas is ``width`` by ``height`` CSS pixels, at least 100 each; by default 600
     by 500. In an editor it is narrower if there is less room, and by default as large as there is
     room. The picture is drawn on a mesh of ``n_vertices``, at least 3; by default 10,000, or fewer
-    if the page needs more than 40 ms to draw them. The "shader" computes their images if it can
-    hold the cage; then a frame sends a few kB. Otherwise the "kernel" does. ``evaluated_in`` sets
-    one of the two.
+    if the page needs more than 40 ms to draw them. Who computes their images, ``evaluated_in``
+    sets: the "shader", the "page" by its script, or the "kernel", which has to send them. By
+    default it is the shader, or the page if that draws faster there, as without a graphics
+    processor; for a cage that a shader cannot hold it is the kernel.
+
+    While pins are dragged, the page's own solver goes ahead of the kernel. It proves every map that
+    it shows. When the kernel is at rest, its map is shown.
 
     Raises a TraceError for an unreadable picture, a TypeError or ValueError for another size.
     """
@@ -93,6 +98,7 @@ class DeformCanvas(ClosingWidget, ipywidgets.HBox):
         """The model of this view."""
         self._mesh: dict[str, Any] = {"n_vertices": n_vertices, "evaluated_in": evaluated_in}
         self.pane = self._pane(size, interactive=True)
+        self._page_solver = PageSolver(self.pane.stage)
         self.source: Pane | None = None
         self.gestures = BrushGestures(model, self.fit, self.image)
         self.gestures.copy = lambda text: self.pane.stage.send({"copy": text})
@@ -122,7 +128,7 @@ class DeformCanvas(ClosingWidget, ipywidgets.HBox):
                 self.fit()
             self._show_source()
             self._draw("legend")
-        self.pane.stage.observe(lambda _: model.begin(), ["drawn"])
+        self.pane.stage.observe(self._on_drawn, ["drawn"])
         self.observe(lambda _: self._draw("state"), ["show_cage", "show_offset_cage", "show_onion"])
         self.observe(lambda _: self._draw("legend"), ["overlay", "show_panels"])
         self.observe(self._show_source, ["show_source"])
@@ -194,6 +200,17 @@ class DeformCanvas(ClosingWidget, ipywidgets.HBox):
             with self.deformation.locked():
                 self.pane.stage.prepared = self.deformation.moment.prepared
             self.pane.stage.acknowledge()
+
+        self._tell_page()
+
+    def _on_drawn(self, _: Any) -> None:
+        self.deformation.begin()
+        self._tell_page()
+
+    def _tell_page(self) -> None:
+        with self.deformation.locked():
+            if not self._closed:
+                self._page_solver.follow(self.deformation.moment)
 
     def _repr_mimebundle_(self, **kwargs: Any) -> Any:
         self.deformation.begin()  # even before the page draws

@@ -1,4 +1,4 @@
-"""Meshes drawn by pythreejs. A map moves them in the shader or in the kernel."""
+"""Meshes drawn by pythreejs. A map moves them in the shader, in the page or in the kernel."""
 
 import math
 from collections.abc import Callable
@@ -21,9 +21,13 @@ from glid_nb.page import ShaderMap, fragment_shader, vertex_shader
 from glid_nb.widgets.overlays import N_COLORS
 
 Uniforms = dict[str, dict[str, Any]]
-EvaluatedIn = Literal["shader", "kernel"]
+EvaluatedIn = Literal["shader", "page", "kernel"]
+"""Who evaluates the map at the vertices: the vertex shader, the page's script, or the kernel."""
 Evaluation = Callable[[Any], tuple[Array, Array]]
 """Returns images (v, 2) of a mesh's vertices under a map, and derivatives (v, 4); float32."""
+
+MOVED_BY_PAGE = "moved by the page"
+"""The name of meshes whose vertices the page moves; ``canvas/vertices.js`` knows it too."""
 
 _LARGEST_SIDE = 2048  # pixels of a texture; every graphics card supports this size
 
@@ -43,7 +47,8 @@ class Layer:
     A third coordinate of the points is the height for the picture's depth test.
 
     The first map is ``map``. If ``mover`` is a `ShaderMap`, the shader evaluates maps; otherwise
-    ``mover`` does. ``shader`` names the files. ``attributes`` are further arrays per vertex; bytes
+    ``mover`` does, but with ``in_page`` only the first one: then the page moves the vertices.
+    ``shader`` names the files. ``attributes`` are further arrays per vertex; bytes
     are scaled to numbers up to 1. ``uniforms`` have at most one texture, as the last one, because
     pythreejs binds all textures to the last name.
     """
@@ -56,10 +61,13 @@ class Layer:
         map: Any,
         points: Array,
         triangles: Array,
+        *,
+        in_page: bool = False,
         **attributes: Array,
     ) -> None:
         arrays = {**_stack(points, triangles), **attributes}
-        self._evaluate = None if isinstance(mover, ShaderMap) else mover
+        self._evaluate = None if isinstance(mover, ShaderMap) or in_page else mover
+        self._name = MOVED_BY_PAGE if in_page else ""
         if isinstance(mover, ShaderMap):
             uniforms = {**mover.uniforms(map), **uniforms}
             self._vertex = vertex_shader(shader, mover)
@@ -98,7 +106,8 @@ class Layer:
         )
         self.materials.append(material)
         # Culling would hide a mesh that leaves its initial bounding sphere.
-        self.meshes.append(three.Mesh(self._geometry, material, frustumCulled=False))
+        mesh = three.Mesh(self._geometry, material, frustumCulled=False, name=self._name)
+        self.meshes.append(mesh)
 
     def set_attribute(self, name: str, values: Array) -> None:
         """Replace the values of an attribute."""

@@ -34,6 +34,8 @@ _ROOM = 1.12  # size of the view relative to the fitted shape
 # _FEWEST_VERTICES: with fewer vertices, edges of the mesh would be visible.
 _DRAWING_TIME, _FEWEST_VERTICES = 40.0, 1500
 _FINER = 2.0  # a new mesh is made for at least this many times as many vertices
+_QUICK = 8.0  # ms of a drawing; if the shader needs more, the page's script tries to move the mesh
+_MOST_ROWS = 2_500_000  # numbers of the basis at the vertices; the page keeps 32 bytes for each
 
 
 class Stage(Pad):
@@ -53,6 +55,14 @@ class Stage(Pad):
     """Centre (x, y) in world units, and the world units of one CSS pixel."""
     coefficients = traitlets.Bytes(b"").tag(sync=True)
     """The map, as written by ``ShaderMap.wire``; empty if the kernel evaluates."""
+    outline = traitlets.Dict({}).tag(sync=True)
+    """The domain: ``outline``, and the sizes ``chain`` and ``shaderHoles`` of `coefficients`."""
+    solver_script = traitlets.Unicode("").tag(sync=True)  # of the worker of the page's own solver
+    solver = traitlets.Dict({}).tag(sync=True)
+    """The ``options`` of the page's own solver; empty if it cannot solve what is edited."""
+    rest = traitlets.Dict({}).tag(sync=True)
+    """Where the model is at rest: the ``pose``, ``coefficients`` in double precision, and the
+    ``number`` of this rest."""
     marks = traitlets.Dict({key: [] for key in _MARKS}).tag(sync=True)
     """Targets and images of handles, [x, y]; indices selected, hidden; and `Drawing.ring`."""
     names = traitlets.List(traitlets.Unicode(), []).tag(sync=True)  # the handles', may be empty
@@ -97,8 +107,10 @@ class Pane(ClosingWidget, ipywidgets.GridBox):
         self._picture = PixelFrame(*image.shape[1::-1]), picture_texture(image)
         self._n_vertices = self._fewest = n_vertices or _FEWEST_VERTICES  # at first
         self._most = n_vertices or N_VERTICES
+        self._asked: EvaluatedIn | None = evaluated_in
         self._evaluated_in: EvaluatedIn | None = evaluated_in
         self._drawing = Drawing(map)
+        self._times: dict[str, float] = {}  # ms for a vertex, by who evaluates
         self.scene = self._new_scene(0)  # what pythreejs draws
         self._renderer = renderer(self.scene)
         self.stage = Stage(
@@ -109,6 +121,7 @@ class Pane(ClosingWidget, ipywidgets.GridBox):
             camera=self._renderer.camera,
             materials=self.scene.materials,
             coefficients=self._wire(),
+            outline=outline_of(self.scene),
         )
         super().__init__([self._renderer, self.stage])
         self.add_class("glid-pane")
@@ -126,19 +139,38 @@ class Pane(ClosingWidget, ipywidgets.GridBox):
         self._show(old)
 
     def adapt(self) -> None:
-        """Adapt to the page: evaluate in the kernel if its shaders are too small, and use a mesh
-        that it draws fast enough."""
-        stage, scene = self.stage, self.scene
-        vectors, time = stage.uniform_vectors, stage.drawing_time
-        in_shader = scene.evaluated_in == "shader"
-        overflows = vectors != 0 and in_shader and not scene.shader_map.fits(vectors)
-        affordable = int(self._n_vertices * _DRAWING_TIME / time) if time else self._n_vertices
-        wanted = max(min(affordable, self._most), self._fewest)
-        if overflows or wanted < self._n_vertices or wanted >= _FINER * self._n_vertices:
-            self._n_vertices, self._most = wanted, wanted if time else self._most
-            stage.drawing_time = 0.0  # it belonged to the old scene
-            self.scene = self._new_scene(vectors)
-            self._show(scene)
+        """Adapt to the page: evaluate in the kernel if its shaders are too small, in the page's
+        script if that is quicker than its shaders, and use a mesh that it draws fast enough."""
+        stage, scene, count = self.stage, self.scene, self._n_vertices
+        if stage.drawing_time:
+            self._times[scene.evaluated_in] = stage.drawing_time / count
+        where = self._asked or self._quickest()
+        wanted = self._affordable(where)
+        if where == scene.evaluated_in and count <= wanted < _FINER * count:
+            return
+        self._n_vertices, self._evaluated_in = wanted, where
+        if where in self._times:
+            self._most = wanted
+        self.scene = self._new_scene(stage.uniform_vectors)
+        self._show(scene)
+        stage.drawing_time = 0.0  # it belonged to the old scene; the page measures the new one
+
+    def _quickest(self) -> EvaluatedIn:
+        """Who is to evaluate, by what the page has reported. What may be quicker is tried once."""
+        times, scene, vectors = self._times, self.scene, self.stage.uniform_vectors
+        if vectors and not scene.shader_map.fits(vectors):
+            return "kernel"
+        if "shader" in times and "page" in times:
+            return "page" if times["page"] < times["shader"] else "shader"
+        slow = scene.evaluated_in == "shader" and self.stage.drawing_time > _QUICK
+        kept = self._n_vertices * scene.domain.n_coefficients
+        return "page" if slow and kept <= _MOST_ROWS else scene.evaluated_in
+
+    def _affordable(self, where: EvaluatedIn) -> int:
+        """How many vertices the page draws in time; as many as now if that was not measured."""
+        if where not in self._times or not self.stage.drawing_time:
+            return self._n_vertices
+        return max(min(int(_DRAWING_TIME / self._times[where]), self._most), self._fewest)
 
     def _show(self, old: Scene) -> None:
         drawing, scene, stage = self._drawing, self.scene, self.stage
@@ -149,6 +181,8 @@ class Pane(ClosingWidget, ipywidgets.GridBox):
         with stage.hold_sync():
             stage.materials = scene.materials
             stage.coefficients = self._wire()
+            if old.domain is not scene.domain:
+                stage.outline = outline_of(scene)
             # Round to the precision of a screen.
             at = {key: np.round(getattr(drawing, key), 5).tolist() for key in ("targets", "images")}
             chosen = {"selected": list(drawing.selected), "ring": drawing.ring}
@@ -220,7 +254,14 @@ class Pane(ClosingWidget, ipywidgets.GridBox):
 
     def _wire(self) -> bytes:
         scene = self.scene
-        return scene.shader_map.wire(scene.map) if scene.evaluated_in == "shader" else b""
+        return scene.shader_map.wire(scene.map) if scene.evaluated_in != "kernel" else b""
+
+
+def outline_of(scene: Scene) -> dict[str, Any]:
+    """`Stage.outline` of a scene."""
+    outline = {k: v for k, v in scene.domain.to_dict().items() if k != "notes"}
+    sizes = {"chain": scene.shader_map.n_chain, "shaderHoles": scene.shader_map.n_holes}
+    return {"outline": outline, **sizes}
 
 
 def emptiest_corner(

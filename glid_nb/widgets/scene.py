@@ -205,9 +205,10 @@ class Scene:
     def _layer(
         self, shader: str, uniforms: Uniforms, points: Array, triangles: Array, **more: Array
     ) -> Layer:
-        in_kernel = self.evaluated_in == "kernel"
-        mover = FixedPoints(self.domain, points[:, :2]) if in_kernel else self.shader_map
-        return Layer(shader, uniforms, mover, self.map, points, triangles, **more)
+        in_shader, in_page = (self.evaluated_in == where for where in ("shader", "page"))
+        mover = self.shader_map if in_shader else FixedPoints(self.domain, points[:, :2])
+        how: dict[str, Any] = {"in_page": in_page, **more}
+        return Layer(shader, uniforms, mover, self.map, points, triangles, **how)
 
     def _textured_uniforms(self) -> Uniforms:
         return {**self._picture_uniforms(), "map": {"value": self._texture}}

@@ -167,7 +167,7 @@ class TimelinePanel(Pad):
         if scene.domain is not state.domain:
             return  # the canvas has not drawn the new cage yet
         orders = [state.orders[i % len(state.orders)] for i in range(len(times))]
-        moves = scene.evaluated_in == "shader" and any(o is not orders[0] for o in orders)
+        moves = scene.evaluated_in != "kernel" and any(o is not orders[0] for o in orders)
         stacked = (scene, times, *orders) if moves else ()
         if stacked != self._stacked:
             self._stacked = stacked
@@ -180,12 +180,12 @@ class TimelinePanel(Pad):
         start = span.start, pieces[0].start_map if pieces else span.map
         ends = [(piece.end, piece.end_map) for piece in pieces] or [(span.end, span.map)]
         times, maps = zip(start, *ends, strict=True)
-        shader = scene.evaluated_in == "shader"
+        in_page = scene.evaluated_in != "kernel"
         return {
             **{key: getattr(span, key) for key in ("start", "end", "status", "reason")},
             "sigma2": list(span.sigma2),
             "times": list(times),
-            "floats": b"".join(map(scene.shader_map.wire, maps)) if shader else b"",
+            "floats": b"".join(map(scene.shader_map.wire, maps)) if in_page else b"",
         }
 
     def _draw_thumbnails(self, poses: tuple[NamedPose, ...], worker: Any) -> None:

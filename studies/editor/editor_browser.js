@@ -1,6 +1,15 @@
 // Runs first in the page. Records pointers, drawn frames and received bytes.
 
-window.glid = { press: null, moves: [], frames: [], bytes: 0, canvasBytes: 0, firstFrame: null };
+window.glid = {
+  press: null,
+  moves: [],
+  frames: [],
+  bytes: 0,
+  canvasBytes: 0,
+  firstFrame: null,
+  delay: 0, // ms of the kernel's replies
+  solvers: 0, // of the page, that are ready
+};
 
 {
   const { glid } = window;
@@ -55,6 +64,29 @@ window.glid = { press: null, moves: [], frames: [], bytes: 0, canvasBytes: 0, fi
         const start = text(data);
         if (widgets.some((id) => start.includes(id))) glid.canvasBytes += size(data);
       });
+    }
+    set onmessage(act) {
+      super.onmessage = (e) => {
+        if (glid.delay) setTimeout(() => act.call(this, e), glid.delay);
+        else act.call(this, e);
+      };
+    }
+  };
+
+  // Records when each map of the page's own solver was drawn, with the target that it was solved for.
+  window.Worker = class extends Worker {
+    constructor(...rest) {
+      super(...rest);
+      this.aims = new Map();
+      this.addEventListener("message", ({ data }) => {
+        if (data.type === "ready") glid.solvers += 1;
+        const target = data.type === "map" && this.aims.get(data.id);
+        if (target) waiting.push((time) => glid.frames.push([time, target]));
+      });
+    }
+    postMessage(request) {
+      if (request.type === "drag") this.aims.set(request.id, request.pose.targets.at(-1));
+      super.postMessage(request);
     }
   };
 

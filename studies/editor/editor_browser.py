@@ -1,6 +1,7 @@
 """The editor's latency for a user: from the pointer to the drawn frame of the page, in Chromium.
 
     python -m studies.editor.editor_browser [SAMPLE or PROBLEM.json] [--moves N] [--vertices N ...]
+        [--delays MS ...] [--only-drag]
 
 Run it from the repository's root; it needs the extra `test` and Chromium. In JupyterLab it measures
 
@@ -9,10 +10,12 @@ Run it from the repository's root; it needs the extra `test` and Chromium. In Ju
   compiled programs (bundled samples only; medians of 5);
 - a handle dragged with 60 moves a second, the plots beside the canvas: from each pointer event to
   the first drawn frame that was solved for it or for a later one, with the map evaluated in the
-  vertex shader and in the kernel, at each number of display vertices.
+  vertex shader, in the page's script and in the kernel, at each number of display vertices; without
+  and with the page's own solver, which goes ahead of the kernel; and with each delay of what the
+  kernel sends, as on a network.
 
 The kernel records each frame's target, the page the time when the frame was drawn. The frame's
-numbers identify it in both records.
+numbers identify it in both records. Of the page's own maps the page knows the target.
 """
 
 import argparse
@@ -21,6 +24,7 @@ import tempfile
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
+from itertools import product
 from pathlib import Path
 from typing import Any
 
@@ -64,6 +68,8 @@ image, domain, pose = load({shape!r})
 canvas = glid.widgets.DeformCanvas(
     image, domain, n_vertices={vertices}, evaluated_in={evaluated_in!r}
 )
+if not {ahead}:
+    canvas._page_solver.follow = lambda moment: None
 model = canvas.deformation
 model.set_pose(pose.with_targets(pose.handles))
 monitor = glid.widgets.SolverMonitor(model)
@@ -82,7 +88,9 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=(__doc__ or "").partition("\n")[0])
     parser.add_argument("shape", nargs="?", default="gecko")
     parser.add_argument("--moves", type=int, default=240)
-    parser.add_argument("--vertices", type=int, nargs="+", default=[10_000, 100_000])
+    parser.add_argument("--vertices", type=int, nargs="+", default=[10_000])
+    parser.add_argument("--delays", type=int, nargs="+", default=[0, 50, 150, 300])
+    parser.add_argument("--only-drag", action="store_true")
     chosen = parser.parse_args()
     shape = str(Path(chosen.shape).resolve()) if chosen.shape.endswith(".json") else chosen.shape
     print(chosen.shape, *machine().values())
@@ -93,27 +101,27 @@ def main() -> None:
         server = JupyterServer(Path(folder) / "jupyter")
         cache = str(Path(folder) / "cache")
         try:
-            if shape in samples.names():
+            if shape in samples.names() and not chosen.only_drag:
                 empty = [f"{cache}{i}" for i in range(5)]
                 for state, caches in {"empty": empty, "filled": empty[:1] * 5}.items():
                     rows = [first_use(browser, server, shape, one) for one in caches]
                     first, drag = np.median(rows, axis=0)
                     print(f"{state} cache: canvas after {first:.1f} s, drag {drag:.1f} s later")
             print(*(f"{name:>12}" for name in COLUMNS))
-            for vertices in chosen.vertices:
-                for evaluated_in in ("shader", "kernel"):
-                    setup = IMPORTS.format(cache=cache) + CANVAS.format(
-                        shape=shape, vertices=vertices, evaluated_in=evaluated_in
-                    )
-                    numbers = dragged(browser, server, setup, chosen.moves)
-                    cells = (f"{number:12,.1f}" for number in numbers)
-                    print(f"{vertices:12,} {evaluated_in:>12}", *cells, flush=True)
+            for vertices, (where, ahead, delay) in product(chosen.vertices, rows_of(chosen.delays)):
+                setup = IMPORTS.format(cache=cache) + CANVAS.format(
+                    shape=shape, vertices=vertices, evaluated_in=where, ahead=ahead
+                )
+                numbers = dragged(browser, server, setup, chosen.moves, ahead, delay)
+                first = f"{vertices:12,} {where:>12} {'page' if ahead else 'kernel':>12} {delay:12}"
+                print(first, *(f"{number:12,.1f}" for number in numbers), flush=True)
         finally:
             server.close()
 
 
 COLUMNS = (
-    "vertices", "map in", "latency", "95 %", "solving", "95 %", "showing", "95 %",
+    "vertices", "map in", "solved in", "delay",
+    "latency", "95 %", "solving", "95 %", "showing", "95 %",
     "frames/s", "moves/s", "canvas bytes", "all bytes",
 )  # fmt: skip
 """Milliseconds; and transferred bytes per frame, of the canvas and in total."""
@@ -143,7 +151,21 @@ def first_use(browser: Browser, server: JupyterServer, shape: str, cache: str) -
         return [(shown - start) / 1e3, drag / 1e3]
 
 
-def dragged(browser: Browser, server: JupyterServer, setup: str, n_moves: int) -> list[float]:
+def rows_of(delays: list[int]) -> list[tuple[str, bool, int]]:
+    """Where the map is evaluated, whether the page's solver goes ahead, and the delay in ms."""
+    first = [(where, ahead, 0) for ahead in (False, True) for where in ("shader", "page")]
+    late = [("page", ahead, delay) for delay in delays if delay for ahead in (False, True)]
+    return [*first, ("kernel", False, 0), *late]
+
+
+def dragged(
+    browser: Browser,
+    server: JupyterServer,
+    setup: str,
+    n_moves: int,
+    ahead: bool = False,
+    delay: int = 0,
+) -> list[float]:
     """Drag the last handle on a spiral, once to warm up and once for the measurement.
 
     Returns the numbers of :data:`COLUMNS`. The latency is the time from a pointer event until a
@@ -153,7 +175,11 @@ def dragged(browser: Browser, server: JupyterServer, setup: str, n_moves: int) -
     with notebook(browser, server, [setup]) as book:
         hand = Hand(book)
         identity, trait, widgets = book.value("[*log.source, log.widgets]")
-        book.page.evaluate(WATCH, [identity, trait, N_SAMPLES, widgets])
+        if ahead:
+            book.page.wait_for_function("window.glid.solvers > 0")
+        else:
+            book.page.evaluate(WATCH, [identity, trait, N_SAMPLES, widgets])
+        book.page.evaluate("delay => { window.glid.delay = delay; }", delay)
         for count in (n_moves // 4, n_moves):
             hand.settle()
             book.page.evaluate("window.glid.clear()")
@@ -161,8 +187,10 @@ def dragged(browser: Browser, server: JupyterServer, setup: str, n_moves: int) -
             start, seconds = spiral(hand, count)
             book.wait_for("not model.dragged", 60)
             hand.settle()
-            last = book.value("log.frames[-1]['sample']")
-            book.page.wait_for_function("last => window.glid.drawn(last)", arg=last, timeout=60_000)
+            if not ahead:
+                last = book.value("log.frames[-1]['sample']")
+                drawn_last = "last => window.glid.drawn(last)"
+                book.page.wait_for_function(drawn_last, arg=last, timeout=60_000)
         seen = book.page.evaluate("window.glid.seen()")
         known = book.value("[log.frames, log.solving, log.showing]")
         unit = book.value("canvas.pane.stage.view[2]")
@@ -210,13 +238,14 @@ def joined(
     """Milliseconds from each move to its frame, and the number of drawn frames.
 
     ``times`` and ``targets`` belong to the pointer's moves. ``drawn`` holds times and samples of
-    the frames in the page, ``known`` samples and targets of the frames in the kernel.
+    the frames in the page, or their targets if the page solved them; ``known`` samples and targets
+    of the frames in the kernel.
     """
     solved_for = {tuple(frame["sample"]): frame["targets"][-1] for frame in known}
     latest = -1  # the last move that a frame has shown
     waits: list[float] = []
     for time_drawn, sample in drawn:
-        target = solved_for.get(tuple(sample))
+        target = sample if len(sample) == 2 else solved_for.get(tuple(sample))
         if target is None:  # a frame from before the drag
             continue
         gaps = np.linalg.norm(targets - target, axis=1)

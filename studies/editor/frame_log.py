@@ -41,7 +41,7 @@ class FrameLog:
     def source(self) -> tuple[str, str]:
         """The identity of the widget that sends the frames, and the name of its trait."""
         scene = self.canvas.pane.scene
-        if scene.evaluated_in == "shader":
+        if scene.evaluated_in != "kernel":
             return str(self.canvas.pane.stage.model_id), "coefficients"
         return str(scene.picture.attributes["image"].model_id), "array"
 
@@ -57,7 +57,7 @@ class FrameLog:
         if what != "frame" or frame is None:
             return
         pane = self.canvas.pane
-        if pane.scene.evaluated_in == "shader":
+        if pane.scene.evaluated_in != "kernel":
             numbers = np.frombuffer(pane.stage.coefficients, "<u4")
         else:
             numbers = np.ravel(pane.scene.picture.attributes["image"].array).view("<u4")

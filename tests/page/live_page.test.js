@@ -2,6 +2,8 @@
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
+import { Solving } from "../../glid_nb/page/js/live/solving.js";
+import { coefficientsOf, movedVertices } from "../../glid_nb/page/js/live/wire.js";
 import { Editing } from "../../glid_nb/page/js/live_page/editing.js";
 import { History } from "../../glid_nb/page/js/live_page/history.js";
 import { quicker, shaderSuffices, sharpness } from "../../glid_nb/page/js/live_page/measuring.js";
@@ -17,8 +19,6 @@ import { lineThrough } from "../../glid_nb/page/js/live_page/plots.js";
 import { hexText, proofFiles } from "../../glid_nb/page/js/live_page/proof_file.js";
 import { pythonCode } from "../../glid_nb/page/js/live_page/python.js";
 import { spokenOf } from "../../glid_nb/page/js/live_page/report.js";
-import { Solving } from "../../glid_nb/page/js/live_page/solving.js";
-import { coefficientsOf, movedVertices } from "../../glid_nb/page/js/live_page/wire.js";
 
 /** @import { LiveAnswer, LiveMap, LiveRequest } from "../../glid_nb/page/js/live/types.js" */
 /** @import { Point } from "../../glid_nb/page/js/types.js" */
@@ -166,7 +166,7 @@ test("a plot's line ends at its right, and stays in the box", () => {
 function fakeWorker() {
   /** @type {LiveRequest[]} */
   const requests = [];
-  /** @type {import("../../glid_nb/page/js/live_page/solving.js").Port} */
+  /** @type {import("../../glid_nb/page/js/live/solving.js").Port} */
   const port = { postMessage: (request) => requests.push(request), onmessage: null };
   const answer = (/** @type {LiveAnswer} */ data) => port.onmessage?.({ data });
   return { port, requests, answer };

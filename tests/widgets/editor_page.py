@@ -60,8 +60,10 @@ MANAGER = """async () => {
 
 _COEFFICIENTS = f"""async (id) => {{
   const manager = await ({MANAGER})();
-  const material = await manager.get_model(id);
-  return Array.from(material.obj.uniforms.coefficients.value);
+  const {{material, geometry}} = (await manager.get_model(id)).obj;
+  const inShader = material.uniforms.coefficients;
+  if (inShader) return Array.from(inShader.value);
+  return Array.from(geometry.userData.wire ?? []);
 }}"""
 
 _SHOWS = f"""async ([id, wanted, pad, view]) => {{
@@ -69,7 +71,7 @@ _SHOWS = f"""async ([id, wanted, pad, view]) => {{
   const manager = await ({MANAGER})();
   const seen = (await manager.get_model(pad)).get('view');
   if (!seen.every((v, i) => Math.abs(v - view[i]) < 1e-9)) return false;
-  return shown.length === wanted.length && shown.every((v, i) => Math.abs(v - wanted[i]) < 1e-6);
+  return wanted.every((v, i) => Math.abs(v - shown[i]) < 1e-6);
 }}"""
 
 # The numbers in the page's three.js geometry.
@@ -189,9 +191,18 @@ class Hand:
         self.settle()
 
     def coefficients(self) -> list[float]:
-        """phi and psi in the shader of the page's picture, as three.js has them."""
-        identity = self.book.value(f"{self.canvas}.pane.scene.picture.material.model_id")
-        return self.page.evaluate(_COEFFICIENTS, identity)
+        """phi and psi of the map that the page draws, as three.js has them."""
+        return self.drawn(self.picture())
+
+    def picture(self) -> list[Any]:
+        """Which of the page's meshes is the picture, for `drawn`."""
+        scene = f"scene = {self.canvas}.pane.scene"
+        return self.book.value("[scene.picture.mesh.model_id, 4 * scene.shader_map.n_chain]", scene)
+
+    def drawn(self, picture: list[Any]) -> list[float]:
+        """As `coefficients`, without asking the kernel."""
+        identity, count = picture
+        return self.page.evaluate(_COEFFICIENTS, identity)[:count]
 
     def attribute(self, name: str) -> list[float]:
         """A vertex attribute of the page's picture, as three.js has it."""
@@ -210,9 +221,9 @@ class Hand:
         self.page.evaluate(_FRAMES)
 
     def wait_until_drawn(self) -> None:
-        """Wait until the shader has the kernel's map, to float32, and a frame was drawn with it."""
+        """Wait until the page has the kernel's map, to float32, and a frame was drawn with it."""
         identity, wanted, pad, view = self.book.value(
-            "[pane.scene.picture.material.model_id,"
+            "[pane.scene.picture.mesh.model_id,"
             f" pane.scene.shader_map.coefficients({self.model}.map)[0].ravel().tolist(),"
             " pane.stage.model_id, list(pane.stage.view)]",
             f"pane = {self.canvas}.pane",

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from glid_nb.widgets import DeformCanvas
+from glid_nb.widgets.layers import MOVED_BY_PAGE
 
 from ..support.domains import domain
 from .test_shader import PICTURE
@@ -29,32 +30,68 @@ def test_the_mesh_is_coarse_until_the_page_has_said_what_it_can_draw() -> None:
     assert stage.materials == pane.scene.materials
     assert stage.coefficients == pane.scene.shader_map.wire(canvas.deformation.map)
     assert pane.scene.picture.material.uniforms["map"]["value"] is texture  # sent once
-    # Another page is slower: half of the vertices, within 40 ms.
+    # It was measured anew: the shader's time is that of 10,000 vertices.
+    stage.drawing_time = 7.0
+    assert (pane.scene.picture.n_vertices, pane.scene.evaluated_in) == (fine, "shader")
+    # Another page is slower. Its script moves the vertices then, and that is measured.
     stage.drawing_time = 80.0
+    assert (pane.scene.picture.n_vertices, pane.scene.evaluated_in) == (fine, "page")
+    # Half of the vertices, within 40 ms.
+    stage.drawing_time = 79.0
     between = pane.scene.picture.n_vertices
     assert 0.4 * fine < between < 0.6 * fine
+    assert pane.scene.evaluated_in == "page"
     # The time was that of the finer mesh. What another page reports of this mesh counts by itself.
     stage.drawing_time = 5.0
     assert pane.scene.picture.n_vertices == between
+    # A page that moves vertices more slowly than its shader gets the shader.
     stage.drawing_time = 1e4
-    assert pane.scene.picture.n_vertices == coarse
+    assert pane.scene.evaluated_in == "shader"
     canvas.close()
 
 
-@pytest.mark.parametrize("time", [0.0, 25.0, 39.0, 1e4])
-def test_a_slow_page_keeps_the_mesh(time: float) -> None:
-    canvas = _canvas()
+@pytest.mark.parametrize("time", [0.0, 3.0, 7.9])
+@pytest.mark.parametrize("asked", [None, "shader"])
+def test_a_page_whose_shader_is_quick_keeps_it(time: float, asked: str | None) -> None:
+    canvas = _canvas(n_vertices=1600, evaluated_in=asked)
     scene = canvas.pane.scene
     canvas.pane.stage.drawing_time = time
     assert canvas.pane.scene is scene
     canvas.close()
 
 
+@pytest.mark.parametrize("times", [(25.0, 12.0), (39.0, 38.0), (1e4, 1e3)])
+def test_where_drawing_is_slow_the_page_moves_the_vertices(times: tuple[float, float]) -> None:
+    canvas = _canvas()
+    pane = canvas.pane
+    coarse, wire = pane.scene.picture.n_vertices, pane.stage.coefficients
+    pane.stage.drawing_time = times[0]
+    assert pane.stage.drawing_time == 0.0  # the page is to measure again
+    pane.stage.drawing_time = times[1]
+    assert pane.scene.evaluated_in == "page"
+    assert pane.scene.picture.n_vertices >= coarse
+    assert pane.stage.coefficients == wire
+    assert {mesh.name for mesh in pane.scene.meshes} == {MOVED_BY_PAGE}
+    canvas.close()
+
+
+def test_where_the_page_moves_vertices_more_slowly_the_shader_stays() -> None:
+    canvas = _canvas()
+    pane = canvas.pane
+    pane.stage.drawing_time = 30.0
+    pane.stage.drawing_time = 31.0
+    assert pane.scene.evaluated_in == "shader"
+    pane.stage.drawing_time = 30.0
+    assert (pane.scene.evaluated_in, pane.stage.drawing_time) == ("shader", 30.0)
+    canvas.close()
+
+
 def test_a_mesh_that_was_asked_for_stays() -> None:
     canvas = _canvas(n_vertices=4000)
-    scene = canvas.pane.scene
-    canvas.pane.stage.drawing_time = 1e3
-    assert canvas.pane.scene is scene
+    count = canvas.pane.scene.picture.n_vertices
+    for time in (1e3, 9e2):
+        canvas.pane.stage.drawing_time = time
+        assert canvas.pane.scene.picture.n_vertices == count
     canvas.close()
 
 

@@ -50,11 +50,11 @@ toString(36).slice(2);#queue=[];#buffers=[];#promised=[];#waiting=false;#awaited
 this.model=model;this.element=element;this.signal=signal;this.report=report;connectNoMoreComms(model.
 widget_manager.kernel);element.dataset.idle="true";signal.addEventListener("abort",()=>this.#stop());
 model.on("msg:custom",message=>{if(message.view===this.view)this.#answered(message)})}get idle(){return this.#acknowledged===
-this.#number}put(event,buffers=[]){this.#number+=1;const number=this.#number;const last=this.#queue.
+this.#number}put(event,buffers=[]){this.#number+=1;const number2=this.#number;const last=this.#queue.
 at(-1);if(last?.replaces&&last.replaces===event.replaces)this.#queue.pop();this.#queue.push({...event,
-seq:number});this.#buffers.push(...buffers);this.element.dataset.idle="false";this.#flush();return new Promise(
-resolve=>this.#promised.push({number,resolve}))}#flush(){if(this.#waiting||!this.#queue.length)return;
-this.#waiting=true;this.#awaited=this.#number;try{const{kernel}=this.model.widget_manager;if(kernel===
+seq:number2});this.#buffers.push(...buffers);this.element.dataset.idle="false";this.#flush();return new Promise(
+resolve=>this.#promised.push({number:number2,resolve}))}#flush(){if(this.#waiting||!this.#queue.length)
+return;this.#waiting=true;this.#awaited=this.#number;try{const{kernel}=this.model.widget_manager;if(kernel===
 null||kernel?.isDisposed)throw new Error("the kernel was shut down");this.model.send({view:this.view,
 events:this.#queue},void 0,this.#buffers)}catch{this.#markDisconnected();return}this.#queue=[];this.#buffers=
 [];this.#overdue=setTimeout(()=>{this.busy=true;this.report()},BUSY_AFTER);this.#timeout=setTimeout(
@@ -62,13 +62,13 @@ events:this.#queue},void 0,this.#buffers)}catch{this.#markDisconnected();return}
 d-editor")??this.element.closest(".glid-host");around?.classList.add("jupyter-widgets-disconnected")}#answered({
 ack,refusal}){if(ack===this.#awaited)clearTimeout(this.#overdue);this.#acknowledged=Math.max(this.#acknowledged,
 ack);this.busy=false;this.refusal=refusal;this.element.dataset.idle=String(this.idle);const due=this.#promised.
-filter(({number})=>number<=ack);this.#promised=this.#promised.filter(({number})=>number>ack);for(const{
-resolve}of due)resolve(refusal);this.report();if(ack<this.#awaited)return;if(document.hidden)this.#release();else
-this.#drawing=requestAnimationFrame(()=>this.#release())}#release(){this.#stop();this.#waiting=false;
-this.#flush()}#stop(){clearTimeout(this.#overdue);clearTimeout(this.#timeout);cancelAnimationFrame(this.#drawing)}};
-function connectNoMoreComms(kernel){const status=kernel?.statusChanged;const connect=status?.connect;
-if(!connect||Object.hasOwn(status,"connect"))return;status.connect=(slot,receiver)=>!String(slot).includes(
-"_cleanSubshells")&&connect.call(status,slot,receiver)}function openMenu(element,[x,y],rows){const ending=new AbortController;let pressed=false;const close=()=>{
+filter(({number:number2})=>number2<=ack);this.#promised=this.#promised.filter(({number:number2})=>number2>
+ack);for(const{resolve}of due)resolve(refusal);this.report();if(ack<this.#awaited)return;if(document.
+hidden)this.#release();else this.#drawing=requestAnimationFrame(()=>this.#release())}#release(){this.#stop();
+this.#waiting=false;this.#flush()}#stop(){clearTimeout(this.#overdue);clearTimeout(this.#timeout);cancelAnimationFrame(
+this.#drawing)}};function connectNoMoreComms(kernel){const status=kernel?.statusChanged;const connect=status?.
+connect;if(!connect||Object.hasOwn(status,"connect"))return;status.connect=(slot,receiver)=>!String(
+slot).includes("_cleanSubshells")&&connect.call(status,slot,receiver)}function openMenu(element,[x,y],rows){const ending=new AbortController;let pressed=false;const close=()=>{
 ending.abort();menu.remove();element.focus({preventScroll:true})};const step=by=>{const items=[...menu.
 querySelectorAll("button")];const focused=document.activeElement;const present=items.indexOf(focused);
 items.at((present+by)%items.length)?.focus()};const keys={ArrowDown:()=>step(1),ArrowUp:()=>step(-1),
@@ -169,7 +169,58 @@ this.grip=null;this.behaviour.changed()}#drop(){this.#letGo();this.held.clear();
 if(!this.behaviour.ownsWheel&&!this.focused&&!e.ctrlKey)return;e.stopPropagation();this.view.wheel(e,
 this.place(e))}#setSpace(pressed){this.#space=pressed;this.#showCursor()}#showCursor(){this.element.
 style.cursor=this.#cursor()}#cursor(){if(this.mode==="pan"||this.grip)return"grabbing";return this.#space?
-"grab":this.behaviour.cursor(this.found)}};function menuRows(does,pin,covered){return[...pin?pinRows(does,pin.pinned):shapeRows(does,covered),[
+"grab":this.behaviour.cursor(this.found)}};var Solving=class{#worker;#number=0;#asked=new Map;constructor(worker,onmap=()=>{}){this.#worker=worker;
+this.onmap=onmap;worker.onmessage=({data})=>this.#answered(data)}ask(request){const id=this.#send(request);
+return new Promise((resolve,reject)=>this.#asked.set(id,{resolve,reject}))}async map(request){const answer=await this.
+ask(request);if(answer.type!=="map")throw new Error(`the answer is no map but of type ${answer.type}`);
+return answer}drag(pose){return this.#send({type:"drag",pose})}place(pose,coefficients){return this.#send(
+{type:"place",pose,coefficients})}#send(request){this.#number+=1;this.#worker.postMessage({...request,
+id:this.#number});return this.#number}#answered(answer){const asked=this.#asked.get(answer.id);if(answer.
+type==="map")this.onmap(answer);if(answer.type==="map"&&!answer.settled)return;this.#asked.delete(answer.
+id);if(answer.type==="failed")asked?.reject(new Error(answer.message));else asked?.resolve(answer)}};var FAR=1e3;var Wire=class{#chain;#outline;#vertices;#sizes;constructor(outline,{chain,shaderHoles}){
+const loops=[outline.offset_cage,...outline.offset_holes];this.#outline=outline;this.#sizes={chain,holes:shaderHoles};
+this.#chain=chainOf(loops.map(loop=>loop.length));this.#vertices=loops.flat();this.cage=this.#cageOf()}#cageOf(){
+const cage=new Float32Array(4*this.#sizes.chain);const last=this.#vertices[this.#vertices.length-1];
+for(let i=0;i<this.#sizes.chain;i++){const link=this.#chain[i];const[x,y]=link?this.#vertices[link.vertex]:
+last;const inverse=link&&!link.first?this.#inverseEdge(i):[0,0];cage.set([x,y,...inverse],4*i)}return cage}#inverseEdge(i){
+const[x,y]=this.#vertices[this.#chain[i].vertex];const[u,v]=this.#vertices[this.#chain[i-1].vertex];
+const[dx,dy]=[x-u,y-v];const square=dx*dx+dy*dy;return[dx/square,-dy/square]}get length(){const{chain,
+holes}=this.#sizes;return 4*(chain+holes)}coefficients(wire){const vertices=this.#vertices.length;const holes=this.#outline.
+hole_points.length;const n=vertices+holes;const coefficients=new Float64Array(4*n);for(const[i,{vertex}]of this.#chain.
+entries()){for(let part=0;part<4;part++)coefficients[part*n+vertex]=wire[4*i+part]}for(let h=0;h<holes;h++){
+const[re,im]=wire.subarray(4*(this.#sizes.chain+h)+2);const parts=[re,im,re,-im];for(const[part,value]of parts.
+entries())coefficients[part*n+vertices+h]=value}return coefficients}of(coefficients){const{chain,holes}=this.#sizes;
+const n=coefficients.length/4;const wire=new Float32Array(4*(chain+holes));for(const[i,{vertex}]of this.#chain.
+entries()){for(let part=0;part<4;part++)wire[4*i+part]=coefficients[part*n+vertex]}const far=FAR*Math.
+max(...this.#vertices.map(([x,y])=>Math.hypot(x,y)));const points=this.#outline.hole_points;for(let h=0;h<
+holes;h++){const column=this.#vertices.length+h;const vector=h<points.length?[...points[h],coefficients[column],
+coefficients[n+column]]:[far];wire.set(vector,4*(chain+h))}return wire}};function chainOf(sizes){const chain=[];
+let start=0;for(const size of sizes){chain.push({vertex:start+size-1,first:true});for(let i=0;i<size;i++)
+chain.push({vertex:start+i,first:false});start+=size}return chain}var SAME=1e-4;var Ahead=class{#model;#show;#makeWorker;#solving=null;#worker=null;#wire=null;#turn=0;#ready=false;#pose=null;#first=0;constructor(model,show,makeWorker=startedWorker){
+this.#model=model;this.#show=show;this.#makeWorker=makeWorker}get leads(){return this.#pose!==null}async prepare(){
+this.close();this.#turn+=1;const turn=this.#turn;const script=this.#model.get("solver_script");const{
+options}=this.#model.get("solver");const outlined=this.#model.get("outline");if(!script||!options||!outlined.
+outline)return;const{outline,...sizes}=outlined;this.#wire=new Wire(outline,sizes);this.#worker=this.#makeWorker(
+script);this.#solving=new Solving(this.#worker,map=>this.#take(map));await this.#solving.ask({type:"\
+shape",outline,options});this.#ready=turn===this.#turn}follow(held){if(!this.#ready||!this.#solving||
+!held.size)return;if(!this.#pose&&!this.#begin(this.#solving))return;const pose=this.#pose;const targets=pose.
+targets.map((target,i)=>held.get(i)??target);if(targets.every((target,i)=>distance(target,pose.targets[i])===
+0))return;this.#pose={...pose,targets};this.#solving.drag(this.#pose)}#begin(solving){const{pose,coefficients}=this.#model.
+get("rest");const{targets}=this.#model.get("marks");if(pose?.targets.length!==targets.length)return false;
+if(pose.targets.some((one,i)=>distance(one,targets[i])>SAME))return false;this.#pose=pose;const floats=new Float64Array(
+coefficients.buffer.slice(coefficients.byteOffset,coefficients.byteOffset+coefficients.byteLength));
+this.#first=solving.place(pose,floats);return true}giveBack(){if(!this.#pose)return;this.#pose=null;
+this.#show(null)}close(){this.giveBack();this.#ready=false;this.#worker?.terminate?.();this.#worker=
+null;this.#solving=null}#take({id,coefficients,certificate,pins}){const pose=this.#pose;if(!pose||!this.#wire||
+id<this.#first||!certificate.certified)return;const at=(_,i)=>[pins.images[2*i],pins.images[2*i+1]];
+const images=pose.targets.map(at);const{targets}=pose;const floats=this.#wire.of(coefficients);this.#show(
+{floats,pins:{targets,images,samples:pins.samples}})}};function marksOf(marks,lead){const count=marks.
+targets.length;if(lead?.pins.targets.length!==count)return marks;const{targets,images,samples}=lead.
+pins;return{...marks,targets,images,ring:ringOf(marks,samples,count)}}function ringOf({ring,selected},samples,count){
+const last=selected.at(-1);if(ring.length===0||last===void 0)return ring;const[angle,scale,turned,scaled]=ring;
+const[x,y]=[samples[last],samples[count+last]];return[turned?angle:Math.atan2(y,x),scaled?scale:Math.
+hypot(x,y),turned,scaled]}function startedWorker(script){const address=URL.createObjectURL(new Blob(
+[script],{type:"text/javascript"}));const worker=new Worker(address);URL.revokeObjectURL(address);return worker}function menuRows(does,pin,covered){return[...pin?pinRows(does,pin.pinned):shapeRows(does,covered),[
 "Copy the pose","Ctrl+C",does.press("copy")],["Paste a pose","Ctrl+V",does.paste],["Swap left and ri\
 ght","M",does.press("m")],["Select all pins","A",does.press("a")],["The undeformed shape","0",does.press(
 "0")],["See everything","F",does.press("f")],["Paint stiff areas","B",does.press("b")],["The picture\
@@ -271,18 +322,18 @@ ects several";var IMAGE_TIP="where the shape is now. The cyan disk is where it s
 ere; X frees it again",knob:"Drag around the pin to turn the shape there, away from it to scale it; \
 X frees it again"};var PinBehaviour=class{reach=REACH;keys=KEYS;constructor(canvas){this.canvas=canvas;
 this.actions={"?":canvas.help.toggle,contextmenu:()=>canvas.openMenu(),p:()=>canvas.room?.alone(),w:()=>canvas.
-room?.fullScreen()}}get painting(){return this.canvas.painting}changed(){this.canvas.redraw()}menu(place,found){
-this.canvas.openMenu(place,found)}pressedAt(){return this.canvas.pressedAt()}tapped(){this.canvas.box.
-dispatchEvent(new CustomEvent("glid:play",{bubbles:true}))}find(point,reach){const{view,marks,shapes,
-painting}=this.canvas;if(shapes.motion||painting)return null;const mark=markAt(marks,point,reach);return mark??
-ringAt(view,marks,view.toScreen(point),reach/view.unit/2)}encloses(found,e){if(found)return null;if(e.
-shiftKey)return"box";return e.ctrlKey||e.metaKey?"lasso":null}held({mark}){const{selected,targets}=this.
-canvas.marks;const pressed=Number(mark);const moved=selected.includes(pressed)?selected:[pressed];return new Map(
-moved.map(i=>[i,targets[i]]))}cursor(found){this.canvas.box.title=this.#tip(found);return found?"gra\
-b":"crosshair"}#tip(found){if(!found)return"";if(found.part)return RING_TIPS[found.part];const{marks,
-model}=this.canvas;const mark=Number(found.mark);const name=["Pin",mark+1,model.get("names")[mark]].
-join(" ").trim();const tip=found.reached?IMAGE_TIP:TARGET_TIP;return`${name}: ${tip}${marks.hidden.includes(
-mark)?COVERED:""}`}};async function copied(text){try{await navigator.clipboard.writeText(text);return true}catch{return copiedBySelection(
+room?.fullScreen()}}get painting(){return this.canvas.painting}changed(){this.canvas.followHand();this.
+canvas.redraw()}menu(place,found){this.canvas.openMenu(place,found)}pressedAt(){return this.canvas.pressedAt()}tapped(){
+this.canvas.box.dispatchEvent(new CustomEvent("glid:play",{bubbles:true}))}find(point,reach){const{view,
+marks,shapes,painting}=this.canvas;if(shapes.motion||painting)return null;const mark=markAt(marks,point,
+reach);return mark??ringAt(view,marks,view.toScreen(point),reach/view.unit/2)}encloses(found,e){if(found)
+return null;if(e.shiftKey)return"box";return e.ctrlKey||e.metaKey?"lasso":null}held({mark}){const{selected,
+targets}=this.canvas.marks;const pressed=Number(mark);const moved=selected.includes(pressed)?selected:
+[pressed];return new Map(moved.map(i=>[i,targets[i]]))}cursor(found){this.canvas.box.title=this.#tip(
+found);return found?"grab":"crosshair"}#tip(found){if(!found)return"";if(found.part)return RING_TIPS[found.
+part];const{marks,model}=this.canvas;const mark=Number(found.mark);const name=["Pin",mark+1,model.get(
+"names")[mark]].join(" ").trim();const tip=found.reached?IMAGE_TIP:TARGET_TIP;return`${name}: ${tip}${marks.
+hidden.includes(mark)?COVERED:""}`}};async function copied(text){try{await navigator.clipboard.writeText(text);return true}catch{return copiedBySelection(
 text)}}function copiedBySelection(text){const focused=document.activeElement;const area=document.createElement(
 "textarea");area.value=text;area.setAttribute("readonly","");Object.assign(area.style,{position:"fix\
 ed",top:"0",left:"0",opacity:"0"});document.body.append(area);area.select();try{return document.execCommand(
@@ -344,63 +395,168 @@ zoom=share<1&&!this.#decides?String(share):""}#roomIn(root,column,around){const 
 root?0:PAGE;const below=window.innerHeight-page;if(root.classList.contains("glid-alone")){return{width:root.
 clientWidth,height:below,alone:1}}const plots=column.nextElementSibling;const beside=around.clientWidth-
 (plots?.offsetWidth??0)-GAP;const width=beside>=LEAST?beside:around.clientWidth;return{width,height:Math.
-max(LEAST,below-PARTS),alone:0}}};var NEAR=8;var N_TIMED=3;var Shapes=class{motion=null;#materials=[];#camera=null;#renderer=null;#loading=0;#lifted=null;#resting=null;constructor(model,view){
-this.model=model;this.view=view;model.on("change:materials change:camera change:renderer",()=>this.load())}async load(){
-this.#loading+=1;const turn=this.#loading;const{model}=this;const references=[model.get("camera"),model.
-get("renderer"),...model.get("materials")];const[camera,renderer,...materials]=await Promise.all(references.
-map(one=>model.widget_manager.get_model(one.replace("IPY_MODEL_",""))));await Promise.all([camera,renderer,
+max(LEAST,below-PARTS),alone:0}}};var LN2_HIGH=.6931471803691238;var LN2_LOW=19082149292705877e-26;var TWO_TO_54=0x40000000000000;var L1=.6666666666666735;
+var L2=.3999999999940942;var L3=.2857142874366239;var L4=.22222198432149784;var L5=.1818357216161805;
+var L6=.15313837699209373;var L7=.14798198605116586;var A0=.3333333333333293;var A1=-.19999999999876483;
+var A2=.14285714272503466;var A3=-.11111110405462356;var A4=.09090887133436507;var A5=-.0769187620504483;
+var A6=.06661073137387531;var A7=-.058335701337905735;var A8=.049768779946159324;var A9=-.036531572744216916;
+var A10=.016285820115365782;var ATAN_HIGH=[.4636476090008061,.7853981633974483,.982793723247329,1.5707963267948966];
+var ATAN_LOW=[22698777452961687e-33,3061616997868383e-32,13903311031230998e-33,6123233995736766e-32];
+var TINY=1862645149230957e-24;var HUGE=7378697629483821e4;var PI_LOW=12246467991473532e-32;var number=new Float64Array(
+1);var words=new Int32Array(number.buffer);number[0]=1;var HIGH=words[1]===0?0:1;function modulus(x,y){
+return Math.sqrt(x*x+y*y)}function log(x){if(!(x>0)||x===Infinity){return logOfSpecial(x)}const subnormal=x<
+22250738585072014e-324;number[0]=subnormal?x*TWO_TO_54:x;const exponent=(words[HIGH]>>20)-1023-(subnormal?
+54:0);const fraction=words[HIGH]&1048575;const carry=fraction+614244&1048576;words[HIGH]=fraction|carry^
+1072693248;return logOfParts(exponent+(carry>>20),number[0]-1,fraction)}function logOfSpecial(x){if(x===
+0){return-Infinity}return x===Infinity?Infinity:NaN}function logOfParts(k,f,fraction){if((1048575&2+
+fraction)<3){const r2=f*f*(.5-.3333333333333333*f);return k*LN2_HIGH-(r2-k*LN2_LOW-f)}const s=f/(2+f);
+const z=s*s;const w=z*z;const even=w*(L2+w*(L4+w*L6));const odd=z*(L1+w*(L3+w*(L5+w*L7)));const r=odd+
+even;if((fraction-398458|440401-fraction)>0){const half=.5*f*f;return k*LN2_HIGH-(half-(s*(half+r)+k*
+LN2_LOW)-f)}return k*LN2_HIGH-(s*(f-r)-k*LN2_LOW-f)}function atan2(y,x){if(!Number.isFinite(x)||!Number.
+isFinite(y)){return NaN}const angle=y===0?0:atan(Math.abs(y/x));if(x>=0){return y<0?-angle:angle}return y<
+0?angle-PI_LOW-Math.PI:Math.PI-(angle-PI_LOW)}function atan(x){if(x<.4375){return x<TINY?x:x-x*atanSeries(
+x)}if(x>=HUGE){return ATAN_HIGH[3]+ATAN_LOW[3]}if(x<.6875){return atanFrom(0,(2*x-1)/(2+x))}if(x<1.1875){
+return atanFrom(1,(x-1)/(x+1))}return x<2.4375?atanFrom(2,(x-1.5)/(1+1.5*x)):atanFrom(3,-1/x)}function atanFrom(entry,t){
+return ATAN_HIGH[entry]-(t*atanSeries(t)-ATAN_LOW[entry]-t)}function atanSeries(t){const z=t*t;const w=z*
+z;const odd=z*(A0+w*(A2+w*(A4+w*(A6+w*(A8+w*A10)))));const even=w*(A1+w*(A3+w*(A5+w*(A7+w*A9))));return odd+
+even}var Domain=class{constructor(outline){const loops=[outline.offset_cage,...outline.offset_holes];this.
+cage=[outline.cage,...outline.holes];this.singular=complexOf([...loops.flat(),...outline.hole_points]);
+this.exterior=outline.offset_cage.length;this.holes=outline.hole_points.length;this.vertices=loops.flat().
+length;this.columns=this.vertices+this.holes;const{next,previous}=neighbours(loops.map(loop=>loop.length));
+this.next=next;this.previous=previous;const{edge,inverse}=edgesOf(this.singular,next);this.edge=edge;
+this.inverseEdge=inverse;this.largest=largestModulus(this.singular,this.exterior);this.unit=longerSide(
+outline.cage)/20;this.free=freeColumns(loops.map(loop=>loop.length))}};function complexOf(points){return{
+re:Float64Array.from(points,point=>point[0]),im:Float64Array.from(points,point=>point[1])}}function zeros(size){
+return{re:new Float64Array(size),im:new Float64Array(size)}}function neighbours(sizes){const total=sizes.
+reduce((sum,size)=>sum+size,0);const next=new Int32Array(total);const previous=new Int32Array(total);
+let first=0;for(const size of sizes){for(let i=0;i<size;i++){const after=first+(i+1)%size;next[first+
+i]=after;previous[after]=first+i}first+=size}return{next,previous}}function freeColumns(sizes){const free=[];
+let first=0;for(const[loop,size]of sizes.entries()){for(let i=loop===0?1:2;i<size;i++){free.push(first+
+i)}first+=size}return Int32Array.from(free)}function edgesOf(singular,next){const edge=zeros(next.length);
+const inverse=zeros(next.length);for(let e=0;e<next.length;e++){const re=singular.re[next[e]]-singular.
+re[e];const im=singular.im[next[e]]-singular.im[e];const square=re*re+im*im;edge.re[e]=re;edge.im[e]=
+im;inverse.re[e]=re/square;inverse.im[e]=-im/square}return{edge,inverse}}function largestModulus(points,count){
+let largest=0;for(let j=0;j<count;j++){largest=Math.max(largest,modulus(points.re[j],points.im[j]))}
+return largest}function longerSide(loop){const sides=[0,1].map(axis=>{const values=loop.map(point=>point[axis]);
+return Math.max(...values)-Math.min(...values)});return Math.max(...sides)}var UNIT_ROUNDOFF=11102230246251565e-32;var UPWARD=1+9313225746154785e-25;var CUT=64*UNIT_ROUNDOFF;var BESIDE=64*
+UNIT_ROUNDOFF;var LOGARITHM=16*UNIT_ROUNDOFF;var BERNSTEIN=16*UNIT_ROUNDOFF;var TAU=2*Math.PI;var LARGEST_NORM=1e20;function rowsAt(domain,points){const count=points.re.length;
+const{columns}=domain;const rows={count,columns,...zeros(count*columns),norms:new Float64Array(count)};
+for(let i=0;i<count;i++){rows.norms[i]=fillRow(domain,points.re[i],points.im[i],rows,i*columns)}return rows}
+function fillRow(domain,x,y,row2,first){const{vertices,columns,next,singular}=domain;let safe=true;for(let e=0;e<
+vertices;e++){const after=next[e];const bx=singular.re[e]-x;const by=singular.im[e]-y;const cx=singular.
+re[after]-x;const cy=singular.im[after]-y;const angle=atan2(bx*cy-by*cx,bx*cx+by*cy)/TAU;row2.re[first+
+e]=angle;row2.im[first+e]=-log((cx*cx+cy*cy)/(bx*bx+by*by))/(2*TAU);safe=safe&&Math.abs(angle)<.5-CUT}
+for(let h=vertices;h<columns;h++){const bx=x-singular.re[h];const by=y-singular.im[h];const square=bx*
+bx+by*by;row2.re[first+h]=bx/square;row2.im[first+h]=-by/square}const norm=UPWARD*Math.sqrt(squares(
+row2,first,columns));return safe&&norm<LARGEST_NORM?norm:Infinity}function squares(row2,first,count){
+let sum=0;for(let j=first;j<first+count;j++){sum+=row2.re[j]*row2.re[j]+row2.im[j]*row2.im[j]}return sum}
+function coordinatesAt(domain,[x,y]){const{vertices,columns,next,previous,singular}=domain;const logarithms=zeros(
+columns);fillRow(domain,x,y,logarithms,0);const over=timesInverseEdge(domain,logarithms);const c=zeros(
+columns);for(let j=0;j<vertices;j++){const p=previous[j];const cx=singular.re[next[j]]-x;const cy=singular.
+im[next[j]]-y;const bx=singular.re[p]-x;const by=singular.im[p]-y;c.re[j]=cx*over.re[j]-cy*over.im[j]-
+(bx*over.re[p]-by*over.im[p]);c.im[j]=cx*over.im[j]+cy*over.re[j]-(bx*over.im[p]+by*over.re[p])}for(let h=vertices;h<
+columns;h++){c.re[h]=log(modulus(x-singular.re[h],y-singular.im[h]))}return c}function timesInverseEdge({vertices,inverseEdge},row2){const over=zeros(vertices);for(let e=0;e<vertices;e++){
+over.re[e]=row2.re[e]*inverseEdge.re[e]-row2.im[e]*inverseEdge.im[e];over.im[e]=row2.re[e]*inverseEdge.
+im[e]+row2.im[e]*inverseEdge.re[e]}return over}function slopesOf(domain,coefficients){const{vertices,
+columns,next,edge}=domain;const slopes=new Float64Array(4*columns);for(const part of[0,2*columns]){const re=coefficients.
+subarray(part,part+columns);const im=coefficients.subarray(part+columns,part+2*columns);for(let e=0;e<
+vertices;e++){const x=re[next[e]]-re[e];const y=im[next[e]]-im[e];const a=edge.re[e];const b=edge.im[e];
+const square=a*a+b*b;slopes[part+e]=(x*a+y*b)/square;slopes[part+columns+e]=(y*a-x*b)/square}for(let h=vertices;h<
+columns;h++){slopes[part+h]=re[h];slopes[part+columns+h]=im[h]}}return slopes}function samplesAt(rows,slopes){const samples=new Float64Array(4*rows.count);const[pr,pi,qr,qi]=quarters(
+slopes);const[fr,fi,gr,gi]=quarters(samples);fillProduct(rows,pr,pi,fr,fi);fillProduct(rows,qr,qi,gr,
+gi);return samples}function fillProduct(rows,re,im,intoRe,intoIm){const{count,columns}=rows;const rowRe=rows.
+re;const rowIm=rows.im;for(let i=0;i<count;i+=2){const next=Math.min(i+1,count-1);const first=i*columns;
+const second=next*columns;let x1=0;let y1=0;let x2=0;let y2=0;for(let e=0;e<columns;e++){const a1=rowRe[first+
+e];const b1=rowIm[first+e];const a2=rowRe[second+e];const b2=rowIm[second+e];const c=re[e];const d=im[e];
+x1+=a1*c-b1*d;y1+=a1*d+b1*c;x2+=a2*c-b2*d;y2+=a2*d+b2*c}intoRe[i]=x1;intoIm[i]=y1;intoRe[next]=x2;intoIm[next]=
+y2}}function quarters(values){const n=values.length/4;return[values.subarray(0,n),values.subarray(n,2*n),
+values.subarray(2*n,3*n),values.subarray(3*n)]}var FieldPoints=class{#domain;#coordinates;#rows;constructor(domain,points){const{columns}=domain;this.#domain=
+domain;this.count=points.length;this.#coordinates=zeros(points.length*columns);for(const[i,point]of points.
+entries()){const c=coordinatesAt(domain,point);this.#coordinates.re.set(c.re,i*columns);this.#coordinates.
+im.set(c.im,i*columns)}this.#rows=rowsAt(domain,complexOf(points))}evaluate(coefficients){const slopes=slopesOf(
+this.#domain,coefficients);return{images:imagesAt(this.#coordinates,this.count,coefficients),samples:samplesAt(
+this.#rows,slopes)}}};function imagesAt({re,im},count,coefficients){const images=new Float64Array(2*
+count);const n=coefficients.length/4;const[pr,pi,qr,qi]=quarters(coefficients);const sum={re:pr.map(
+(value,j)=>value+qr[j]),im:pi.map((value,j)=>value+qi[j])};const less={re:pr.map((value,j)=>value-qr[j]),
+im:pi.map((value,j)=>value-qi[j])};for(let i=0;i<count;i++){const first=i*n;let x=0;let y=0;for(let j=0;j<
+n;j++){x+=re[first+j]*sum.re[j]-im[first+j]*sum.im[j];y+=re[first+j]*less.im[j]+im[first+j]*less.re[j]}
+images[2*i]=x;images[2*i+1]=y}return images}var MOVED_BY_PAGE="moved by the page";var Vertices=class{#domain;#wire;#points=new WeakMap;constructor({
+outline,...sizes}){this.#domain=new Domain(outline);this.#wire=new Wire(outline,sizes)}move(meshes,wire){
+const moved=meshes.filter(({name,visible})=>name===MOVED_BY_PAGE&&visible);if(!moved.length||wire.length!==
+this.#wire.length)return;const coefficients=this.#wire.coefficients(wire);for(const geometry of new Set(
+moved.map(mesh=>mesh.geometry))){const{images,samples}=this.#pointsOf(geometry).evaluate(coefficients);
+const{image,derivatives}=geometry.attributes;image.array.set(images);const count=image.count;for(let part=0;part<
+4;part++){for(let i=0;i<count;i++)derivatives.array[4*i+part]=samples[part*count+i]}geometry.userData.
+wire=wire;image.needsUpdate=true;derivatives.needsUpdate=true}}#pointsOf(geometry){const known=this.#points.
+get(geometry);if(known)return known;const{array,count}=geometry.attributes.position;const places=Array.
+from({length:count},(_,i)=>[array[3*i],array[3*i+1]]);const points=new FieldPoints(this.#domain,places);
+this.#points.set(geometry,points);return points}};var NEAR=8;var LEAD="glid:lead";var N_TIMED=3;var Shapes=class{motion=null;lead=null;led=()=>{};#vertices=null;#materials=[];#camera=null;#renderer=null;#loading=0;#lifted=null;#resting=null;constructor(model,view){
+this.model=model;this.view=view;model.on("change:outline",()=>this.#takeOutline());this.#takeOutline();
+model.on("change:materials change:camera change:renderer",()=>this.load())}async load(){this.#loading+=
+1;const turn=this.#loading;const{model}=this;const references=[model.get("camera"),model.get("render\
+er"),...model.get("materials")];const[camera,renderer,...materials]=await Promise.all(references.map(
+one=>model.widget_manager.get_model(one.replace("IPY_MODEL_",""))));await Promise.all([camera,renderer,
 ...materials].map(one=>one.initPromise));if(turn!==this.#loading)return;this.#forget();this.#camera=
 camera;this.#renderer=renderer;this.#materials=materials;for(const material of materials)material.on(
 "change",this.refresh,this);renderer.get("scene").off("beforeRender",clearLists).on("beforeRender",clearLists);
-for(const view of Object.values(renderer.views))view.then(drawNoMore);this.refresh()}#forget(){for(const material of this.#materials)
-material.off(null,null,this);this.#materials=[]}refresh(){const{motion}=this;const moved=motion instanceof
-Float32Array&&motion.length?motion:null;const floats=moved??toFloats(this.model.get("coefficients"));
-for(const{obj}of this.#materials){const{cage,coefficients,holes,by_margin:byMargin}=obj?.uniforms??{};
-if(byMargin?.value)byMargin.value=motion?2:1;if(!coefficients)continue;const chain=cage.value.length;
-if(floats.length!==chain+holes.value.length)continue;coefficients.value=floats.subarray(0,chain);holes.
-value=floats.subarray(chain)}this.see();this.redraw()}lift(heights){const picture=this.#renderer?.get(
-"scene").obj?.children[0];const position=picture?.geometry.attributes.position;if(!position)return;if(position.
-array!==this.#lifted)this.#resting=position.array;const resting=this.#resting;if(heights?.length===position.
-count){const lifted=position.array===resting?resting.slice():position.array;heights.forEach((height,i)=>{
-lifted[3*i+2]=height});if(position.array===resting)position.setArray(lifted);this.#lifted=lifted}else{
-if(position.array===resting)return;position.setArray(resting)}position.needsUpdate=true}see(){const{
-x,y,unit,width,height}=this.view;const w=width/2*unit;const h=height/2*unit;for(const{obj}of this.#materials){
-if(obj?.uniforms?.pixel)obj.uniforms.pixel.value=unit}this.#camera?.set({left:x-w,right:x+w,top:y+h,
-bottom:y-h})}redraw(){this.#renderer?.trigger("rerender",this.#renderer,{})}close(){this.#loading+=1;
-this.#forget()}};function clearLists(_scene,{renderLists}){renderLists.dispose()}function drawNoMore(view){
-view.once("remove",()=>{view.renderScene=()=>{}})}function drawnBelow(pad){return pad.closest(".glid\
--pane")?.querySelector(".jupyter-threejs canvas")}function coveredNear(pad,[x,y]){const drawn=drawnBelow(
-pad);if(!drawn)return false;const size=2*NEAR;const pen=penOf(make("canvas",{width:size,height:size}));
-const ratio=drawn.width/pad.clientWidth;pen.drawImage(drawn,NEAR-Math.floor(x*ratio),NEAR-Math.floor(
-y*ratio));const{data}=pen.getImageData(0,0,size,size);return data.some((value,i)=>i%4===3&&value>0)}
-function uniformVectors(){const canvas=make("canvas");const gl=canvas.getContext("webgl2")||canvas.getContext(
-"webgl");if(!gl)return 0;const count=gl.getParameter(gl.MAX_VERTEX_UNIFORM_VECTORS);gl.getExtension(
-"WEBGL_lose_context")?.loseContext();return count}async function drawingTime(pad,shapes){const times=[];
-for(let i=0;i<=N_TIMED;i++){shapes.redraw();await new Promise(go=>requestAnimationFrame(go));const canvas=drawnBelow(
-pad);const gl=canvas?.getContext("webgl")||canvas?.getContext("webgl2");if(!gl)continue;const start=performance.
-now();gl.readPixels(0,0,1,1,gl.RGBA,gl.UNSIGNED_BYTE,new Uint8Array(4));times.push(performance.now()-
-start)}return times.length>1?Math.min(...times.slice(1)):0}var SAVE_VIEW_AFTER=250;var STILL={release(){},pause:()=>void 0};var Canvas=class{legend=new Legend;notices=new Notices;help=help(
+for(const view of Object.values(renderer.views))view.then(drawNoMore);renderer.on(LEAD,this.#takeLead,
+this);this.refresh()}#forget(){this.#renderer?.off(null,null,this);for(const material of this.#materials)
+material.off(null,null,this);this.#materials=[]}#takeOutline(){const outlined=this.model.get("outlin\
+e");this.#vertices=outlined?.outline?new Vertices(outlined):null}showLead(lead){this.#renderer?.trigger(
+LEAD,lead)}#takeLead(lead){this.lead=lead;this.refresh();this.led()}refresh(){const{motion}=this;const moved=motion instanceof
+Float32Array&&motion.length?motion:null;const floats=moved??this.lead?.floats??toFloats(this.model.get(
+"coefficients"));this.#vertices?.move(this.#renderer?.get("scene").obj?.children??[],floats);for(const{
+obj}of this.#materials){const{cage,coefficients,holes,by_margin:byMargin}=obj?.uniforms??{};if(byMargin?.
+value)byMargin.value=motion?2:1;if(!coefficients)continue;const chain=cage.value.length;if(floats.length!==
+chain+holes.value.length)continue;coefficients.value=floats.subarray(0,chain);holes.value=floats.subarray(
+chain)}this.see();this.redraw()}lift(heights){const picture=this.#renderer?.get("scene").obj?.children[0];
+const position=picture?.geometry.attributes.position;if(!position)return;if(position.array!==this.#lifted)
+this.#resting=position.array;const resting=this.#resting;if(heights?.length===position.count){const lifted=position.
+array===resting?resting.slice():position.array;heights.forEach((height,i)=>{lifted[3*i+2]=height});if(position.
+array===resting)position.setArray(lifted);this.#lifted=lifted}else{if(position.array===resting)return;
+position.setArray(resting)}position.needsUpdate=true}see(){const{x,y,unit,width,height}=this.view;const w=width/
+2*unit;const h=height/2*unit;for(const{obj}of this.#materials){if(obj?.uniforms?.pixel)obj.uniforms.
+pixel.value=unit}this.#camera?.set({left:x-w,right:x+w,top:y+h,bottom:y-h})}redraw(){this.#renderer?.
+trigger("rerender",this.#renderer,{})}close(){this.#loading+=1;this.#forget()}};function clearLists(_scene,{
+renderLists}){renderLists.dispose()}function drawNoMore(view){view.once("remove",()=>{view.renderScene=
+()=>{}})}function drawnBelow(pad){return pad.closest(".glid-pane")?.querySelector(".jupyter-threejs \
+canvas")}function coveredNear(pad,[x,y]){const drawn=drawnBelow(pad);if(!drawn)return false;const size=2*
+NEAR;const pen=penOf(make("canvas",{width:size,height:size}));const ratio=drawn.width/pad.clientWidth;
+pen.drawImage(drawn,NEAR-Math.floor(x*ratio),NEAR-Math.floor(y*ratio));const{data}=pen.getImageData(
+0,0,size,size);return data.some((value,i)=>i%4===3&&value>0)}function uniformVectors(){const canvas=make(
+"canvas");const gl=canvas.getContext("webgl2")||canvas.getContext("webgl");if(!gl)return 0;const count=gl.
+getParameter(gl.MAX_VERTEX_UNIFORM_VECTORS);gl.getExtension("WEBGL_lose_context")?.loseContext();return count}
+async function drawingTime(pad,shapes){const times=[];for(let i=0;i<=N_TIMED;i++){const moving=performance.
+now();shapes.refresh();const moved=performance.now()-moving;await new Promise(go=>requestAnimationFrame(
+go));const canvas=drawnBelow(pad);const gl=canvas?.getContext("webgl")||canvas?.getContext("webgl2");
+if(!gl)continue;const start=performance.now();gl.readPixels(0,0,1,1,gl.RGBA,gl.UNSIGNED_BYTE,new Uint8Array(
+4));times.push(moved+performance.now()-start)}return times.length>1?Math.min(...times.slice(1)):0}var SAVE_VIEW_AFTER=250;var STILL={release(){},pause:()=>void 0};var Canvas=class{legend=new Legend;notices=new Notices;help=help(
 HELP);#chosen;#saving;#playing=STILL;#presses=false;constructor({model,el,signal}){this.model=model;
 this.interactive=model.get("interactive");const paper=make("canvas",{className:"glid-paper"});this.box=
 make("div",{className:"glid-pad",role:"application","aria-label":"Deformation canvas: arrow keys mov\
 e, Enter pins a point",inert:!this.interactive},paper,this.legend.element,this.notices.notice,this.notices.
 prepared);this.box.dataset.lmSuppressShortcuts="true";el.classList.add("glid-host","glid-pad-host");
 el.append(this.box);this.view=new View(()=>this.#viewMoved(),{nearest:1e-4,farthest:1});this.shapes=
-new Shapes(model,this.view);this.redraw=painter(paper,this.view,signal,pen=>this.#draw(pen));this.link=
-new Link(model,this.box,signal,()=>this.#report());this.room=this.interactive?new Room(this.box,model,
-signal):null;this.pad=new Pad(this.box,this.view,this.link,new PinBehaviour(this));this.clipboard=new PoseClipboard(
-this);this.corner=this.#makeCorner();if(this.interactive){this.box.append(shield(this.corner),this.help.
-table,resizeGrip(model));keysAround(this.box,e=>this.pad.keydown(e),signal)}this.#takeFirst()}close(){
-clearTimeout(this.#saving);this.shapes.close()}get marks(){return this.model.get("marks")}get brush(){
-const brush=this.model.get("brush");return"radius"in brush?brush:null}get painting(){return this.brush!==
-null}say(notice){save(this.model,{notice})}openMenu(place,found={mark:this.marks.selected.at(-1)}){const{
-selected,targets}=this.marks;const mark=found?.mark===void 0?null:Number(found.mark);const centre=[this.
-view.x,this.view.y];const point=mark===null?this.model.get("cursor")??centre:targets[mark];const at=place??
-this.view.toScreen(point);const does={press:(key,shift=false)=>{return()=>this.pad.press(key,{shiftKey:shift})},
-pin:()=>void this.pad.send("pin",at),paste:()=>void this.clipboard.paste(),alone:()=>this.room?.alone(),
-fullScreen:()=>this.room?.fullScreen(),showKeys:this.help.toggle};const pinned=mark!==null&&selected.
-includes(mark)?selected.length:1;const covered=mark===null&&coveredNear(this.box,at);openMenu(this.box,
-at,menuRows(does,mark===null?null:{pinned},covered))}showMotion(motion=null,playing=STILL,heights=null){
+new Shapes(model,this.view);this.shapes.led=()=>this.redraw();this.ahead=new Ahead(model,lead=>this.
+shapes.showLead(lead));this.redraw=painter(paper,this.view,signal,pen=>this.#draw(pen));this.link=new Link(
+model,this.box,signal,()=>this.#report());this.room=this.interactive?new Room(this.box,model,signal):
+null;this.pad=new Pad(this.box,this.view,this.#listener(signal),new PinBehaviour(this));this.clipboard=
+new PoseClipboard(this);this.corner=this.#makeCorner();if(this.interactive){this.box.append(shield(this.
+corner),this.help.table,resizeGrip(model));keysAround(this.box,e=>this.pad.keydown(e),signal)}this.#takeFirst()}close(){
+clearTimeout(this.#saving);this.ahead.close();this.shapes.close()}get marks(){return marksOf(this.model.
+get("marks"),this.shapes.lead)}prepareSolver(){if(this.interactive)void this.ahead.prepare()}rested(){
+if(!this.pad.grip)this.ahead.giveBack()}followHand(){if(this.pad.grip&&!this.shapes.motion)this.ahead.
+follow(this.pad.held)}#listener(signal){const put=event=>{const drags=event.type==="up"||this.pad.grip&&
+/^(down|move)$/.test(event.type);if(!drags)this.ahead.giveBack();return this.link.put(event)};return{
+put,signal}}get brush(){const brush=this.model.get("brush");return"radius"in brush?brush:null}get painting(){
+return this.brush!==null}say(notice){save(this.model,{notice})}openMenu(place,found={mark:this.marks.
+selected.at(-1)}){const{selected,targets}=this.marks;const mark=found?.mark===void 0?null:Number(found.
+mark);const centre=[this.view.x,this.view.y];const point=mark===null?this.model.get("cursor")??centre:
+targets[mark];const at=place??this.view.toScreen(point);const does={press:(key,shift=false)=>{return()=>this.
+pad.press(key,{shiftKey:shift})},pin:()=>void this.pad.send("pin",at),paste:()=>void this.clipboard.
+paste(),alone:()=>this.room?.alone(),fullScreen:()=>this.room?.fullScreen(),showKeys:this.help.toggle};
+const pinned=mark!==null&&selected.includes(mark)?selected.length:1;const covered=mark===null&&coveredNear(
+this.box,at);openMenu(this.box,at,menuRows(does,mark===null?null:{pinned},covered))}showMotion(motion=null,playing=STILL,heights=null){
 this.#playing=playing;this.shapes.motion=motion;this.shapes.lift(heights);this.showLegend();this.shapes.
 refresh();this.redraw()}showLegend(){this.legend.show(this.model,Boolean(this.shapes.motion))}showNotice(){
 const first=this.interactive&&!this.marks.targets.length;this.notices.tell(this.model.get("notice"),
@@ -428,11 +584,14 @@ hrough",through);if(motion)return;drawOnion(pen,view,model.get("onion"));drawSti
 "stiff"),this.painting);const cursor=pad.focused?model.get("cursor"):null;drawMarks(pen,view,marks,{
 hovered:pad.found?.mark,held:pad.held,cursor});if(brush)drawBrush(pen,view,brush,pad);if(pad.encloses&&
 pad.path.length>2)drawLasso(pen,view,pad.path)}};function render(context){const{model,signal}=context;const canvas=new Canvas(context);follow(model,{
-"change:width change:height change:view":()=>canvas.fit(),"change:coefficients":()=>canvas.shapes.refresh(),
-"change:marks change:cursor change:onion change:stiff change:brush":()=>canvas.redraw(),"glid:motion":(...shown)=>canvas.
-showMotion(...shown),"change:legend change:panel_legend change:legend_corner":()=>canvas.showLegend(),
-"change:notice change:marks change:brush":()=>canvas.showNotice(),"change:marks":()=>canvas.reveal(),
-"change:prepared":()=>canvas.notices.prepare(model.get("prepared"))});measure(canvas,signal);if(model.
-get("uniform_vectors")===0){save(model,{uniform_vectors:uniformVectors()||-1})}return()=>canvas.close()}
-async function measure({box,model,shapes},signal){await shapes.load();const time=await drawingTime(box,
-shapes);if(!signal.aborted)save(model,{drawn:true,drawing_time:time})}var main_default={render};export{main_default as default};
+"change:width change:height change:view":()=>canvas.fit(),"change:coefficients":()=>canvas.shapes.lead||
+canvas.shapes.refresh(),"change:solver_script change:solver change:outline":()=>canvas.prepareSolver(),
+"change:rest":()=>canvas.rested(),"change:drawing_time":()=>model.get("drawn")&&!model.get("drawing_\
+time")&&measure(canvas,signal),"change:marks change:cursor change:onion change:stiff change:brush":()=>canvas.
+redraw(),"glid:motion":(...shown)=>canvas.showMotion(...shown),"change:legend change:panel_legend ch\
+ange:legend_corner":()=>canvas.showLegend(),"change:notice change:marks change:brush":()=>canvas.showNotice(),
+"change:marks":()=>canvas.reveal(),"change:prepared":()=>canvas.notices.prepare(model.get("prepared"))});
+measure(canvas,signal);if(model.get("uniform_vectors")===0){save(model,{uniform_vectors:uniformVectors()||
+-1})}return()=>canvas.close()}async function measure({box,model,shapes},signal){await shapes.load();
+const time=await drawingTime(box,shapes);if(!signal.aborted)save(model,{drawn:true,drawing_time:time})}
+var main_default={render};export{main_default as default};

@@ -9,6 +9,7 @@ import { openMenu } from "../pad/menu.js";
 import { Pad } from "../pad/pad.js";
 import { painter } from "../pad/pen.js";
 import { View } from "../pad/view.js";
+import { Ahead, marksOf } from "./ahead.js";
 import { menuRows } from "./context_menu.js";
 import { drawBrush, drawLasso, drawMarks, drawOnion, drawStiff } from "./draw.js";
 import { HELP } from "./help_table.js";
@@ -75,10 +76,12 @@ export class Canvas {
 
     this.view = new View(() => this.#viewMoved(), { nearest: 1e-4, farthest: 1 });
     this.shapes = new Shapes(model, this.view);
+    this.shapes.led = () => this.redraw();
+    this.ahead = new Ahead(model, (lead) => this.shapes.showLead(lead));
     this.redraw = painter(paper, this.view, signal, (pen) => this.#draw(pen));
     this.link = new Link(model, this.box, signal, () => this.#report());
     this.room = this.interactive ? new Room(this.box, model, signal) : null;
-    this.pad = new Pad(this.box, this.view, this.link, new PinBehaviour(this));
+    this.pad = new Pad(this.box, this.view, this.#listener(signal), new PinBehaviour(this));
     this.clipboard = new PoseClipboard(this);
     this.corner = this.#makeCorner();
     if (this.interactive) {
@@ -90,11 +93,42 @@ export class Canvas {
 
   close() {
     clearTimeout(this.#saving);
+    this.ahead.close();
     this.shapes.close();
   }
 
   get marks() {
-    return this.model.get("marks");
+    return marksOf(this.model.get("marks"), this.shapes.lead);
+  }
+
+  /** Starts the page's own solver anew, for what is edited now. */
+  prepareSolver() {
+    if (this.interactive) void this.ahead.prepare();
+  }
+
+  /** Goes over to the kernel's map, unless a drag goes on. */
+  rested() {
+    if (!this.pad.grip) this.ahead.giveBack();
+  }
+
+  /** Has the page's own solver follow what is dragged. */
+  followHand() {
+    if (this.pad.grip && !this.shapes.motion) this.ahead.follow(this.pad.held);
+  }
+
+  /**
+   * Events go to the kernel. Gestures that only the kernel knows end what the page shows ahead of it.
+   *
+   * @param {AbortSignal} signal
+   * @returns {import("../pad/pad.js").Listener}
+   */
+  #listener(signal) {
+    const put = (/** @type {import("../types.js").KernelEvent} */ event) => {
+      const drags = event.type === "up" || (this.pad.grip && /^(down|move)$/.test(event.type));
+      if (!drags) this.ahead.giveBack();
+      return this.link.put(event);
+    };
+    return { put, signal };
   }
 
   /** The brush that paints stiff areas; null for none. */

@@ -13,7 +13,11 @@ function render(context) {
   const canvas = new Canvas(context);
   follow(model, {
     "change:width change:height change:view": () => canvas.fit(),
-    "change:coefficients": () => canvas.shapes.refresh(),
+    "change:coefficients": () => canvas.shapes.lead || canvas.shapes.refresh(),
+    "change:solver_script change:solver change:outline": () => canvas.prepareSolver(),
+    "change:rest": () => canvas.rested(),
+    "change:drawing_time": () =>
+      model.get("drawn") && !model.get("drawing_time") && measure(canvas, signal),
     "change:marks change:cursor change:onion change:stiff change:brush": () => canvas.redraw(),
     "glid:motion": (...shown) => canvas.showMotion(...shown), // from the timeline, on the page
     "change:legend change:panel_legend change:legend_corner": () => canvas.showLegend(),

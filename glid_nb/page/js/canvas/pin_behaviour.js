@@ -38,6 +38,7 @@ export class PinBehaviour {
   }
 
   changed() {
+    this.canvas.followHand();
     this.canvas.redraw();
   }
 

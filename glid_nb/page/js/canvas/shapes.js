@@ -1,8 +1,10 @@
 // Puts the kernel's coefficients and the page's view into pythreejs's objects.
 
 import { make, penOf, toFloats } from "../pad/dom.js";
+import { Vertices } from "./vertices.js";
 
 /** @import { Model, Point } from "../types.js" */
+/** @import { Lead } from "./ahead.js" */
 /** @import { View } from "../pad/view.js" */
 /** @import { CanvasTraits } from "./traits.js" */
 
@@ -14,11 +16,19 @@ import { make, penOf, toFloats } from "../pad/dom.js";
  */
 
 const NEAR = 8; // pixels: a cage lies a little outside of what is drawn
+const LEAD = "glid:lead"; // an event of the renderer's model
 const N_TIMED = 3; // drawings, after a first one that compiles the shaders
 
 export class Shapes {
   /** @type {Seen} */
   motion = null;
+  /** @type {Lead | null} a map of the page's own solver, ahead of the kernel's */
+  lead = null;
+  /** Called when the lead has changed. */
+  led = () => {};
+
+  /** @type {Vertices | null} */
+  #vertices = null;
 
   /** @type {any[]} pythreejs's models of materials */
   #materials = [];
@@ -39,6 +49,8 @@ export class Shapes {
   constructor(model, view) {
     this.model = model;
     this.view = view;
+    model.on("change:outline", () => this.#takeOutline());
+    this.#takeOutline();
     model.on("change:materials change:camera change:renderer", () => this.load());
   }
 
@@ -60,19 +72,44 @@ export class Shapes {
     for (const material of materials) material.on("change", this.refresh, this);
     renderer.get("scene").off("beforeRender", clearLists).on("beforeRender", clearLists);
     for (const view of Object.values(renderer.views)) view.then(drawNoMore);
+    renderer.on(LEAD, this.#takeLead, this);
     this.refresh();
   }
 
   #forget() {
+    this.#renderer?.off(null, null, this);
     for (const material of this.#materials) material.off(null, null, this);
     this.#materials = [];
+  }
+
+  #takeOutline() {
+    const outlined = this.model.get("outline");
+    this.#vertices = outlined?.outline ? new Vertices(outlined) : null;
+  }
+
+  /**
+   * Has all views of this canvas in the page show a lead, or the kernel's map for null: they share
+   * three.js's objects.
+   *
+   * @param {Lead | null} lead
+   */
+  showLead(lead) {
+    this.#renderer?.trigger(LEAD, lead);
+  }
+
+  /** @param {Lead | null} lead */
+  #takeLead(lead) {
+    this.lead = lead;
+    this.refresh();
+    this.led();
   }
 
   /** Puts the newest coefficients into every material. */
   refresh() {
     const { motion } = this;
     const moved = motion instanceof Float32Array && motion.length ? motion : null;
-    const floats = moved ?? toFloats(this.model.get("coefficients"));
+    const floats = moved ?? this.lead?.floats ?? toFloats(this.model.get("coefficients"));
+    this.#vertices?.move(this.#renderer?.get("scene").obj?.children ?? [], floats);
     for (const { obj } of this.#materials) {
       const { cage, coefficients, holes, by_margin: byMargin } = obj?.uniforms ?? {};
       if (byMargin?.value) byMargin.value = motion ? 2 : 1;
@@ -193,7 +230,8 @@ export function uniformVectors() {
 }
 
 /**
- * The fastest of some drawings in milliseconds, 0 without WebGL.
+ * The fastest of some drawings of the present map in milliseconds, with moving its vertices; 0
+ * without WebGL.
  *
  * @param {HTMLElement} pad
  * @param {Shapes} shapes
@@ -201,14 +239,16 @@ export function uniformVectors() {
 export async function drawingTime(pad, shapes) {
   const times = [];
   for (let i = 0; i <= N_TIMED; i++) {
-    shapes.redraw(); // the renderer draws in the next frame, before what is below
+    const moving = performance.now();
+    shapes.refresh(); // the renderer draws in the next frame, before what is below
+    const moved = performance.now() - moving;
     await new Promise((go) => requestAnimationFrame(go));
     const canvas = drawnBelow(pad);
     const gl = canvas?.getContext("webgl") || canvas?.getContext("webgl2");
     if (!gl) continue;
     const start = performance.now();
     gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4)); // waits for all of it
-    times.push(performance.now() - start);
+    times.push(moved + performance.now() - start);
   }
   return times.length > 1 ? Math.min(...times.slice(1)) : 0;
 }

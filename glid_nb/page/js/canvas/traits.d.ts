@@ -1,5 +1,6 @@
 // What the kernel says of a canvas: the traits of `Stage` in glid_nb/widgets/pane.py.
 
+import type { Outline, Pose, SolverOptions } from "../live/types.js";
 import type { Point } from "../types.js";
 
 /** Angle and scale of the pin that was selected last, and whether each is wanted. */
@@ -27,12 +28,30 @@ export interface Brush {
   strength: number;
 }
 
+/** The domain, and the sizes of the shader's arrays, in vectors. */
+export interface Outlined {
+  outline: Outline;
+  chain: number;
+  shaderHoles: number;
+}
+
+/** A pose whose map the kernel has found. */
+export interface Rest {
+  number: number;
+  pose: Pose;
+  coefficients: DataView;
+}
+
 export interface CanvasTraits {
   width: number;
   height: number;
   room: number[];
   view: [x: number, y: number, unit: number];
   coefficients: DataView;
+  outline: Outlined;
+  solver_script: string;
+  solver: { options: SolverOptions } | Record<string, never>;
+  rest: Rest | Record<string, never>;
   marks: Marks;
   names: string[];
   onion: [color: string, loops: Point[][]][];

@@ -9,7 +9,7 @@ import { allowedScale, changed, nextPin, pinAt, poseOf, without, wrapped } from 
 /** @import { LiveMap } from "../live/types.js" */
 /** @import { Point } from "../types.js" */
 /** @import { Edit, Pin } from "./data.js" */
-/** @import { Solving } from "./solving.js" */
+/** @import { Solving } from "../live/solving.js" */
 
 /** World units between a target and the shape, above which the pin is not reached. */
 const MISSED = 0.15;

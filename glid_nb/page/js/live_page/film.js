@@ -11,7 +11,7 @@ import { wayBetween } from "./way.js";
 /** @import { Course } from "../exported/course.js" */
 /** @import { LiveMap } from "../live/types.js" */
 /** @import { Kept, Pin } from "./data.js" */
-/** @import { Solving } from "./solving.js" */
+/** @import { Solving } from "../live/solving.js" */
 /** @import { Knot } from "./way.js" */
 /** @import { Repeat } from "../motion/motion.js" */
 

@@ -2,18 +2,18 @@
 
 import { CannotShow } from "../exported/renderer.js";
 import { cornersOf, restored, unpacked } from "../exported/unpack.js";
+import { Solving } from "../live/solving.js";
+import { coefficientsOf, identityOf } from "../live/wire.js";
 import { View } from "../pad/view.js";
 import { Editing } from "./editing.js";
 import { byId, byKind } from "./elements.js";
 import { LivePage } from "./page.js";
 import { poseOf } from "./pins.js";
 import { fitted, roomOn } from "./room.js";
-import { Solving } from "./solving.js";
 import { Stage } from "./stage.js";
-import { coefficientsOf, identityOf } from "./wire.js";
 
 /** @import { LiveData } from "./data.js" */
-/** @import { Port } from "./solving.js" */
+/** @import { Port } from "../live/solving.js" */
 
 /**
  * What the first script of html/live_page.html has unpacked. The page adds its view, so that other

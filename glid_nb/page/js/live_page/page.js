@@ -1,6 +1,7 @@
 // The live page: the picture under the newest certified map, its pins, and the controls around them.
 
 import { drawLasso, drawMarks } from "../canvas/draw.js";
+import { identityOf } from "../live/wire.js";
 import { make } from "../pad/dom.js";
 import { help } from "../pad/help.js";
 import { iconButton } from "../pad/icons.js";
@@ -15,14 +16,13 @@ import { HELP } from "./help_table.js";
 import { drawMissed } from "./missed.js";
 import { Report } from "./report.js";
 import { fitted, roomOn } from "./room.js";
-import { identityOf } from "./wire.js";
 
 /** @import { LiveMap } from "../live/types.js" */
 /** @import { Pen } from "../pad/pen.js" */
 /** @import { View } from "../pad/view.js" */
 /** @import { LiveData } from "./data.js" */
 /** @import { Editing } from "./editing.js" */
-/** @import { Solving } from "./solving.js" */
+/** @import { Solving } from "../live/solving.js" */
 /** @import { Stage } from "./stage.js" */
 
 /** @type {Record<string, string>} the overlays, by their numbers in picture.frag */

@@ -1,14 +1,14 @@
 // Draws certified maps. Measured frame times choose who moves the mesh, and how fine it is.
 
 import { Renderer } from "../exported/renderer.js";
+import { movedVertices, Wire } from "../live/wire.js";
 import { mayBeFiner, median, quicker, shaderSuffices, sharpness } from "./measuring.js";
 import { dividedTimes, pointsOf } from "./mesh.js";
-import { movedVertices, Wire } from "./wire.js";
 
 /** @import { Mesh } from "../exported/renderer.js" */
 /** @import { LiveMap } from "../live/types.js" */
 /** @import { LiveData } from "./data.js" */
-/** @import { Solving } from "./solving.js" */
+/** @import { Solving } from "../live/solving.js" */
 
 const COARSE = 1; // how often the mesh is divided where drawing is slow
 const FINE = 2;

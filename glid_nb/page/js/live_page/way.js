@@ -6,7 +6,7 @@ import { between, joined, poseOf } from "./pins.js";
 /** @import { Coefficients } from "../live/types.js" */
 /** @import { Point } from "../types.js" */
 /** @import { Kept, Pin } from "./data.js" */
-/** @import { Solving } from "./solving.js" */
+/** @import { Solving } from "../live/solving.js" */
 
 export const KNOTS = 12; // of an interval
 

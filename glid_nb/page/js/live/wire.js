@@ -1,7 +1,7 @@
 // A map as the shader harmonic.glsl takes it, in single precision. `ShaderMap` of glid_nb.page does the
 // same for pages without a solver.
 
-/** @import { Coefficients, LiveMap, Outline } from "../live/types.js" */
+/** @import { Coefficients, LiveMap, Outline } from "./types.js" */
 /** @import { Point } from "../types.js" */
 
 const FAR = 1e3; // of unused hole points, in sizes of the offset cage
@@ -45,6 +45,33 @@ export class Wire {
     const [dx, dy] = [x - u, y - v];
     const square = dx * dx + dy * dy;
     return [dx / square, -dy / square];
+  }
+
+  /** How many numbers a map has. */
+  get length() {
+    const { chain, holes } = this.#sizes;
+    return 4 * (chain + holes);
+  }
+
+  /**
+   * The coefficients of a map in this form.
+   * @param {Float32Array} wire
+   * @returns {Coefficients}
+   */
+  coefficients(wire) {
+    const vertices = this.#vertices.length;
+    const holes = this.#outline.hole_points.length;
+    const n = vertices + holes;
+    const coefficients = new Float64Array(4 * n);
+    for (const [i, { vertex }] of this.#chain.entries()) {
+      for (let part = 0; part < 4; part++) coefficients[part * n + vertex] = wire[4 * i + part];
+    }
+    for (let h = 0; h < holes; h++) {
+      const [re, im] = wire.subarray(4 * (this.#sizes.chain + h) + 2);
+      const parts = [re, im, re, -im]; // psi is the conjugate of phi there
+      for (const [part, value] of parts.entries()) coefficients[part * n + vertices + h] = value;
+    }
+    return coefficients;
   }
 
   /**

@@ -1,4 +1,4 @@
-import type { LiveRequest } from "../live/types.d.ts";
+import type { LiveRequest } from "./types.d.ts";
 
 /** A union's members without a key. */
 type Without<Union, Key extends string> = Union extends unknown ? Omit<Union, Key> : never;

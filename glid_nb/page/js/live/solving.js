@@ -1,6 +1,6 @@
 // The worker that solves: requests go out, certified maps come back.
 
-/** @import { Coefficients, LiveAnswer, LiveMap, LiveRequest, Pose } from "../live/types.js" */
+/** @import { Coefficients, LiveAnswer, LiveMap, LiveRequest, Pose } from "./types.js" */
 /** @typedef {import("./solving_types.js").Unnumbered} Unnumbered */
 
 /**
@@ -8,6 +8,7 @@
  * @typedef {object} Port
  * @property {(request: LiveRequest) => void} postMessage
  * @property {((event: { data: LiveAnswer }) => void) | null} onmessage
+ * @property {() => void} [terminate]
  */
 
 export class Solving {

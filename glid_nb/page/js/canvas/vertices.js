@@ -1,0 +1,58 @@
+// Moves the vertices of meshes whose shaders only paint, because that is quicker on this page.
+
+import { Domain } from "../live/domain.js";
+import { FieldPoints } from "../live/fields.js";
+import { Wire } from "../live/wire.js";
+
+/** @import { Outlined } from "./traits.js" */
+
+const MOVED_BY_PAGE = "moved by the page"; // `MOVED_BY_PAGE` of glid_nb/widgets/layers.py
+
+export class Vertices {
+  #domain;
+  #wire;
+  /** @type {WeakMap<object, FieldPoints>} the rows of the basis at a geometry's vertices */
+  #points = new WeakMap();
+
+  /** @param {Outlined} outlined */
+  constructor({ outline, ...sizes }) {
+    this.#domain = new Domain(outline);
+    this.#wire = new Wire(outline, sizes);
+  }
+
+  /**
+   * Moves the vertices of those meshes that the page moves.
+   *
+   * @param {any[]} meshes three.js's
+   * @param {Float32Array} wire the map
+   */
+  move(meshes, wire) {
+    const moved = meshes.filter(({ name, visible }) => name === MOVED_BY_PAGE && visible);
+    if (!moved.length || wire.length !== this.#wire.length) return;
+    const coefficients = this.#wire.coefficients(wire);
+    for (const geometry of new Set(moved.map((mesh) => mesh.geometry))) {
+      const { images, samples } = this.#pointsOf(geometry).evaluate(coefficients);
+      const { image, derivatives } = geometry.attributes;
+      image.array.set(images);
+      const count = image.count;
+      for (let part = 0; part < 4; part++) {
+        for (let i = 0; i < count; i++) derivatives.array[4 * i + part] = samples[part * count + i];
+      }
+      geometry.userData.wire = wire; // what is drawn, for whoever looks at the page's objects
+      image.needsUpdate = true;
+      derivatives.needsUpdate = true;
+    }
+  }
+
+  /** @param {any} geometry three.js's */
+  #pointsOf(geometry) {
+    const known = this.#points.get(geometry);
+    if (known) return known;
+    const { array, count } = geometry.attributes.position;
+    /** @type {import("../types.js").Point[]} */
+    const places = Array.from({ length: count }, (_, i) => [array[3 * i], array[3 * i + 1]]);
+    const points = new FieldPoints(this.#domain, places);
+    this.#points.set(geometry, points);
+    return points;
+  }
+}
