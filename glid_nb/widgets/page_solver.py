@@ -14,13 +14,17 @@ from glid_nb.solvers import Options
 from glid_nb.solvers.stiffness import stiff_nodes
 from glid_nb.widgets.pane import Stage
 
+# With more columns of the basis, the page's solver is slower than the kernel's with its network: its
+# matrices have four times as many rows.
+_MOST_COLUMNS = 200
+
 
 class PageSolver:
     """Tells a stage's page the problem, and the pose and map whenever the model is at rest.
 
     The page solves the same problem as the kernel (``canvas/ahead.js``), and proves every map that
     it shows. What it cannot solve is left to the kernel: methods on a mesh, energies of the user,
-    conformal maps and the paper's samples, and a solver that is paused.
+    conformal maps and the paper's samples, large cages, and a solver that is paused.
     """
 
     def __init__(self, stage: Stage) -> None:
@@ -75,6 +79,7 @@ def can_solve(moment: Moment) -> bool:
     options = current.options
     return (
         current.method.certified
+        and moment.state.domain.n_coefficients <= _MOST_COLUMNS
         and current.energy.name in ENERGIES
         and not isinstance(current.energy, CustomEnergy)
         and (options.sampling, options.conformal) == (usual.sampling, usual.conformal)
