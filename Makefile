@@ -15,7 +15,7 @@
 # make docs   the site in site/, checked: pages, links, and each page in Chromium
 # make notebooks  all chapters, run in place and saved; ARGUMENTS="03 07" runs these two
 # make student  the student edition of the course in student/, without solutions
-# make browser  Chromium for the browser tests, by apt
+# make browser  Chromium and Firefox for the browser tests, by apt
 # The environment is made with the newest Python that tools/pythons.sh finds, or with $PYTHON; another
 # one beside it: make unit VENV=.venv-3.12 PYTHON=python3.12
 SHELL := /bin/sh
@@ -100,6 +100,7 @@ student: $(VENV)/.test
 
 browser:
 	tools/chromium.sh
+	tools/firefox.sh
 
 # The stamps say what the environment holds; pyproject.toml newer than a stamp installs again.
 $(VENV)/.demo: pyproject.toml checker/pyproject.toml tools/environment.sh tools/pythons.sh

@@ -14,8 +14,8 @@ from glid_nb.solvers import Options
 from glid_nb.solvers.stiffness import stiff_nodes
 from glid_nb.widgets.pane import Stage
 
-# With more columns of the basis, the page's solver is slower than the kernel's with its network: its
-# matrices have four times as many rows.
+# With more columns of the basis, the page's solver would be slower than the kernel and a network:
+# its matrices have four times as many rows.
 _MOST_COLUMNS = 200
 
 

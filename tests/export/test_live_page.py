@@ -27,7 +27,9 @@ def unpacked(page: str) -> dict[str, Any]:
     digits = np.array([letters.index(letter) for letter in found[2]]).reshape(-1, 2)
     bits = (digits @ np.array([91, 1]))[:, None] >> np.arange(13) & 1
     data = np.packbits(bits.astype(np.uint8).ravel(), bitorder="little")[: int(found[1])]
-    return json.loads(zlib.decompress(data.tobytes()))
+    text = zlib.decompress(data.tobytes()).decode().split("\0")
+    parts = dict(zip(("data", "worker", "page", "style"), text, strict=True))
+    return {**parts, "data": json.loads(parts["data"])}
 
 
 def picture_of(page: str) -> str:

@@ -438,38 +438,92 @@ re[e];const im=singular.im[next[e]]-singular.im[e];const square=re*re+im*im;edge
 im;inverse.re[e]=re/square;inverse.im[e]=-im/square}return{edge,inverse}}function largestModulus(points,count){
 let largest=0;for(let j=0;j<count;j++){largest=Math.max(largest,modulus(points.re[j],points.im[j]))}
 return largest}function longerSide(loop){const sides=[0,1].map(axis=>{const values=loop.map(point=>point[axis]);
-return Math.max(...values)-Math.min(...values)});return Math.max(...sides)}var UNIT_ROUNDOFF=11102230246251565e-32;var UPWARD=1+9313225746154785e-25;var CUT=64*UNIT_ROUNDOFF;var BESIDE=64*
-UNIT_ROUNDOFF;var LOGARITHM=16*UNIT_ROUNDOFF;var BERNSTEIN=16*UNIT_ROUNDOFF;var TAU=2*Math.PI;var LARGEST_NORM=1e20;function rowsAt(domain,points){const count=points.re.length;
-const{columns}=domain;const rows={count,columns,...zeros(count*columns),norms:new Float64Array(count)};
-for(let i=0;i<count;i++){rows.norms[i]=fillRow(domain,points.re[i],points.im[i],rows,i*columns)}return rows}
-function fillRow(domain,x,y,row2,first){const{vertices,columns,next,singular}=domain;let safe=true;for(let e=0;e<
-vertices;e++){const after=next[e];const bx=singular.re[e]-x;const by=singular.im[e]-y;const cx=singular.
-re[after]-x;const cy=singular.im[after]-y;const angle=atan2(bx*cy-by*cx,bx*cx+by*cy)/TAU;row2.re[first+
-e]=angle;row2.im[first+e]=-log((cx*cx+cy*cy)/(bx*bx+by*by))/(2*TAU);safe=safe&&Math.abs(angle)<.5-CUT}
-for(let h=vertices;h<columns;h++){const bx=x-singular.re[h];const by=y-singular.im[h];const square=bx*
-bx+by*by;row2.re[first+h]=bx/square;row2.im[first+h]=-by/square}const norm=UPWARD*Math.sqrt(squares(
-row2,first,columns));return safe&&norm<LARGEST_NORM?norm:Infinity}function squares(row2,first,count){
-let sum=0;for(let j=first;j<first+count;j++){sum+=row2.re[j]*row2.re[j]+row2.im[j]*row2.im[j]}return sum}
-function coordinatesAt(domain,[x,y]){const{vertices,columns,next,previous,singular}=domain;const logarithms=zeros(
-columns);fillRow(domain,x,y,logarithms,0);const over=timesInverseEdge(domain,logarithms);const c=zeros(
-columns);for(let j=0;j<vertices;j++){const p=previous[j];const cx=singular.re[next[j]]-x;const cy=singular.
-im[next[j]]-y;const bx=singular.re[p]-x;const by=singular.im[p]-y;c.re[j]=cx*over.re[j]-cy*over.im[j]-
-(bx*over.re[p]-by*over.im[p]);c.im[j]=cx*over.im[j]+cy*over.re[j]-(bx*over.im[p]+by*over.re[p])}for(let h=vertices;h<
-columns;h++){c.re[h]=log(modulus(x-singular.re[h],y-singular.im[h]))}return c}function timesInverseEdge({vertices,inverseEdge},row2){const over=zeros(vertices);for(let e=0;e<vertices;e++){
+return Math.max(...values)-Math.min(...values)});return Math.max(...sides)}var CODE="0061736d0100000001200460017b017c60067f7f7f7f7f7f0060087f7f7f7f7f7f7f7f0060037f7f7f00021001\
+0470616765066d656d6f727902000003060500010102030721040773616d706c657300010470756c6c00020474696c650003\
+05736f6c766500040afd0e050d002000fd21002000fd2101a00b9c0502087f107b200220036a210b200b20036a210c200c20\
+036a210d034020034100200641086a2004491b2108200020086a2109200120086a210a41002107fd0c000000000000000000\
+000000000000002116fd0c000000000000000000000000000000002117fd0c000000000000000000000000000000002118fd\
+0c000000000000000000000000000000002119fd0c00000000000000000000000000000000211afd0c000000000000000000\
+00000000000000211bfd0c00000000000000000000000000000000211cfd0c00000000000000000000000000000000211d03\
+40200020076afd000400210e200120076afd000400210f200920076afd0004002110200a20076afd0004002111200220076a\
+fd0004002112200b20076afd0004002113200c20076afd0004002114200d20076afd00040021152016200e2012fdf201200f\
+2013fdf201fdf101fdf00121162017200e2013fdf201200f2012fdf201fdf001fdf00121172018200e2014fdf201200f2015\
+fdf201fdf101fdf00121182019200e2015fdf201200f2014fdf201fdf001fdf0012119201a20102012fdf20120112013fdf2\
+01fdf101fdf001211a201b20102013fdf20120112012fdf201fdf001fdf001211b201c20102014fdf20120112015fdf201fd\
+f101fdf001211c201d20102015fdf20120112014fdf201fdf001fdf001211d200741106a210720072003490d000b20052006\
+6a2107200720161000390300200804402007201a10003903080b200720046a2107200720171000390300200804402007201b\
+10003903080b200720046a2107200720181000390300200804402007201c10003903080b200720046a210720072019100039\
+0300200804402007201d10003903080b200920036a2100200a20036a2101200641106a210620062004490d000b0bc8040209\
+7f0c7b200520036a210b200b20036a210c200c20036a210d0340200641086a200449210e200220066a21082008fd0a030021\
+13fd0c000000000000000000000000000000002117200e04402008fd0a030821170b200820046a21082008fd0a03002114fd\
+0c000000000000000000000000000000002118200e04402008fd0a030821180b200820046a21082008fd0a03002115fd0c00\
+0000000000000000000000000000002119200e04402008fd0a030821190b200820046a21082008fd0a03002116fd0c000000\
+00000000000000000000000000211a200e04402008fd0a0308211a0b20034100200e1b2108200020086a2109200120086a21\
+0a410021070340200020076afd000400210f200120076afd0004002110200920076afd0004002111200a20076afd00040021\
+12200520076a210820082008fd000400200f2013fdf20120102014fdf201fdf00120112017fdf20120122018fdf201fdf001\
+fdf001fdf001fd0b0400200b20076a210820082008fd000400200f2014fdf20120102013fdf201fdf10120112018fdf20120\
+122017fdf201fdf101fdf001fdf001fd0b0400200c20076a210820082008fd000400200f2015fdf20120102016fdf201fdf0\
+0120112019fdf2012012201afdf201fdf001fdf001fdf001fd0b0400200d20076a210820082008fd000400200f2016fdf201\
+20102015fdf201fdf1012011201afdf20120122019fdf201fdf101fdf001fdf001fd0b0400200741106a210720072003490d\
+000b200920036a2100200a20036a2101200641106a210620062004490d000b0b990202017f0b7b02402006450d0003402004\
+20086afd0004002109200520086afd000400210a200020086afd000400210b200c200b2009fdf201fdf001210c200d200b20\
+0afdf201fdf001210d200120086afd000400210b200e200b2009fdf201fdf001210e200f200b200afdf201fdf001210f2002\
+20086afd000400210b2010200b2009fdf201fdf00121102011200b200afdf201fdf0012111200320086afd000400210b2012\
+200b2009fdf201fdf00121122013200b200afdf201fdf0012113200841106a210820082006490d000b0b2007200c10003903\
+002007200d10003903082007200e10003903102007200f100039031820072010100039032020072011100039032820072012\
+10003903302007201310003903380be90203047f017c027b0340200341707121062000200120034103766c6a2105fd0c0000\
+000000000000000000000000000021084100210402402006450d0003402008200520046afd000400200220046afd000400fd\
+f201fdf0012108200441106a210420042006490d000b0b200810002107200620034904402007200520066a2b030020022006\
+6a2b0300a2a021070b200220036a2104200420042b03002007a1200520036a2b0300a3390300200341086a21032003200149\
+0d000b0340200341086b2103200341707121062000200120034103766c6a2105200220036a2104200420042b030020052003\
+6a2b0300a339030020042b030021072007fd14210920062003490440200220066a2104200420042b0300200520066a2b0300\
+2007a2a13903000b4100210402402006450d000340200220046a200220046afd000400200520046afd0004002009fdf201fd\
+f101fd0b0400200441106a210420042006490d000b0b20030d000b0b";var PAGE2=65536;var TILE=8;var compiled={module:moduleOrNull()};var kernels=new WeakMap;function moduleOrNull(){
+try{const pairs=CODE.match(/../g)??[];return new WebAssembly.Module(Uint8Array.from(pairs,pair=>Number.
+parseInt(pair,16)))}catch{return null}}function arraysOf(...lengths){const buffer=reachable(8*lengths.
+reduce((sum,length)=>sum+length,TILE));let first=8*TILE;return lengths.map(length=>{const array=buffer?
+new Float64Array(buffer,first,length):new Float64Array(length);first+=array.byteLength;return array})}
+function reachable(size){if(!compiled.module){return null}try{const memory=new WebAssembly.Memory({initial:Math.
+ceil(size/PAGE2)});const{exports}=new WebAssembly.Instance(compiled.module,{page:{memory}});kernels.
+set(memory.buffer,exports);return memory.buffer}catch{return null}}function kernelOf(...arrays){const[
+{buffer}]=arrays;return arrays.every(array=>array.buffer===buffer)?kernels.get(buffer):void 0}var UNIT_ROUNDOFF=11102230246251565e-32;var UPWARD=1+9313225746154785e-25;var CUT=64*UNIT_ROUNDOFF;var BESIDE=64*
+UNIT_ROUNDOFF;var LOGARITHM=16*UNIT_ROUNDOFF;var BERNSTEIN=16*UNIT_ROUNDOFF;var TAU=2*Math.PI;var LARGEST_NORM=1e20;var FEW=64;function emptyRows(count,columns){const width=evenly(
+columns);const lengths=[count*width,count*width,4*width,4*count];const[re,im,slopes,samples]=count<FEW?
+lengths.map(length=>new Float64Array(length)):arraysOf(...lengths);return{count,columns,re,im,slopes,
+samples,norms:new Float64Array(count)}}function evenly(columns){return columns+columns%2}function rowsAt(domain,points){
+const rows=emptyRows(points.re.length,domain.columns);const width=evenly(domain.columns);for(let i=0;i<
+rows.count;i++){rows.norms[i]=fillRow(domain,points.re[i],points.im[i],rows,i*width)}return rows}function fillRow(domain,x,y,row2,first){
+const{vertices,columns,next,singular}=domain;let safe=true;for(let e=0;e<vertices;e++){const after=next[e];
+const bx=singular.re[e]-x;const by=singular.im[e]-y;const cx=singular.re[after]-x;const cy=singular.
+im[after]-y;const angle=atan2(bx*cy-by*cx,bx*cx+by*cy)/TAU;row2.re[first+e]=angle;row2.im[first+e]=-log(
+(cx*cx+cy*cy)/(bx*bx+by*by))/(2*TAU);safe=safe&&Math.abs(angle)<.5-CUT}for(let h=vertices;h<columns;h++){
+const bx=x-singular.re[h];const by=y-singular.im[h];const square=bx*bx+by*by;row2.re[first+h]=bx/square;
+row2.im[first+h]=-by/square}const norm=UPWARD*Math.sqrt(squares(row2,first,columns));return safe&&norm<
+LARGEST_NORM?norm:Infinity}function squares(row2,first,count){let sum=0;for(let j=first;j<first+count;j++){
+sum+=row2.re[j]*row2.re[j]+row2.im[j]*row2.im[j]}return sum}function coordinatesAt(domain,[x,y]){const{
+vertices,columns,next,previous,singular}=domain;const logarithms=zeros(columns);fillRow(domain,x,y,logarithms,
+0);const over=timesInverseEdge(domain,logarithms);const c=zeros(columns);for(let j=0;j<vertices;j++){
+const p=previous[j];const cx=singular.re[next[j]]-x;const cy=singular.im[next[j]]-y;const bx=singular.
+re[p]-x;const by=singular.im[p]-y;c.re[j]=cx*over.re[j]-cy*over.im[j]-(bx*over.re[p]-by*over.im[p]);
+c.im[j]=cx*over.im[j]+cy*over.re[j]-(bx*over.im[p]+by*over.re[p])}for(let h=vertices;h<columns;h++){
+c.re[h]=log(modulus(x-singular.re[h],y-singular.im[h]))}return c}function timesInverseEdge({vertices,inverseEdge},row2){const over=zeros(vertices);for(let e=0;e<vertices;e++){
 over.re[e]=row2.re[e]*inverseEdge.re[e]-row2.im[e]*inverseEdge.im[e];over.im[e]=row2.re[e]*inverseEdge.
 im[e]+row2.im[e]*inverseEdge.re[e]}return over}function slopesOf(domain,coefficients){const{vertices,
 columns,next,edge}=domain;const slopes=new Float64Array(4*columns);for(const part of[0,2*columns]){const re=coefficients.
 subarray(part,part+columns);const im=coefficients.subarray(part+columns,part+2*columns);for(let e=0;e<
 vertices;e++){const x=re[next[e]]-re[e];const y=im[next[e]]-im[e];const a=edge.re[e];const b=edge.im[e];
 const square=a*a+b*b;slopes[part+e]=(x*a+y*b)/square;slopes[part+columns+e]=(y*a-x*b)/square}for(let h=vertices;h<
-columns;h++){slopes[part+h]=re[h];slopes[part+columns+h]=im[h]}}return slopes}function samplesAt(rows,slopes){const samples=new Float64Array(4*rows.count);const[pr,pi,qr,qi]=quarters(
-slopes);const[fr,fi,gr,gi]=quarters(samples);fillProduct(rows,pr,pi,fr,fi);fillProduct(rows,qr,qi,gr,
-gi);return samples}function fillProduct(rows,re,im,intoRe,intoIm){const{count,columns}=rows;const rowRe=rows.
-re;const rowIm=rows.im;for(let i=0;i<count;i+=2){const next=Math.min(i+1,count-1);const first=i*columns;
-const second=next*columns;let x1=0;let y1=0;let x2=0;let y2=0;for(let e=0;e<columns;e++){const a1=rowRe[first+
-e];const b1=rowIm[first+e];const a2=rowRe[second+e];const b2=rowIm[second+e];const c=re[e];const d=im[e];
-x1+=a1*c-b1*d;y1+=a1*d+b1*c;x2+=a2*c-b2*d;y2+=a2*d+b2*c}intoRe[i]=x1;intoIm[i]=y1;intoRe[next]=x2;intoIm[next]=
-y2}}function quarters(values){const n=values.length/4;return[values.subarray(0,n),values.subarray(n,2*n),
+columns;h++){slopes[part+h]=re[h];slopes[part+columns+h]=im[h]}}return slopes}function samplesAt(rows,slopes){const{count,columns,re,im}=rows;const width=evenly(columns);const factors=rows.
+slopes.fill(0);for(const[i,part]of quarters(slopes).entries()){factors.set(part,i*width)}const products=rows.
+samples.subarray(0,4*count);const kernel=kernelOf(re,im,factors,products);if(kernel){const into=products.
+byteOffset;kernel.samples(re.byteOffset,im.byteOffset,factors.byteOffset,8*width,8*count,into)}else{
+const[pr,pi,qr,qi]=quarters(factors);const[fr,fi,gr,gi]=quarters(products);fillProduct(rows,pr,pi,fr,
+fi);fillProduct(rows,qr,qi,gr,gi)}return products.slice()}function fillProduct(rows,re,im,intoRe,intoIm){
+const rowRe=rows.re;const rowIm=rows.im;const width=re.length;for(let i=0;i<rows.count;i++){const first=i*
+width;let x1=0;let y1=0;let x2=0;let y2=0;for(let e=0;e<width;e+=2){const a1=rowRe[first+e];const b1=rowIm[first+
+e];const a2=rowRe[first+e+1];const b2=rowIm[first+e+1];const c1=re[e];const d1=im[e];const c2=re[e+1];
+const d2=im[e+1];x1+=a1*c1-b1*d1;y1+=a1*d1+b1*c1;x2+=a2*c2-b2*d2;y2+=a2*d2+b2*c2}intoRe[i]=x1+x2;intoIm[i]=
+y1+y2}}function quarters(values){const n=values.length/4;return[values.subarray(0,n),values.subarray(n,2*n),
 values.subarray(2*n,3*n),values.subarray(3*n)]}var FieldPoints=class{#domain;#coordinates;#rows;constructor(domain,points){const{columns}=domain;this.#domain=
 domain;this.count=points.length;this.#coordinates=zeros(points.length*columns);for(const[i,point]of points.
 entries()){const c=coordinatesAt(domain,point);this.#coordinates.re.set(c.re,i*columns);this.#coordinates.

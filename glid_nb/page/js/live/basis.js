@@ -5,6 +5,7 @@
 
 import { zeros } from "./domain.js";
 import { atan2, log, modulus } from "./elementary.js";
+import { arraysOf, kernelOf } from "./kernel.js";
 import { CUT, UPWARD } from "./rounding.js";
 
 /** @import { Point } from "../types.js" */
@@ -14,17 +15,43 @@ import { CUT, UPWARD } from "./rounding.js";
 const TAU = 2 * Math.PI;
 // A norm beyond this would hide what underflows elsewhere (docs/proof.md, Lemma 23).
 const LARGEST_NORM = 1e20;
+const FEW = 64; // rows
 
 /**
- * Rows of the basis at points, and their norms.
+ * Rows of the basis at points, and their norms. With space for the factors of products, in the same
+ * memory: slopes and samples.
  * @typedef {object} Rows
  * @property {number} count
  * @property {number} columns
- * @property {Float64Array} re row by row
+ * @property {Float64Array} re row by row; each has an even length, with a 0 after an odd last column
  * @property {Float64Array} im
+ * @property {Float64Array} slopes
+ * @property {Float64Array} samples
  * @property {Float64Array} norms upper bounds; infinite where rounding may have chosen the wrong
  *   branch of a logarithm
  */
+
+/**
+ * Empty rows. The arrays of a few are plain ones, because a memory takes at least 64 kB.
+ * @param {number} count
+ * @param {number} columns
+ * @returns {Rows}
+ */
+export function emptyRows(count, columns) {
+  const width = evenly(columns);
+  const lengths = [count * width, count * width, 4 * width, 4 * count];
+  const [re, im, slopes, samples] =
+    count < FEW ? lengths.map((length) => new Float64Array(length)) : arraysOf(...lengths);
+  return { count, columns, re, im, slopes, samples, norms: new Float64Array(count) };
+}
+
+/**
+ * The length of a row in memory.
+ * @param {number} columns
+ */
+export function evenly(columns) {
+  return columns + (columns % 2);
+}
 
 /**
  * @param {Domain} domain
@@ -32,11 +59,10 @@ const LARGEST_NORM = 1e20;
  * @returns {Rows}
  */
 export function rowsAt(domain, points) {
-  const count = points.re.length;
-  const { columns } = domain;
-  const rows = { count, columns, ...zeros(count * columns), norms: new Float64Array(count) };
-  for (let i = 0; i < count; i++) {
-    rows.norms[i] = fillRow(domain, points.re[i], points.im[i], rows, i * columns);
+  const rows = emptyRows(points.re.length, domain.columns);
+  const width = evenly(domain.columns);
+  for (let i = 0; i < rows.count; i++) {
+    rows.norms[i] = fillRow(domain, points.re[i], points.im[i], rows, i * width);
   }
   return rows;
 }
@@ -212,16 +238,28 @@ export function pulledThroughSlopes(domain, g) {
  * @returns {Samples}
  */
 export function samplesAt(rows, slopes) {
-  const samples = new Float64Array(4 * rows.count);
-  const [pr, pi, qr, qi] = quarters(slopes);
-  const [fr, fi, gr, gi] = quarters(samples);
-  fillProduct(rows, pr, pi, fr, fi);
-  fillProduct(rows, qr, qi, gr, gi);
-  return samples;
+  const { count, columns, re, im } = rows;
+  const width = evenly(columns);
+  const factors = rows.slopes.fill(0);
+  for (const [i, part] of quarters(slopes).entries()) {
+    factors.set(part, i * width);
+  }
+  const products = rows.samples.subarray(0, 4 * count);
+  const kernel = kernelOf(re, im, factors, products);
+  if (kernel) {
+    const into = products.byteOffset;
+    kernel.samples(re.byteOffset, im.byteOffset, factors.byteOffset, 8 * width, 8 * count, into);
+  } else {
+    const [pr, pi, qr, qi] = quarters(factors);
+    const [fr, fi, gr, gi] = quarters(products);
+    fillProduct(rows, pr, pi, fr, fi);
+    fillProduct(rows, qr, qi, gr, gi);
+  }
+  return products.slice();
 }
 
 /**
- * The product of the rows and a complex vector, two rows at once.
+ * The product of the rows and a complex vector. Even and odd terms are summed on their own.
  * @param {Rows} rows
  * @param {Float64Array} re of the vector
  * @param {Float64Array} im
@@ -229,33 +267,31 @@ export function samplesAt(rows, slopes) {
  * @param {Float64Array} intoIm
  */
 function fillProduct(rows, re, im, intoRe, intoIm) {
-  const { count, columns } = rows;
   const rowRe = rows.re;
   const rowIm = rows.im;
-  for (let i = 0; i < count; i += 2) {
-    const next = Math.min(i + 1, count - 1);
-    const first = i * columns;
-    const second = next * columns;
+  const width = re.length;
+  for (let i = 0; i < rows.count; i++) {
+    const first = i * width;
     let x1 = 0;
     let y1 = 0;
     let x2 = 0;
     let y2 = 0;
-    for (let e = 0; e < columns; e++) {
+    for (let e = 0; e < width; e += 2) {
       const a1 = rowRe[first + e];
       const b1 = rowIm[first + e];
-      const a2 = rowRe[second + e];
-      const b2 = rowIm[second + e];
-      const c = re[e];
-      const d = im[e];
-      x1 += a1 * c - b1 * d;
-      y1 += a1 * d + b1 * c;
-      x2 += a2 * c - b2 * d;
-      y2 += a2 * d + b2 * c;
+      const a2 = rowRe[first + e + 1];
+      const b2 = rowIm[first + e + 1];
+      const c1 = re[e];
+      const d1 = im[e];
+      const c2 = re[e + 1];
+      const d2 = im[e + 1];
+      x1 += a1 * c1 - b1 * d1;
+      y1 += a1 * d1 + b1 * c1;
+      x2 += a2 * c2 - b2 * d2;
+      y2 += a2 * d2 + b2 * c2;
     }
-    intoRe[i] = x1;
-    intoIm[i] = y1;
-    intoRe[next] = x2;
-    intoIm[next] = y2;
+    intoRe[i] = x1 + x2;
+    intoIm[i] = y1 + y2;
   }
 }
 
@@ -266,11 +302,25 @@ function fillProduct(rows, re, im, intoRe, intoIm) {
  * @returns {Coefficients}
  */
 export function pulledThroughRows(rows, g) {
-  const pulled = new Float64Array(4 * rows.columns);
-  const [pr, pi, qr, qi] = quarters(pulled);
-  const [fr, fi, gr, gi] = quarters(g);
-  addAdjointProduct(rows, fr, fi, pr, pi);
-  addAdjointProduct(rows, gr, gi, qr, qi);
+  const { count, columns, re, im } = rows;
+  const width = evenly(columns);
+  const factors = rows.samples.subarray(0, 4 * count);
+  factors.set(g);
+  const products = rows.slopes.fill(0);
+  const kernel = kernelOf(re, im, factors, products);
+  if (kernel) {
+    const into = products.byteOffset;
+    kernel.pull(re.byteOffset, im.byteOffset, factors.byteOffset, 8 * width, 8 * count, into);
+  } else {
+    const [pr, pi, qr, qi] = quarters(products);
+    const [fr, fi, gr, gi] = quarters(factors);
+    addAdjointProduct(rows, fr, fi, pr, pi);
+    addAdjointProduct(rows, gr, gi, qr, qi);
+  }
+  const pulled = new Float64Array(4 * columns);
+  for (const [i, part] of quarters(products).entries()) {
+    pulled.set(part.subarray(0, columns), i * columns);
+  }
   return pulled;
 }
 
@@ -283,18 +333,19 @@ export function pulledThroughRows(rows, g) {
  * @param {Float64Array} intoIm
  */
 function addAdjointProduct(rows, re, im, intoRe, intoIm) {
-  const { count, columns } = rows;
+  const { count } = rows;
   const rowRe = rows.re;
   const rowIm = rows.im;
+  const width = intoRe.length;
   for (let i = 0; i < count; i += 2) {
     const both = i + 1 < count;
-    const first = i * columns;
-    const second = both ? first + columns : first;
+    const first = i * width;
+    const second = both ? first + width : first;
     const c1 = re[i];
     const d1 = im[i];
     const c2 = both ? re[i + 1] : 0;
     const d2 = both ? im[i + 1] : 0;
-    for (let e = 0; e < columns; e++) {
+    for (let e = 0; e < width; e++) {
       const a1 = rowRe[first + e];
       const b1 = rowIm[first + e];
       const a2 = rowRe[second + e];

@@ -1,5 +1,7 @@
 // Dense real matrices, row by row: products, Cholesky's factor, and solves with it.
 
+import { arraysOf, kernelOf, tileOf } from "./kernel.js";
+
 const BLOCK = 48; // columns of a block of the factorisation
 
 /**
@@ -46,16 +48,40 @@ export function addScaled(t, x, y) {
  * @param {{ sign?: number, lower?: boolean }} [options] `lower`: only what meets the lower half
  */
 export function addProduct(a, b, c, rows, columns, length, { sign = 1, lower = false } = {}) {
-  const tile = new Float64Array(8);
+  const kernel = kernelOf(a.values, b.values);
+  const tile = kernel ? tileOf(a.values) : new Float64Array(8);
+  const even = length - (length % 2);
   for (let i = 0; i < rows; i += 4) {
     const end = lower ? Math.min(i + 4, columns) : columns;
+    const places = [0, 1, 2, 3].map((k) => a.first + Math.min(i + k, rows - 1) * a.stride);
     for (let j = 0; j < end; j += 2) {
-      fillTile(a, b, i, j, rows, columns, length, tile);
+      const p = b.first + j * b.stride;
+      const q = b.first + Math.min(j + 1, columns - 1) * b.stride;
+      if (kernel) {
+        const [r0, r1, r2, r3] = places;
+        const left = a.values.byteOffset;
+        const right = b.values.byteOffset;
+        kernel.tile(
+          left + 8 * r0,
+          left + 8 * r1,
+          left + 8 * r2,
+          left + 8 * r3,
+          right + 8 * p,
+          right + 8 * q,
+          8 * even,
+          tile.byteOffset,
+        );
+      } else {
+        fillHalf(a.values, places[0], places[1], b.values, p, q, even, tile, 0);
+        fillHalf(a.values, places[2], places[3], b.values, p, q, even, tile, 4);
+      }
       for (let k = 0; k < 8; k++) {
         const row = i + (k >> 1);
         const column = j + (k & 1);
         if (row < rows && column < columns) {
-          c.values[c.first + row * c.stride + column] += sign * tile[k];
+          const last = even < length ? a.values[places[k >> 1] + even] : 0;
+          const rest = last && last * b.values[(k & 1 ? q : p) + even];
+          c.values[c.first + row * c.stride + column] += sign * (tile[k] + rest);
         }
       }
     }
@@ -63,57 +89,48 @@ export function addProduct(a, b, c, rows, columns, length, { sign = 1, lower = f
 }
 
 /**
- * The products of rows i to i + 3 of a and rows j and j + 1 of b.
- * @param {Part} a
- * @param {Part} b
- * @param {number} i
- * @param {number} j
- * @param {number} rows
- * @param {number} columns
- * @param {number} length
+ * The products of two rows and two rows; even and odd terms are summed on their own.
+ * @param {Float64Array} left
+ * @param {number} a0 where its rows begin
+ * @param {number} a1
+ * @param {Float64Array} right
+ * @param {number} b0
+ * @param {number} b1
+ * @param {number} length of a row, even
  * @param {Float64Array} tile
+ * @param {number} first where the four products go
  */
-function fillTile(a, b, i, j, rows, columns, length, tile) {
-  const left = a.values;
-  const right = b.values;
-  const a0 = a.first + i * a.stride;
-  const a1 = a.first + Math.min(i + 1, rows - 1) * a.stride;
-  const a2 = a.first + Math.min(i + 2, rows - 1) * a.stride;
-  const a3 = a.first + Math.min(i + 3, rows - 1) * a.stride;
-  const b0 = b.first + j * b.stride;
-  const b1 = b.first + Math.min(j + 1, columns - 1) * b.stride;
+function fillHalf(left, a0, a1, right, b0, b1, length, tile, first) {
   let s00 = 0;
   let s01 = 0;
   let s10 = 0;
   let s11 = 0;
-  let s20 = 0;
-  let s21 = 0;
-  let s30 = 0;
-  let s31 = 0;
-  for (let t = 0; t < length; t++) {
+  let t00 = 0;
+  let t01 = 0;
+  let t10 = 0;
+  let t11 = 0;
+  for (let t = 0; t < length; t += 2) {
     const x = right[b0 + t];
     const y = right[b1 + t];
     const p = left[a0 + t];
     const q = left[a1 + t];
-    const r = left[a2 + t];
-    const s = left[a3 + t];
     s00 += p * x;
     s01 += p * y;
     s10 += q * x;
     s11 += q * y;
-    s20 += r * x;
-    s21 += r * y;
-    s30 += s * x;
-    s31 += s * y;
+    const v = right[b0 + t + 1];
+    const w = right[b1 + t + 1];
+    const r = left[a0 + t + 1];
+    const s = left[a1 + t + 1];
+    t00 += r * v;
+    t01 += r * w;
+    t10 += s * v;
+    t11 += s * w;
   }
-  tile[0] = s00;
-  tile[1] = s01;
-  tile[2] = s10;
-  tile[3] = s11;
-  tile[4] = s20;
-  tile[5] = s21;
-  tile[6] = s30;
-  tile[7] = s31;
+  tile[first] = s00 + t00;
+  tile[first + 1] = s01 + t01;
+  tile[first + 2] = s10 + t10;
+  tile[first + 3] = s11 + t11;
 }
 
 /**
@@ -123,16 +140,39 @@ function fillTile(a, b, i, j, rows, columns, length, tile) {
  * @returns {boolean} whether the matrix is positive definite
  */
 export function factorise(a, n) {
+  const { values } = scratchFor(a, n);
+  values.set(a);
   for (let start = 0; start < n; start += BLOCK) {
     const end = Math.min(start + BLOCK, n);
-    if (!factoriseBlock(a, n, start, end)) {
+    if (!factoriseBlock(values, n, start, end)) {
       return false;
     }
-    const below = { values: a, first: end * n + start, stride: n };
-    const rest = { values: a, first: end * n + end, stride: n };
+    const below = { values, first: end * n + start, stride: n };
+    const rest = { values, first: end * n + end, stride: n };
     addProduct(below, below, rest, n - end, n - end, end - start, { sign: -1, lower: true });
   }
+  a.set(values);
   return true;
+}
+
+/**
+ * The matrix that was factorised last, and its factor where the kernel reaches it.
+ * @type {{ of: Float64Array | null, values: Float64Array, x: Float64Array }}
+ */
+let last = { of: null, values: new Float64Array(0), x: new Float64Array(0) };
+
+/**
+ * @param {Float64Array} a
+ * @param {number} n
+ */
+function scratchFor(a, n) {
+  if (last.x.length === n) {
+    last.of = a;
+  } else {
+    const [values, x] = arraysOf(n * n, n);
+    last = { of: a, values, x };
+  }
+  return last;
 }
 
 /**
@@ -171,15 +211,34 @@ function factoriseBlock(a, n, start, end) {
  * @returns {Float64Array} x
  */
 export function solveWith(factor, b) {
-  const n = b.length;
+  const kernel = last.of === factor ? kernelOf(last.values, last.x) : undefined;
+  if (kernel) {
+    last.x.set(b);
+    kernel.solve(last.values.byteOffset, 8 * b.length, last.x.byteOffset);
+    return last.x.slice();
+  }
   const x = Float64Array.from(b);
+  solveInPlace(factor, x);
+  return x;
+}
+
+/**
+ * @param {Float64Array} factor
+ * @param {Float64Array} x
+ */
+function solveInPlace(factor, x) {
+  const n = x.length;
   for (let i = 0; i < n; i++) {
     const row = i * n;
-    let rest = x[i];
-    for (let j = 0; j < i; j++) {
-      rest -= factor[row + j] * x[j];
+    const even = i - (i % 2);
+    let s = 0;
+    let t = 0;
+    for (let j = 0; j < even; j += 2) {
+      s += factor[row + j] * x[j];
+      t += factor[row + j + 1] * x[j + 1];
     }
-    x[i] = rest / factor[row + i];
+    const rest = even < i ? s + t + factor[row + even] * x[even] : s + t;
+    x[i] = (x[i] - rest) / factor[row + i];
   }
   for (let i = n - 1; i >= 0; i--) {
     const row = i * n;
@@ -189,5 +248,4 @@ export function solveWith(factor, b) {
       x[j] -= factor[row + j] * own;
     }
   }
-  return x;
 }

@@ -3,9 +3,10 @@
 // At one node it is B^T K B (18). K is written in the frames of f = f_z and g = conj(f_zbar): one entry
 // across each of them, and a symmetric 2 x 2 block along them.
 
-import { quarters, samplesAt, slopesOf } from "./basis.js";
+import { evenly, quarters, samplesAt, slopesOf } from "./basis.js";
 import { addProduct } from "./dense.js";
 import { noDifferentials } from "./energy.js";
+import { arraysOf } from "./kernel.js";
 
 /** @import { Energy } from "./energy.js" */
 /** @import { Quadrature } from "./quadrature.js" */
@@ -66,6 +67,10 @@ export function positivePart(k) {
 }
 
 export class Assembler {
+  #f;
+  #g;
+  #weighted;
+
   /**
    * @param {Shape} shape
    * @param {Quadrature} quadrature of the energy
@@ -81,6 +86,8 @@ export class Assembler {
     /** D T at the nodes: one row of `nodes` numbers for each column of T. */
     this.re = new Float64Array(whitening.u * this.nodes);
     this.im = new Float64Array(whitening.u * this.nodes);
+    const row = 2 * whitening.u * 2 * this.nodes;
+    [this.#f, this.#g, this.#weighted] = arraysOf(row, row, row);
     const own = { ...rows, ...this.#ownRows(rows) };
     // Two columns of T at once, as if they were phi and psi.
     for (let c = 0; c < whitening.u; c += 2) {
@@ -97,7 +104,7 @@ export class Assembler {
 
   /** @param {import("./basis.js").Rows} rows */
   #ownRows({ columns, re, im }) {
-    const start = this.first * columns;
+    const start = this.first * evenly(columns);
     return { count: this.nodes, re: re.subarray(start), im: im.subarray(start) };
   }
 
@@ -110,11 +117,11 @@ export class Assembler {
   assemble(samples, energy, project) {
     const { u, size } = this.shape.whitening;
     const local = this.#local(samples, energy, project);
-    const f = this.#framed(local.f, 0);
-    const g = this.#framed(local.g, 1);
+    const f = this.#framed(this.#f, local.f, 0);
+    const g = this.#framed(this.#g, local.g, 1);
     const h = new Float64Array(size * size);
-    const phi = blockOf(f, 2 * this.nodes, 2 * u, [local.alongFF, local.acrossF]);
-    const psi = blockOf(g, 2 * this.nodes, 2 * (u - 1), [local.alongGG, local.acrossG]);
+    const phi = this.#block(f, 2 * u, local.alongFF, local.acrossF);
+    const psi = this.#block(g, 2 * (u - 1), local.alongGG, local.acrossG);
     const cross = this.#crossBlock(f, g, local.alongFG);
     this.#gather(h, phi, psi, cross);
     return h;
@@ -159,14 +166,14 @@ export class Assembler {
   /**
    * For each real coordinate the components of its derivative along and across the frame: a row of
    * 2 x nodes numbers. The rows of the real parts come first, then those of the imaginary parts.
+   * @param {Float64Array} rows
    * @param {import("./types.js").Complex} frame
    * @param {0 | 1} psi whether for g: then without the translation, and conjugate for logarithms
    */
-  #framed(frame, psi) {
+  #framed(rows, frame, psi) {
     const { nodes } = this;
     const { u, k } = this.shape.whitening;
     const count = u - psi;
-    const rows = new Float64Array(2 * count * 2 * nodes);
     for (let c = psi; c < u; c++) {
       const sign = psi === 1 && c > k ? -1 : 1;
       const real = (c - psi) * 2 * nodes;
@@ -186,6 +193,31 @@ export class Assembler {
   }
 
   /**
+   * The lower half of rows diag(k) rows^T, with entries k along and across at each node.
+   * @param {Float64Array} rows
+   * @param {number} count of rows
+   * @param {Float64Array} along
+   * @param {Float64Array} across
+   */
+  #block(rows, count, along, across) {
+    const { nodes } = this;
+    const length = 2 * nodes;
+    const weighted = this.#weighted;
+    for (let first = 0; first < count * length; first += length) {
+      for (let t = 0; t < nodes; t++) {
+        weighted[first + t] = along[t] * rows[first + t];
+        weighted[first + nodes + t] = across[t] * rows[first + nodes + t];
+      }
+    }
+    const block = new Float64Array(count * count);
+    const left = { values: weighted, first: 0, stride: length };
+    const right = { values: rows, first: 0, stride: length };
+    const into = { values: block, first: 0, stride: count };
+    addProduct(left, right, into, count, count, length, { lower: true });
+    return block;
+  }
+
+  /**
    * Rows of psi times columns of phi, through the entries along both.
    * @param {Float64Array} f
    * @param {Float64Array} g
@@ -194,7 +226,7 @@ export class Assembler {
   #crossBlock(f, g, alongFG) {
     const { nodes } = this;
     const { u } = this.shape.whitening;
-    const weighted = new Float64Array(2 * u * nodes);
+    const weighted = this.#weighted;
     for (let i = 0; i < 2 * u; i++) {
       for (let t = 0; t < nodes; t++) {
         weighted[i * nodes + t] = alongFG[t] * f[i * 2 * nodes + t];
@@ -272,30 +304,6 @@ function unitInto(frame, t, re, im) {
   frame.re[t] = size > 0 ? re / size : 1;
   frame.im[t] = size > 0 ? im / size : 0;
   return square;
-}
-
-/**
- * The lower half of rows diag(k) rows^T, with entries k along and across at each node.
- * @param {Float64Array} rows
- * @param {number} length of a row
- * @param {number} count of rows
- * @param {[Float64Array, Float64Array]} k
- */
-function blockOf(rows, length, count, [along, across]) {
-  const nodes = length / 2;
-  const weighted = new Float64Array(rows.length);
-  for (let first = 0; first < rows.length; first += length) {
-    for (let t = 0; t < nodes; t++) {
-      weighted[first + t] = along[t] * rows[first + t];
-      weighted[first + nodes + t] = across[t] * rows[first + nodes + t];
-    }
-  }
-  const block = new Float64Array(count * count);
-  const left = { values: weighted, first: 0, stride: length };
-  const right = { values: rows, first: 0, stride: length };
-  const into = { values: block, first: 0, stride: count };
-  addProduct(left, right, into, count, count, length, { lower: true });
-  return block;
 }
 
 /**

@@ -4,9 +4,10 @@
 // middle and the end. docs/proof.md ("In the page") states the lemmas. Everything is computed by +, -,
 // *, / and square roots of IEEE 754 and by `log` and `atan2` of elementary.js, in plain order.
 
-import { fillRow, quarters, samplesAt, slopesOf } from "./basis.js";
-import { zeros } from "./domain.js";
+import { emptyRows, fillRow, quarters, samplesAt, slopesOf } from "./basis.js";
+import { addProduct, dot } from "./dense.js";
 import { atan2, modulus } from "./elementary.js";
+import { arraysOf } from "./kernel.js";
 import { distance } from "./panels.js";
 import { BERNSTEIN, BESIDE, slack, UNIT_ROUNDOFF, UPWARD } from "./rounding.js";
 
@@ -43,6 +44,7 @@ const MOST_HALVINGS = 4; // of a panel that is not proved at once
 /** The constants of the proofs on a domain's panels. */
 export class Prover {
   #weights;
+  #jumps;
   #spare;
   #row;
 
@@ -56,9 +58,9 @@ export class Prover {
     this.panels = panels;
     this.rows = rows;
     const { columns } = domain;
-    this.#weights = new Float64Array(panels.count * columns);
+    [this.#weights, this.#jumps] = arraysOf(panels.count * columns, 2 * columns);
     this.#spare = new Float64Array(columns);
-    this.#row = zeros(columns);
+    this.#row = emptyRows(1, columns);
     const { re, im } = panels.nodes;
     for (let i = 0; i < panels.count; i++) {
       const end = panels.next[i];
@@ -80,9 +82,25 @@ export class Prover {
    * @returns {{ certificate: Certificate, samples: Samples }}
    */
   prove(coefficients) {
+    const sampled = this.sample(coefficients);
+    return { certificate: this.judge(sampled), samples: sampled.samples };
+  }
+
+  /**
+   * A map with its samples at the panels' nodes.
+   * @param {Coefficients} coefficients
+   */
+  sample(coefficients) {
     const map = new MapData(this.domain, coefficients);
-    const samples = samplesAt(this.rows, map.slopes);
-    return { certificate: this.#certificate(map, quarters(samples)), samples };
+    return { map, samples: samplesAt(this.rows, map.slopes) };
+  }
+
+  /**
+   * The certificate of a map that was sampled.
+   * @param {ReturnType<Prover["sample"]>} sampled
+   */
+  judge({ map, samples }) {
+    return this.#certificate(map, quarters(samples));
   }
 
   /**
@@ -92,10 +110,12 @@ export class Prover {
    */
   #certificate(map, samples) {
     const { panels } = this;
+    const remainders = this.#remainders(map);
     const turning = new Float64Array(panels.loops);
     const whole = { sigma2_lower: Infinity, sigma1_upper: 0, k_upper: 0, halved: 0, refused: -1 };
     for (let i = 0; i < panels.count; i++) {
-      const bounds = this.#onPanel(map, samples, i, whole);
+      const of = remainders.subarray(2 * i, 2 * i + 2);
+      const bounds = this.#onPanel(map, samples, of, i, whole);
       whole.sigma2_lower = Math.min(whole.sigma2_lower, bounds.sigma2);
       whole.sigma1_upper = Math.max(whole.sigma1_upper, bounds.sigma1);
       whole.k_upper = Math.max(whole.k_upper, bounds.k);
@@ -113,17 +133,33 @@ export class Prover {
   }
 
   /**
+   * Weights . jumps of f and g on each panel.
+   * @param {MapData} map
+   */
+  #remainders({ f, g, columns }) {
+    const { count } = this.panels;
+    this.#jumps.set(f.jumps);
+    this.#jumps.set(g.jumps, columns);
+    const left = { values: this.#weights, first: 0, stride: columns };
+    const right = { values: this.#jumps, first: 0, stride: columns };
+    const values = new Float64Array(2 * count);
+    addProduct(left, right, { values, first: 0, stride: 2 }, count, 2, columns);
+    return values;
+  }
+
+  /**
    * @param {MapData} map
    * @param {Float64Array[]} samples
+   * @param {Float64Array} remainders of f and g
    * @param {number} i
    * @param {{ halved: number }} whole
    */
-  #onPanel(map, samples, i, whole) {
+  #onPanel(map, samples, remainders, i, whole) {
     const { panels } = this;
     const start = this.#node(samples, i);
     const middle = this.#node(samples, panels.count + i);
     const end = this.#node(samples, panels.next[i]);
-    return this.#between(map, start, middle, end, this.#weights, i * map.columns, 0, whole);
+    return this.#between(map, start, middle, end, remainders, 0, whole);
   }
 
   /**
@@ -143,15 +179,14 @@ export class Prover {
    * @param {Node} start
    * @param {Node} middle
    * @param {Node} end
-   * @param {Float64Array} weights of the remainder
-   * @param {number} first where they begin
+   * @param {Float64Array} remainders of f and g
    * @param {number} depth how often the panel was halved before
    * @param {{ halved: number }} whole
    * @returns {Bounds}
    */
-  #between(map, start, middle, end, weights, first, depth, whole) {
+  #between(map, start, middle, end, remainders, depth, whole) {
     const norm = Math.max(start.norm, middle.norm, end.norm);
-    const [ef, eg] = map.errors(weights, first, norm);
+    const [ef, eg] = map.errors(remainders, norm);
     const bounds = boundsOf(start, middle, end, ef, eg);
     if (bounds.sigma2 > 0) {
       return bounds;
@@ -185,7 +220,7 @@ export class Prover {
     const weights = this.#spare;
     const middle = this.#fresh(map, (start.x + end.x) / 2, (start.y + end.y) / 2);
     fillRemainderWeights(this.domain, start.x, start.y, end.x, end.y, weights, 0);
-    return this.#between(map, start, middle, end, weights, 0, depth + 1, whole);
+    return this.#between(map, start, middle, end, map.remainders(weights), depth + 1, whole);
   }
 
   /**
@@ -196,9 +231,7 @@ export class Prover {
    */
   #fresh(map, x, y) {
     const norm = fillRow(this.domain, x, y, this.#row, 0);
-    const norms = Float64Array.of(norm);
-    const row = { count: 1, columns: map.columns, ...this.#row, norms };
-    const [fr, fi, gr, gi] = samplesAt(row, map.slopes);
+    const [fr, fi, gr, gi] = samplesAt(this.#row, map.slopes);
     return { x, y, norm, fr, fi, gr, gi };
   }
 }
@@ -220,19 +253,20 @@ export class MapData {
   }
 
   /**
+   * Weights . jumps of f and g on one panel.
+   * @param {Float64Array} weights
+   */
+  remainders(weights) {
+    return Float64Array.of(dot(weights, this.f.jumps), dot(weights, this.g.jumps));
+  }
+
+  /**
    * How far f_z and conj(f_zbar) may be from the computed interpolants of a panel.
-   * @param {Float64Array} weights of the remainder
-   * @param {number} first where they begin
+   * @param {Float64Array} remainders
    * @param {number} rowNorm
    * @returns {[number, number]}
    */
-  errors(weights, first, rowNorm) {
-    let ef = 0;
-    let eg = 0;
-    for (let j = 0; j < this.columns; j++) {
-      ef += weights[first + j] * this.f.jumps[j];
-      eg += weights[first + j] * this.g.jumps[j];
-    }
+  errors([ef, eg], rowNorm) {
     const { f, g, columns } = this;
     return [
       UPWARD * (ef + slack(columns, rowNorm, f.norm, f.sum)),

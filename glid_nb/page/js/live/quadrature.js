@@ -3,7 +3,7 @@
 // The nodes are those of the panels, then those inside stiff areas. The energy that stiff areas add to
 // an isometry is subtracted, so an isometry has the same energy everywhere.
 
-import { rowsAt } from "./basis.js";
+import { emptyRows, rowsAt } from "./basis.js";
 import { complexOf } from "./domain.js";
 
 /** @import { Rows } from "./basis.js" */
@@ -47,13 +47,11 @@ export function quadratureOf({ domain, panels, rows }, stiff) {
  * @returns {Rows}
  */
 function joinedRows(a, b) {
-  return {
-    count: a.count + b.count,
-    columns: a.columns,
-    re: joined(a.re, b.re),
-    im: joined(a.im, b.im),
-    norms: joined(a.norms, b.norms),
-  };
+  const both = emptyRows(a.count + b.count, a.columns);
+  for (const key of /** @type {const} */ (["re", "im", "norms"])) {
+    both[key].set(joined(a[key], b[key]));
+  }
+  return both;
 }
 
 /**

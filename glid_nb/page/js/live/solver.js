@@ -1,6 +1,6 @@
 // A shape that follows its pins: Algorithm 1 with kept Hessians, every step proved before it is taken.
 
-import { pulledThroughRows, pulledThroughSlopes, samplesAt, slopesOf } from "./basis.js";
+import { pulledThroughRows, pulledThroughSlopes } from "./basis.js";
 import { addScaled, dot } from "./dense.js";
 import { metricAt, repinned } from "./directions.js";
 import { energyGradient, energyNamed, isometricEnergy } from "./energy.js";
@@ -226,11 +226,12 @@ export class Solver {
       return this.promised >= 0 ? "minimal" : "no decrease";
     }
     const change = this.shape.whitening.toCoefficients(direction);
-    const longest = this.#searched(change, slope);
+    const whole = this.prover.sample(this.#moved(change, 1));
+    const longest = this.#searched(change, slope, whole.samples);
     if (longest === 0) {
       return "no decrease";
     }
-    const step = this.#proved(change, longest);
+    const step = this.#proved(change, longest, whole);
     if (step === 0) {
       return "refused";
     }
@@ -245,10 +246,11 @@ export class Solver {
    * The preferred step along a change of the coefficients, not proved yet; 0 if none lowers the energy.
    * @param {Coefficients} change
    * @param {number} slope
+   * @param {Samples} whole those of the map after the step 1
    */
-  #searched(change, slope) {
-    const { shape, state, pins } = this;
-    const rise = samplesAt(this.quadrature.rows, slopesOf(shape.domain, change));
+  #searched(change, slope, whole) {
+    const { state, pins } = this;
+    const rise = whole.map((value, i) => value - state.samples[i]);
     const moved = pins.change(change);
     const constant = pins.product(state.residual, state.residual) / 2;
     const linear = pins.product(state.residual, moved);
@@ -269,21 +271,34 @@ export class Solver {
    * Takes the longest of some steps that is proved; returns its length, 0 if there is none.
    * @param {Coefficients} change
    * @param {number} longest
+   * @param {ReturnType<Prover["sample"]>} whole the map after the step 1
    */
-  #proved(change, longest) {
+  #proved(change, longest, whole) {
     let step = longest;
     for (let i = 0; i < MOST_TRIES; i++) {
-      const coefficients = Float64Array.from(this.state.coefficients);
-      addScaled(step, change, coefficients);
-      const proof = this.prover.prove(coefficients);
-      if (proof.certificate.certified) {
-        this.state = this.#stateOf(coefficients, proof);
+      const coefficients = this.#moved(change, step);
+      const sampled = step === 1 ? whole : this.prover.sample(coefficients);
+      const certificate = this.prover.judge(sampled);
+      if (certificate.certified) {
+        const { samples } = sampled;
+        this.state = this.#stateOf(coefficients, { certificate, samples });
         this.steps++;
         return step;
       }
       step *= SHORTER;
     }
     return 0;
+  }
+
+  /**
+   * The coefficients after a step along a change of them.
+   * @param {Coefficients} change
+   * @param {number} step
+   */
+  #moved(change, step) {
+    const coefficients = Float64Array.from(this.state.coefficients);
+    addScaled(step, change, coefficients);
+    return coefficients;
   }
 
   /**

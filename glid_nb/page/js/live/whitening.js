@@ -6,7 +6,7 @@
 // boundary. Coordinates of a map are [Re phi (u), Im phi (u), Re psi (k), Im psi (k)]; the holes'
 // coefficients of psi are conjugates of those of phi.
 
-import { coordinatesAt, derivativesOf, quarters } from "./basis.js";
+import { coordinatesAt, derivativesOf, evenly, quarters } from "./basis.js";
 import { zeros } from "./domain.js";
 
 /** @import { Rows } from "./basis.js" */
@@ -229,7 +229,7 @@ function scaledDerivatives(domain, panels, rows) {
   const samples = { ...zeros(domain.columns * count), count };
   for (let i = 0; i < count; i++) {
     const root = Math.sqrt(lengths[i]);
-    const d = derivativesOf(domain, rows, (count + i) * domain.columns);
+    const d = derivativesOf(domain, rows, (count + i) * evenly(domain.columns));
     for (let j = 0; j < domain.columns; j++) {
       samples.re[j * count + i] = root * d.re[j];
       samples.im[j * count + i] = root * d.im[j];
