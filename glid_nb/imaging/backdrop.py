@@ -23,6 +23,8 @@ from glid_nb.imaging.trace import Tracing
 RGB = tuple[int, int, int]
 Background = RGB | ArrayLike | None
 """A colour, a picture of the same place as the deformed one, or None for transparent."""
+Backdrop = RGB | NDArray[np.uint8] | None
+"""A background that `check_background` has read: a picture is (h, w, 4) RGBA."""
 
 WHITE: RGB = (255, 255, 255)
 
@@ -129,7 +131,7 @@ def _membrane(colours: Array, hole: NDArray[np.bool_]) -> Array:
     return np.stack([np.asarray(part) for part in parts], axis=-1)
 
 
-def check_background(background: Any) -> Background:
+def check_background(background: Any) -> Backdrop:
     """A background as an RGB tuple, an RGBA picture or None. Raises an InputError for others."""
     if background is None or np.ndim(background) == 3:
         return None if background is None else as_rgba8(background)
@@ -139,18 +141,17 @@ def check_background(background: Any) -> Background:
     return given
 
 
-def backdrop(background: Background, frame: PixelFrame) -> NDArray[np.uint8] | None:
+def drawn_backdrop(background: Backdrop, frame: PixelFrame) -> NDArray[np.uint8] | None:
     """The (h, w, 4) picture of a background in a frame; None if it is transparent."""
     if background is None:
         return None
     if isinstance(background, tuple):
         return np.full((frame.height, frame.width, 4), (*background, 255), np.uint8)
-    pixels = as_rgba8(background)
-    size = pixels.shape[1::-1]
+    size = background.shape[1::-1]
     places = _CORNERS * size
     positions = frame.to_pixel(PixelFrame(*size).to_world(places))
     triangles = np.array([[0, 1, 2], [0, 2, 3]])
-    return render_mesh(pixels, places, positions, triangles, (frame.width, frame.height))
+    return render_mesh(background, places, positions, triangles, (frame.width, frame.height))
 
 
 def over(pixels: NDArray[np.uint8], behind: NDArray[np.uint8] | None) -> NDArray[np.uint8]:

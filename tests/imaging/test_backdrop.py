@@ -5,7 +5,7 @@ import pytest
 
 from glid_nb import InputError, filled_in, samples, trace
 from glid_nb.imaging import PixelFrame, TraceError
-from glid_nb.imaging.backdrop import backdrop, check_background, over
+from glid_nb.imaging.backdrop import check_background, drawn_backdrop, over
 
 
 def test_a_hole_in_a_slope_of_colours_is_filled_with_the_slope() -> None:
@@ -40,7 +40,7 @@ def test_a_picture_lies_at_its_own_place_in_another_frame() -> None:
     picture = np.zeros((20, 40, 3), np.uint8)
     picture[:, 20:] = 200
     frame = PixelFrame(80, 80)  # the same width in the world, twice as high
-    behind = backdrop(check_background(picture), frame)
+    behind = drawn_backdrop(check_background(picture), frame)
     assert behind is not None
     assert not behind[:20].any()
     assert behind[40, 10].tolist() == [0, 0, 0, 255]
@@ -50,7 +50,7 @@ def test_a_picture_lies_at_its_own_place_in_another_frame() -> None:
 def test_pixels_are_drawn_over_a_colour_or_over_nothing() -> None:
     pixels = np.full((2, 2, 4), (100, 0, 0, 128), np.uint8)
     assert over(pixels, None) is pixels
-    behind = backdrop((0, 0, 200), PixelFrame(2, 2))
+    behind = drawn_backdrop((0, 0, 200), PixelFrame(2, 2))
     assert over(pixels, behind)[0, 0].tolist() == [50, 0, 100, 255]
 
 
