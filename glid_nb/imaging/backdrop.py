@@ -137,7 +137,8 @@ def check_background(background: Any) -> Backdrop:
         return None if background is None else as_rgba8(background)
     rgb: Any = {"least": 0, "most": 255, "form": "three whole numbers from 0 to 255"}
     if wanted := unmet(RGB, given := plain(background), rgb):
-        raise InputError(f"background must be {wanted}, a picture or None, not {background!r:.60}")
+        wanted = f"it must be {wanted}, a picture or None"
+        raise InputError(f"background is {background!r:.60}; {wanted}")
     return given
 
 

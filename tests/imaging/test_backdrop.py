@@ -56,5 +56,7 @@ def test_pixels_are_drawn_over_a_colour_or_over_nothing() -> None:
 
 @pytest.mark.parametrize("wrong", ["red", (1, 2), (0, 0, 256), (0.5, 0, 0)])
 def test_other_backgrounds_are_refused(wrong: object) -> None:
-    with pytest.raises(InputError, match="three whole numbers from 0 to 255, a picture or None"):
+    with pytest.raises(
+        InputError, match="must be three whole numbers from 0 to 255, a picture or None"
+    ):
         check_background(wrong)
