@@ -181,6 +181,7 @@ def as_older_versions_wrote(document: Document, path: Path) -> None:
     data = json.loads(members["document.json"])
     assert not any("unsolved" in pose for pose in data["poses"])
     data["version"] = 4
+    data.pop("look", None)
     path.write_bytes(zipped({**members, "document.json": json.dumps(data).encode()}))
 
 
