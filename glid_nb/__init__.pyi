@@ -15,6 +15,8 @@ from .imaging import Tracer as Tracer
 from .imaging import Tracing as Tracing
 from .imaging import read_image as read_image
 from .imaging import trace as trace
+from .imaging.backdrop import filled_in as filled_in
+from .imaging.matte import cut_out as cut_out
 from .imaging.render import render as render
 
 # Maps, and the proof that they do not fold

@@ -19,14 +19,12 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
 
-from glid_nb._arguments import plain
 from glid_nb._errors import InputError
 from glid_nb._files import zipped
+from glid_nb.imaging.backdrop import RGB, WHITE, Backdrop, check_background
 from glid_nb.imaging.bleed import bled
 from glid_nb.imaging.read import png, srgb_chunk
 from glid_nb.motion.settings import checked
-
-RGB = tuple[int, int, int]
 
 
 class Frames(NamedTuple):
@@ -53,24 +51,25 @@ _COLORS = (
 )
 
 
-def check_settings(size: Any, fps: Any, background: Any, suffix: str) -> None:
-    """Raise an InputError that names a setting out of range or a missing package."""
+def check_settings(size: Any, fps: Any, background: Any, suffix: str) -> Backdrop:
+    """The background as `check_background` gives it. Raises an InputError that names a setting out
+    of range or a missing package."""
     checked("size", int, size, least=16, most=_LARGEST)
     # GIF counts in hundredths of a second. Players slow down frames shorter than two hundredths.
     of, most = (" of a GIF", 50) if suffix == ".gif" else ("", 100)
     checked(f"frames_per_second{of}", float, fps, above=0, most=most)
-    rgb: Any = {"most": 255, "form": "three whole numbers from 0 to 255"}
-    checked("background", tuple[int, int, int] | None, plain(background), **rgb)
+    background = check_background(background)
     if background is None and suffix in (".gif", ".mp4"):
         remedy = "choose a background, or .apng or .webm"
         raise InputError(f"{suffix[1:].upper()} has no transparency; {remedy}")
     if suffix in _CODECS and importlib.util.find_spec("imageio_ffmpeg") is None:
         needed = "MP4 and WebM need the package imageio-ffmpeg, which includes ffmpeg"
         raise InputError(f"{needed}: pip install 'glid-nb[video]'")
+    return background
 
 
 def encoded(
-    frames: Frames, name: str, suffix: str, fps: float, background: RGB | None, loop: bool = True
+    frames: Frames, name: str, suffix: str, fps: float, background: Backdrop, loop: bool = True
 ) -> list[bytes]:
     """The contents of the files of a suffix; for "", every frame as PNG."""
     if suffix in (".gif", ".apng"):
@@ -84,9 +83,7 @@ def encoded(
     return [zipped(files, stored=files)] if suffix == ".zip" else pictures
 
 
-def _animation(
-    frames: Frames, suffix: str, fps: float, background: RGB | None, loop: bool
-) -> bytes:
+def _animation(frames: Frames, suffix: str, fps: float, background: Backdrop, loop: bool) -> bytes:
     """An animated PNG, or a GIF. A GIF has 256 colours and counts in hundredths of a second."""
     width, height = frames.size
     if frames.count * width * height > _MOST_PIXELS:
@@ -96,9 +93,8 @@ def _animation(
     if suffix == ".apng":
         pictures = [Image.fromarray(frame) for frame in frames.pictures]
     else:
-        assert background is not None
         pictures = [Image.fromarray(frame[..., :3]) for frame in frames.pictures]
-        pictures = _with_palette(pictures, background)
+        pictures = _with_palette(pictures, background if isinstance(background, tuple) else WHITE)
         ends = np.round(np.arange(frames.count + 1) * 100 / fps)
         settings = {"duration": (10 * np.diff(ends)).astype(int).tolist()}
         settings |= {"loop": 0} if loop else {}

@@ -16,11 +16,19 @@ from glid_nb._arguments import check_type
 from glid_nb._errors import InputError
 from glid_nb.energies import ENERGIES, CustomEnergy, Energy, SymmetricDirichlet
 from glid_nb.export.moving import check_picture
-from glid_nb.export.page import GRID_LINES, LONGEST_CHAIN, factored, packed, playing
+from glid_nb.export.page import (
+    GRID_LINES,
+    LONGEST_CHAIN,
+    behind_canvas,
+    factored,
+    packed,
+    playing,
+)
 from glid_nb.figures.style import COLORS, rgb
 from glid_nb.geometry import Cage, Domain, GeometryError, triangulate
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging import PixelFrame, as_rgba8, order_of, png
+from glid_nb.imaging.backdrop import Background
 from glid_nb.imaging.bleed import bled
 from glid_nb.imaging.render import MARGIN
 from glid_nb.motion import Motion
@@ -47,12 +55,14 @@ def live_page_html(
     energy: Energy | None = None,
     p2p_weight: float = 1e5,
     title: str = "Live picture",
+    background: Background = None,
 ) -> str:
     """A page with its own certified solver: click to pin, drag, keep poses and play them.
 
     The page begins at a map, at the first keyframe of a motion, or at the undeformed shape of a
     domain. ``pose`` is the map's pose, or one pose per keyframe; its pins can be dragged. It plays
-    a motion until its reader keeps other poses. All is one HTML file that uses no network. The page
+    a motion until its reader keeps other poses. The background is as in `glid_nb.render`; for None,
+    the page shows its own. All is one HTML file that uses no network. The page
     proves every map that it draws, in JavaScript (``docs/proof.md``).
 
     Raises an InputError for an energy that the page's solver does not have.
@@ -98,6 +108,7 @@ def live_page_html(
         "title": html.escape(title),
         "packed": _lettered(deflated),
         "size": str(len(deflated)),
+        "behind": behind_canvas(background),
         "picture": "data:image/png;base64," + base64.b64encode(png(texture)).decode("ascii"),
     }
     # Replace in one pass, so that inserted text is not searched for placeholders.

@@ -10,12 +10,12 @@ from glid_nb._arguments import check_type
 from glid_nb._errors import InputError
 from glid_nb._files import write_atomically
 from glid_nb.export import encode
-from glid_nb.export.encode import RGB
 from glid_nb.export.formats import file_names, suffix_of
 from glid_nb.export.mesh import motion_glb
 from glid_nb.export.moving import check_picture, frames
 from glid_nb.export.page import page_html
 from glid_nb.imaging import as_rgba8
+from glid_nb.imaging.backdrop import WHITE, Background
 from glid_nb.imaging.progress import Progress, Stopped, report
 from glid_nb.motion import Motion
 from glid_nb.motion.settings import checked
@@ -73,7 +73,7 @@ def motion_files(
     *,
     size: int = 480,
     frames_per_second: float = _FPS,
-    background: RGB | None = (255, 255, 255),
+    background: Background = WHITE,
     loop: bool = True,
     progress: Progress | None = None,
 ) -> dict[str, bytes]:
@@ -87,17 +87,19 @@ def motion_files(
 
     Frames have a longer side of ``size`` pixels, 16 to 8192, and even sides. There are at most 100
     frames per second, 50 for GIF. The background's red, green and blue are 0 to 255. None is
-    transparent, which GIF and MP4 do not support. With ``loop``, a GIF, an APNG and a page start
-    again at the end. ``progress`` is called with the number of finished frames and the number of
-    all frames, or stages for formats without frames. If it returns True, the export stops, and the
-    result is empty.
+    transparent, which GIF and MP4 do not support. If the background is a picture, as in
+    `glid_nb.render`, frames show its rectangle, whose longer side has ``size`` pixels. A page has a
+    ground of its own instead of white. With ``loop``, a GIF, an APNG and a page start again at the
+    end. ``progress`` is called with the number of finished frames and the number of all frames, or
+    stages for formats without frames. If it returns True, the export stops, and the result is
+    empty.
 
     Raises an InputError for a motion that is not completely proved, another suffix, a setting out
     of range, or a missing package.
     """
     suffix, fps = suffix_of(name), frames_per_second
     check_type("motion", motion, Motion, _MAKE_ONE, InputError)
-    encode.check_settings(size, fps, background, suffix)
+    ground = encode.check_settings(size, fps, background, suffix)
     checked("loop", bool, loop)
     image = as_rgba8(image)
     height, width = image.shape[:2]
@@ -109,7 +111,8 @@ def motion_files(
         match suffix:
             case ".html":
                 shown = {"title": name[:-5], "pose": poses, "loop": loop, "progress": progress}
-                contents = [page_html(image, motion, **shown).encode()]
+                behind = None if isinstance(ground, tuple) and ground == WHITE else ground
+                contents = [page_html(image, motion, **shown, background=behind).encode()]
             case ".glb":
                 contents = [motion_glb(image, motion, poses, progress=progress)]
             case ".motion.json":
@@ -117,8 +120,8 @@ def motion_files(
                 contents = [text.encode() for text in motion.texts(image_size=(width, height))]
                 report(progress, 1, 1)
             case _:
-                drawn = frames(image, motion, poses, size, fps, background, progress)
-                contents = encode.encoded(drawn, name, suffix, fps, background, loop)
+                drawn = frames(image, motion, poses, size, fps, ground, progress)
+                contents = encode.encoded(drawn, name, suffix, fps, ground, loop)
     except Stopped:
         return {}
     pictures = (f"{name}/{frame}" for frame in encode.names(len(contents)))

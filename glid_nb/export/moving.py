@@ -11,10 +11,11 @@ from numpy.typing import ArrayLike, NDArray
 from glid_nb._arguments import check_type
 from glid_nb._arrays import Array
 from glid_nb._errors import InputError
-from glid_nb.export.encode import RGB, Frames
-from glid_nb.export.picture import frame_around, on_background
+from glid_nb.export.encode import Frames
+from glid_nb.export.picture import frame_around
 from glid_nb.harmonic import HarmonicMap, images_under
 from glid_nb.imaging import DeformedMesh, PixelFrame, as_rgba8, fine_mesh, order_of
+from glid_nb.imaging.backdrop import Backdrop, drawn_backdrop, over
 from glid_nb.imaging.progress import Progress, report
 from glid_nb.imaging.render import TOLERANCE_PX, check_fits, draw_mesh
 from glid_nb.imaging.texture import Texture
@@ -116,22 +117,25 @@ def frames(
     poses: Sequence[Pose] | None,
     size: int,
     fps: float,
-    background: RGB | None,
+    background: Backdrop,
     progress: Progress | None = None,
 ) -> Frames:
-    """Pictures at even times. All show the same part of the plane, which contains all shapes."""
+    """Pictures at even times. All show the same part of the plane.
+
+    It contains all shapes, or it is the rectangle of a picture that is the background.
+    """
     times = motion.frame_times(fps)
     report(progress, 0, len(times))
     corners = images_under(motion.keyframes, motion.domain.cage.exterior).reshape(-1, 2)
     tolerance = TOLERANCE_PX * float(np.ptp(corners, axis=0).max()) / size
     mesh = MovingMesh.of(motion, poses, _VERTICES, tolerance)
-    frame = frame_around(mesh.images.reshape(-1, 2), size)
+    frame = frame_around(mesh.images.reshape(-1, 2), size, background)
+    behind = drawn_backdrop(background, frame)
     texture = Texture.from_image(as_rgba8(image))
 
     def pictures() -> Iterator[NDArray[np.uint8]]:
         for i, time in enumerate(times):
-            pixels = draw_mesh(texture, mesh.at(float(time)), frame)
-            yield pixels if background is None else np.asarray(on_background(pixels, background))
+            yield over(draw_mesh(texture, mesh.at(float(time)), frame), behind)
             report(progress, i + 1, len(times))
 
     return Frames((frame.width, frame.height), len(times), pictures())

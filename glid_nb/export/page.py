@@ -2,6 +2,7 @@
 
 import base64
 import html
+import io
 import json
 import re
 import zlib
@@ -10,6 +11,7 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
+from PIL import Image
 
 from glid_nb._arguments import check_type
 from glid_nb._arrays import Array
@@ -21,6 +23,7 @@ from glid_nb.figures.style import COLORS, rgb
 from glid_nb.geometry import Domain
 from glid_nb.harmonic import FixedPoints, HarmonicMap
 from glid_nb.imaging import PixelFrame, as_rgba8, png
+from glid_nb.imaging.backdrop import Background, check_background
 from glid_nb.imaging.bleed import bled
 from glid_nb.imaging.progress import Progress, report
 from glid_nb.imaging.render import MARGIN
@@ -36,6 +39,7 @@ GRID_LINES = 20  # along the longer side
 _STEP = 2.5e-5
 _HEIGHT = 2.0**-16  # rounding of heights
 _MOST_STEPS = 2**28  # largest coefficient, in steps
+_QUALITY = 92  # of a background, as JPEG
 LONGEST_CHAIN = 1024  # vectors that fit in a block of uniforms on every device
 # The text for each verdict on global injectivity.
 _OVERLAPS = {
@@ -54,6 +58,7 @@ def page_html(
     pose: Pose | Sequence[Pose] | None = None,
     loop: bool = True,
     progress: Progress | None = None,
+    background: Background = None,
 ) -> str:
     """A page that shows the warped picture, with zoom, pan and colours for the distortion.
 
@@ -63,10 +68,12 @@ def page_html(
     triangulation. Its straight edges deviate from the map by at most ``tolerance``, in world units,
     at all times. With a certificate, the page states the map's bounds and whether the shape
     overlaps itself. A motion has its own certificate. The depths of a pose, or of one pose per
-    keyframe of a motion, decide which part is in front.
+    keyframe of a motion, decide which part is in front. The background is as in `glid_nb.render`;
+    for None, the page shows its own.
     """
     report(progress, 0, 3)
     checked("loop", bool, loop)
+    behind = behind_canvas(background)
     texture = as_rgba8(image)
     check_type("map", map, HarmonicMap | Motion, "for example result.map", InputError)
     check_picture((texture.shape[1], texture.shape[0]), map)
@@ -91,6 +98,7 @@ def page_html(
         "title": html.escape(title),
         "caption": html.escape(_caption(map, proof)),
         "style": stylesheet("exported"),
+        "behind": behind,
         "script": bundle("exported"),
         "data": json.dumps(data, allow_nan=False),
     }
@@ -98,6 +106,23 @@ def page_html(
     page = re.sub(r"\{\{(\w+)\}\}", lambda found: parts[found[1]], template("exported"))
     report(progress, 3, 3)
     return page
+
+
+def behind_canvas(background: Background) -> str:
+    """The style of a page's canvas that shows a background. The page's script moves a picture with
+    the view."""
+    picture, file = check_background(background), io.BytesIO()
+    if picture is None:
+        return ""
+    if isinstance(picture, tuple):
+        return f"\nmain canvas {{ background: rgb({' '.join(map(str, picture))}); }}\n"
+    if (picture[..., 3] < 255).any():
+        kind, data = "png", png(picture)
+    else:  # a photograph
+        Image.fromarray(picture[..., :3].copy()).save(file, "JPEG", quality=_QUALITY)
+        kind, data = "jpeg", file.getvalue()
+    address = f"data:image/{kind};base64,{_base64(data)}"
+    return f"\nmain canvas {{ background: url({address}) no-repeat; }}\n"
 
 
 def _shape(mesh: MovingMesh, step: float) -> dict[str, Any]:

@@ -11,10 +11,11 @@ from PIL import Image, ImageDraw
 from glid_nb._arguments import check_type
 from glid_nb._arrays import Array
 from glid_nb._errors import InputError
-from glid_nb.export.encode import RGB, Frames, check_settings, encoded
+from glid_nb.export.encode import Frames, check_settings, encoded
 from glid_nb.figures.style import CYAN, INK
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging import PixelFrame, Sheets, as_rgba8, deformed_loops, deformed_mesh, order_of
+from glid_nb.imaging.backdrop import WHITE, Backdrop, Background, drawn_backdrop, over
 from glid_nb.imaging.progress import Progress
 from glid_nb.imaging.read import png
 from glid_nb.imaging.render import MARGIN, TOLERANCE_PX, View, check_fits, draw_mesh, render
@@ -36,9 +37,11 @@ def picture_png(
     view: View = "source",
     pose: Pose | None = None,
     progress: Progress | None = None,
+    background: Background = None,
 ) -> bytes:
     """Warp a picture through a map, like `glid_nb.render`. A PNG file with an alpha channel."""
-    return png(render(image, map, size, view=view, pose=pose, progress=progress))
+    shown = {"view": view, "pose": pose, "progress": progress, "background": background}
+    return png(render(image, map, size, **shown))
 
 
 def animation_bytes(
@@ -48,7 +51,7 @@ def animation_bytes(
     *,
     size: int = 480,
     frames_per_second: float = 20.0,
-    background: RGB | None = (255, 255, 255),
+    background: Background = WHITE,
     there_and_back: bool = False,
     format: Format = "gif",
     marks: bool = True,
@@ -62,7 +65,8 @@ def animation_bytes(
     handles as dots. Handles that another part of the shape covers are rings.
 
     There are at most 100 frames per second, 50 for a GIF. The background's red, green and blue are
-    0 to 255. None is transparent, for an "apng" only. ``there_and_back`` appends the frames in
+    0 to 255. None is transparent, for an "apng" only. If the background is a picture, as in
+    `glid_nb.render`, the frames show its rectangle. ``there_and_back`` appends the frames in
     reverse order, so that the loop has no jump. A "gif" is supported everywhere but has only 256
     colours; an "apng" keeps all colours. Raises an InputError that names an argument out of range.
     """
@@ -75,40 +79,44 @@ def animation_bytes(
     if poses is not None and len(poses) != len(maps):
         raise InputError(f"there are {len(maps)} maps but {len(poses)} poses; give one per map")
     checked("format", Format, format)
-    check_settings(size, frames_per_second, background, f".{format}")
+    ground = check_settings(size, frames_per_second, background, f".{format}")
     pixels = as_rgba8(image)
     for map in maps:
         check_fits(PixelFrame(pixels.shape[1], pixels.shape[0]), map)
     # The boundaries are enough to find the box around all deformed shapes.
     points = np.concatenate([deformed_loops(map)[0] for map in maps])
-    frame = frame_around(points, size)
+    frame = frame_around(points, size, ground)
+    behind = drawn_backdrop(ground, frame)
     texture, frames = Texture.from_image(pixels), []
     for i, map in enumerate(maps):
         pose = None if poses is None else poses[i]
         mesh = deformed_mesh(map, _VERTICES, TOLERANCE_PX * frame.units_per_pixel, pose)
         drawn = draw_mesh(texture, mesh, frame)
-        picture = Image.fromarray(drawn) if background is None else on_background(drawn, background)
+        picture = Image.fromarray(over(drawn, behind))
         if pose is not None and marks:
             hidden = Sheets(map, order_of(map.domain.cage, pose), pixels).hidden(pose.handles)
             picture.alpha_composite(_marks(pose, map, frame, hidden))
-        frames.append(np.asarray(picture.convert("RGB" if background else "RGBA")))
+        frames.append(np.asarray(picture.convert("RGBA" if ground is None else "RGB")))
     if there_and_back:
         frames += frames[-2:0:-1]
     drawn = Frames((frame.width, frame.height), len(frames), iter(frames))
-    return encoded(drawn, "", f".{format}", frames_per_second, background)[0]
+    return encoded(drawn, "", f".{format}", frames_per_second, ground)[0]
 
 
-def frame_around(points: NDArray[np.float64], size: int) -> PixelFrame:
-    """A frame with a longer side of ``size`` and even sides that contains (k, 2) points."""
+def frame_around(points: NDArray[np.float64], size: int, background: Backdrop = None) -> PixelFrame:
+    """A frame with a longer side of ``size`` and even sides that contains (k, 2) points. With a
+    picture as background, it shows this picture instead."""
+    if isinstance(background, np.ndarray):
+        points = np.reshape(PixelFrame(*background.shape[1::-1]).bounds, (2, 2))
     extent = np.ptp(points, axis=0)
     width, height = (2 * max(1, math.ceil(side / 2)) for side in size * (extent / extent.max()))
-    return PixelFrame(width, height).showing([points.min(axis=0), points.max(axis=0)], MARGIN)
-
-
-def on_background(pixels: NDArray[np.uint8], background: RGB) -> Image.Image:
-    picture = Image.new("RGBA", pixels.shape[1::-1], (*background, 255))
-    picture.alpha_composite(Image.fromarray(pixels))
-    return picture
+    frame = PixelFrame(width, height)
+    if not isinstance(background, np.ndarray):
+        return frame.showing([points.min(axis=0), points.max(axis=0)], MARGIN)
+    # Even sides have a slightly other aspect ratio; the frame must not show what is beside.
+    sides = np.array([width, height])
+    room = sides * (extent / sides).min() / 2
+    return frame.showing([points.mean(axis=0) - room, points.mean(axis=0) + room], 0)
 
 
 def _marks(pose: Pose, map: HarmonicMap, frame: PixelFrame, hidden: Array) -> Image.Image:

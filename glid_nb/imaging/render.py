@@ -10,6 +10,7 @@ from glid_nb._arguments import check_type, plain, unmet
 from glid_nb._errors import InputError
 from glid_nb.geometry import place
 from glid_nb.harmonic import HarmonicMap
+from glid_nb.imaging.backdrop import Background, check_background, drawn_backdrop, over
 from glid_nb.imaging.frame import PixelFrame
 from glid_nb.imaging.mesh import DeformedMesh, deformed_loops, deformed_mesh
 from glid_nb.imaging.progress import Progress
@@ -43,12 +44,18 @@ def render(
     interpolation: Interpolation = "smooth",
     fill: float = 0,
     progress: Progress | None = None,
+    background: Background = None,
 ) -> NDArray[Any]:
     """Warp a picture through a map; (h, w, 4) uint8 RGBA with straight alpha.
 
     The image is (h, w), (h, w, 3), (h, w, 4) or a Texture. It is the picture from which the map's
     cage was traced, or one of the same aspect ratio; its longer side is 20 world units. The result
     has ``size``, (w, h) pixels, by default the image's own, and is transparent beside the shape.
+
+    The shape of a photograph is all that lies in its cage, with a rim of the old background.
+    `cut_out` gives it soft edges instead: ``render(cut_out(image, tracing), map)``. The background
+    is a colour, red, green and blue from 0 to 255, or a picture that lies where the image lies,
+    such as that of `filled_in`.
 
     With ``interpolation="nearest"`` the image may be (h, w) or (h, w, c) numbers of any type, such
     as labels. The result has the same type: each pixel takes the value of one pixel of the image,
@@ -73,6 +80,9 @@ def render(
     if interpolation not in get_args(Interpolation):
         known = ", ".join(get_args(Interpolation))
         raise RenderError(f"unknown interpolation {interpolation!r:.60}; choose one of {known}")
+    behind = check_background(background)
+    if behind is not None and interpolation == "nearest":
+        raise RenderError('with interpolation="nearest" there is no background; use fill')
     source = Texture.from_image(image) if interpolation == "smooth" else _values(image, fill)
     own = source.size if isinstance(source, Texture) else source.shape[1::-1]
     frame = frame_of(PixelFrame(own[0], own[1]), map, size, view)
@@ -82,7 +92,7 @@ def render(
         n_vertices = int(np.clip(frame.width * frame.height / _PIXELS_PER_VERTEX, *_EVEN_VERTICES))
     mesh = deformed_mesh(map, n_vertices, tolerance, pose, frame.bounds)
     if isinstance(source, Texture):
-        return draw_mesh(source, mesh, frame, progress)
+        return over(draw_mesh(source, mesh, frame, progress), drawn_backdrop(behind, frame))
     return _moved(source, mesh, frame, fill, progress)
 
 

@@ -12,7 +12,7 @@ from glid_nb.imaging.frame import TraceError
 from glid_nb.imaging.options import Scribbles, Strokes
 from glid_nb.imaging.read import as_rgba8
 
-_WALKED_PIXELS = 40_000
+WALKED_PIXELS = 40_000
 _FOREGROUND, _BACKGROUND = 1, 2
 # How much an edge in the picture hinders the walker. scikit-image's default of 130 is meant for
 # noisy pictures. With it, the outline in a photograph runs midway between the strokes, not along
@@ -26,7 +26,7 @@ def scaled_picture(image: NDArray[np.unsignedinteger]) -> NDArray[np.float64]:
     If alpha varies, the result is (h, w, 4) with premultiplied colours.
     """
     small = Image.fromarray(as_rgba8(image))
-    scale = np.sqrt(_WALKED_PIXELS / (small.width * small.height))
+    scale = np.sqrt(WALKED_PIXELS / (small.width * small.height))
     if scale < 1:
         size = max(1, round(small.width * scale)), max(1, round(small.height * scale))
         small = small.resize(size, Image.Resampling.BOX)

@@ -16,6 +16,7 @@ from glid_nb.geometry import Cage, Domain
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging import Scribbles, TraceOptions
 from glid_nb.pose import Pose
+from glid_nb.session.look import WHOLE_CAGE, Look
 from glid_nb.session.timeline import Timeline
 from glid_nb.solvers import Iteration, Method, Newton, Options, Status
 
@@ -118,6 +119,8 @@ class Document:
     """Index of the shown pose; 0 if there are no poses."""
     timeline: Timeline | None = None
     """The times of the poses in an animation; by default one second apart."""
+    look: Look = WHOLE_CAGE
+    """What is drawn of the picture, and what lies behind it."""
 
     def __post_init__(self) -> None:
         image = np.asarray(self.image)
@@ -126,7 +129,7 @@ class Document:
             raise DocumentError(f"{wanted}, not {image.dtype} {image.shape}")
         image = read_only(image.copy()) if image.flags.writeable else image
         vars(self).update(image=image, poses=tuple(self.poses))
-        kinds = {"cage": Cage, "domain": Domain, "trace_options": TraceOptions}
+        kinds = {"cage": Cage, "domain": Domain, "trace_options": TraceOptions, "look": Look}
         kinds |= {} if self.scribbles is None else {"scribbles": Scribbles}
         for key, kind in kinds.items():
             _check_kind(key, getattr(self, key), kind)

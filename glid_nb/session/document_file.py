@@ -34,13 +34,14 @@ from glid_nb.session.document import (
     check_room,
     is_identity,
 )
+from glid_nb.session.look import WHOLE_CAGE, Look
 from glid_nb.session.timeline import Timeline
 from glid_nb.solvers import Newton, Options
 
 T = TypeVar("T")
 
 FORMAT = "glid_nb-document"
-FORMAT_VERSION = 5
+FORMAT_VERSION = 6
 
 _JSON, _IMAGE = "document.json", "image.png"
 _MASKS = {key: f"scribbles-{key}.png" for key in ("foreground", "background")}
@@ -69,6 +70,7 @@ _MOST_ITERATIONS = 200  # older files have this for max_iterations=None, the met
 _RELATIVE_WEIGHT = (
     5  # since this version p2p_weight is relative to the cage's unit, not the world's
 )
+_LOOK = 6  # since this version a picture may be drawn otherwise than as all inside its cage
 _MASK = "mask"  # written instead of strokes; another member holds the pixels
 _NEVER = "never"  # stands for TraceOptions.max_edge == inf, which JSON cannot express
 
@@ -87,6 +89,7 @@ def document_bytes(document: Document) -> bytes:
     Raises a DocumentError if a map is not certified or an energy is a Python function.
     """
     timeline = {} if document.timeline is None else {"timeline": vars(document.timeline)}
+    look = {} if document.look == WHOLE_CAGE else {"look": vars(document.look)}
     scribbles, masks = _scribbles_to_members(document.scribbles)
     height, width = document.image.shape[:2]
     given = document.trace_options
@@ -103,6 +106,7 @@ def document_bytes(document: Document) -> bytes:
         "poses": poses,
         "active": document.active,
         **timeline,
+        **look,
     }
     text = json.dumps(data, allow_nan=False, default=np.generic.item).encode("utf-8")
     pixels = {_IMAGE: _image_png(document.image), **masks}
@@ -124,6 +128,8 @@ def load_document(path: str | Path) -> Document:
         optional = {"scribbles": _json.check_object}
         if version > 3:
             optional["timeline"] = _json.check_object
+        if version >= _LOOK:
+            optional["look"] = _json.check_object
         _json.check_fields(data, _JSON, _KEYS, optional)
         size = _json.picture_size(data["image_size_px"], "image_size_px")
         if max(size) > MAX_SIDE:
@@ -136,7 +142,8 @@ def load_document(path: str | Path) -> Document:
         poses = [_pose_from_dict(i, pose, domain, version) for i, pose in enumerate(data["poses"])]
         given = data.get("timeline")
         timeline = None if given is None else _from_fields(Timeline, given, "timeline")
-        posed = tuple(poses), data["active"], timeline
+        look = _from_fields(Look, data["look"], "look") if "look" in data else WHOLE_CAGE
+        posed = tuple(poses), data["active"], timeline, look
         return Document(image, domain.cage, domain, options, scribbles, *posed)
 
 

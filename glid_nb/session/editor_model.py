@@ -18,6 +18,7 @@ from glid_nb.session.deformation import Deformation
 from glid_nb.session.document import Document, DocumentError
 from glid_nb.session.document_file import load_document, save_document
 from glid_nb.session.edit_state import EditError, EditState
+from glid_nb.session.look import Layers, Look
 from glid_nb.session.model import History, Observed
 from glid_nb.session.timeline import Timeline
 from glid_nb.session.tracing import TracingModel, TracingState
@@ -77,8 +78,9 @@ def find_document(path: str | Path) -> Document | None:
 class EditorModel(Observed):
     """A tracing and the deformation of the traced shape.
 
-    ``observe`` reports ``"replaced"`` when ``deformation`` or ``tracing`` is another object, and
-    ``"saved"`` after each save in the background. ``save_error`` is the exception of a failed save.
+    ``observe`` reports ``"replaced"`` when ``deformation`` or ``tracing`` is another object,
+    ``"look"`` when the picture is drawn in another way, and ``"saved"`` after each save in the
+    background. ``save_error`` is the exception of a failed save.
 
     The model begins with a picture, with a document, or without either. Changes are saved to the
     file ``path``. If another program has changed this file, they go to a new file beside it.
@@ -92,6 +94,7 @@ class EditorModel(Observed):
         *,
         document: Document | None = None,
         path: str | Path | None = None,
+        look: Look | None = None,
     ) -> None:
         if path is not None:
             _check_place(Path(path))
@@ -113,6 +116,8 @@ class EditorModel(Observed):
         self.kept: Path | None = None
         """The file with the work of an earlier editor of this picture without a session file."""
         self._saved_work: tuple[Any, ...] = ()
+        self._look = look or Look()
+        self._layers: Layers | None = None
         with self.locked():
             if document is None:
                 self.tracing = TracingModel(image)
@@ -174,6 +179,37 @@ class EditorModel(Observed):
         return None if self._session is None else self._session.image
 
     @property
+    def look(self) -> Look:
+        """What is drawn of the picture, and what lies behind it."""
+        return self._look
+
+    def set_look(self, look: Look) -> None:
+        """Draw the picture in another way. ``observe`` reports ``"look"``."""
+        with self.locked():
+            if look == self._look:
+                return
+            self._look = look
+            if self._session is not None:
+                self.autosave()
+        self.tell("look")
+
+    @property
+    def layers(self) -> Layers:
+        """What is drawn of the picture on the present cage, and what lies behind it."""
+        with self.locked():
+            domain, session = self.deformation.state.domain, self._session
+            assert session is not None
+            known, look = self._layers, self._look
+            if known is None or known.cage is not domain.cage:
+                state = self._sources.get(domain, session.tracing)
+                tracing = self.tracing.outcome_of(state).tracing
+                known = Layers(session.image, tracing, domain.cage, look)
+            elif known.look != look:
+                known = known.seen_as(look)
+            self._layers = known
+            return known
+
+    @property
     def name(self) -> str:
         """The stem for names of files: that of the picture's file or sample, else "session"."""
         if self._session is None:
@@ -223,6 +259,7 @@ class EditorModel(Observed):
             poses=state.poses,
             active=state.active,
             timeline=state.timeline,
+            look=self._look,
         )
 
     def save(self, path: str | Path) -> None:
@@ -357,6 +394,7 @@ class EditorModel(Observed):
 
     def _take(self, document: Document, name: str = "") -> None:
         self.tracing = TracingModel.from_document(document, name)
+        self._look = document.look
         domain = document.domain
         state = EditState.initial(domain)
         if poses := document.poses:

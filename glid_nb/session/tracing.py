@@ -132,8 +132,12 @@ class TracingModel(Undoable[TracingState]):
     @property
     def outcome(self) -> TracingOutcome:
         """The outcome of the state; computed on first use."""
+        return self.outcome_of(self.state)
+
+    def outcome_of(self, state: TracingState) -> TracingOutcome:
+        """The outcome of another state of this model."""
         with self._lock:
-            return self._outcome_of(self.state)
+            return self._outcome_of(state)
 
     @property
     def loops(self) -> tuple[NDArray[np.float64], ...]:

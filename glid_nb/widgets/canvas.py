@@ -10,12 +10,14 @@ import numpy as np
 import traitlets
 
 from glid_nb._arguments import check_count
+from glid_nb._arrays import Array
 from glid_nb.certificate import certificate_of
 from glid_nb.certificate.certify import PanelCertificate
 from glid_nb.figures.style import BLUE, ORANGE
 from glid_nb.geometry import Domain
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging import ImageSource, Order, deformed_loops, read_image
+from glid_nb.imaging.backdrop import Background, check_background
 from glid_nb.session.actions import turned_now
 from glid_nb.session.deformation import Deformation
 from glid_nb.session.edit_state import EditState, Moment
@@ -58,6 +60,7 @@ class DeformCanvas(ClosingWidget, ipywidgets.HBox):
     sets: the "shader", the "page" by its script, or the "kernel", which has to send them. By
     default it is the shader, or the page if that draws faster there, as without a graphics
     processor; for a cage that a shader cannot hold it is the kernel.
+    The background is as in `glid_nb.render`.
 
     While pins are dragged, the page's own solver goes ahead of the kernel. It proves every map that
     it shows. When the kernel is at rest, its map is shown.
@@ -88,11 +91,14 @@ class DeformCanvas(ClosingWidget, ipywidgets.HBox):
         *,
         n_vertices: int | None = None,
         evaluated_in: EvaluatedIn | None = None,
+        background: Background = None,
         **kwargs: Any,
     ) -> None:
         size = check_size(_LEAST_SIZE, n_vertices, width=width, height=height)
         self.image = read_image(image)
         """The picture, (h, w, 4) uint8."""
+        self.background = check_background(background)
+        """What lies behind the shape, as in `glid_nb.render`."""
         owned = isinstance(deformation, Domain)
         self.deformation = model = Deformation(deformation) if owned else deformation
         """The model of this view."""
@@ -139,6 +145,17 @@ class DeformCanvas(ClosingWidget, ipywidgets.HBox):
         """Whether a page has drawn the canvas."""
         return self.pane.stage.drawn
 
+    def set_picture(self, image: Array, background: Background = None) -> None:
+        """Draw another picture (h, w, 4) of the same size, and what lies behind it."""
+        with self.deformation.locked():
+            if self._closed:
+                return
+            self.image, self.background = image, check_background(background)
+            self.gestures.set_image(image)
+            self.pane.set_picture(image, self.background)
+            if self.source is not None:
+                self.source.set_picture(image, None)
+
     def fit(self) -> None:
         """Make the whole shape and all targets visible."""
         self.pane.fit()
@@ -146,7 +163,9 @@ class DeformCanvas(ClosingWidget, ipywidgets.HBox):
     def _pane(self, size: tuple[int, int], interactive: bool) -> Pane:
         state = self.deformation.state
         map_ = state.map if interactive else state.identity
-        pane = Pane(self.image, map_, size, interactive=interactive, **self._mesh)
+        behind = self.background if interactive else None
+        look = {"interactive": interactive, "background": behind, **self._mesh}
+        pane = Pane(self.image, map_, size, **look)
         pane.stage.observe(lambda _: self._adapt(pane), ["uniform_vectors", "drawing_time"])
         return pane
 

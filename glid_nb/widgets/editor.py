@@ -3,6 +3,7 @@
 import base64
 import html
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -17,6 +18,7 @@ from glid_nb._runtime import enable_compilation_cache
 from glid_nb.certificate import Certificate
 from glid_nb.geometry import Domain, MeshMap
 from glid_nb.harmonic import HarmonicMap
+from glid_nb.imaging.backdrop import WHITE
 from glid_nb.imaging.read import ImageSource, png, read_image
 from glid_nb.imaging.render import View
 from glid_nb.motion import Motion
@@ -26,6 +28,7 @@ from glid_nb.session.deformation import Deformation
 from glid_nb.session.document import Document, DocumentError, NamedPose
 from glid_nb.session.edit_state import EditError
 from glid_nb.session.editor_model import EditorModel, KeptWorkError, find_document
+from glid_nb.session.look import Behind, Layers
 from glid_nb.session.status_line import StatusLine
 from glid_nb.solvers import Method
 from glid_nb.widgets import exporting
@@ -71,7 +74,9 @@ class Editor(ClosingWidget, ipywidgets.VBox):
 
     The canvas is ``width`` by ``height`` CSS pixels, at least 240 each, narrower if there is less
     room. By default it is as large as there is room. ``n_vertices``, at least 3, is the size of the
-    mesh for the picture; by default 10,000, or as many as the page draws within 40 ms.
+    mesh for the picture; by default 10,000, or as many as the page draws within 40 ms. The shape of
+    a photograph is cut out (`cut_out`). ``background`` is what lies behind it at first, by default
+    that of the session file.
 
     Raises a TraceError when the picture cannot be read, a DocumentError when the session file
     cannot be read or belongs to another picture, a TypeError or ValueError for a wrong size.
@@ -92,6 +97,7 @@ class Editor(ClosingWidget, ipywidgets.VBox):
     _displayed = False
     _told_path: Path | None = None
     _live: tuple[Domain, LiveEditor] | None = None
+    _layers: Layers | None = None  # what the canvas draws
     _ahead: ProgramsAhead | None = None
 
     @one_a_cell
@@ -103,6 +109,7 @@ class Editor(ClosingWidget, ipywidgets.VBox):
         width: int | None = None,
         height: int | None = None,
         n_vertices: int | None = None,
+        background: Behind = None,
         **kwargs: Any,
     ) -> None:
         self._size = check_size(_LEAST_SIZE, n_vertices, width=width, height=height)
@@ -115,6 +122,8 @@ class Editor(ClosingWidget, ipywidgets.VBox):
             raise DocumentError(f"{what} that session, or give another path")
         self.model = EditorModel(image, document=document, path=path)
         """The editor without its widgets."""
+        if background is not None:
+            self.background = background
         self.canvas: DeformCanvas | None = None
         """The canvas of the Deform tab; None while nothing is traced."""
         self._parts: dict[str, Any] = {}
@@ -132,7 +141,7 @@ class Editor(ClosingWidget, ipywidgets.VBox):
         super().__init__([self.unsaved, self.kept, self.tabs], **kwargs)
         self.add_class("glid-editor")
         self._build()
-        show = {"replaced": self._build, "saved": self._show_saving}
+        show = {"replaced": self._build, "saved": self._show_saving, "look": self._show_look}
         self.model.observe(lambda what: show[what]())
         self.tabs.observe(self._on_tab, ["selected_index"])
         self._endings = (self._take_down, self._close_live, self.model.close)
@@ -171,7 +180,7 @@ class Editor(ClosingWidget, ipywidgets.VBox):
         if known is not None and known[0] is current.map.domain:
             return known[1]
         how = {"energy": current.energy, "p2p_weight": current.options.p2p_weight}
-        live = LiveEditor(self.document.image, current.map, current.pose, **how)
+        live = LiveEditor(self.model.layers.image, current.map, current.pose, **how)
         self._close_live()
         self._live = current.map.domain, live
         live.observe(lambda _: self.deformation.set_pose(live.pose), ["edit"])
@@ -180,7 +189,10 @@ class Editor(ClosingWidget, ipywidgets.VBox):
     def _snapshot(self, image: NDArray[np.uint8]) -> bytes:
         if self.model.has_shape and len(self.pose):
             frame = {"size": max(self._size), "format": "apng"}
-            return export.animation_bytes(self.document.image, [self.map], [self.pose], **frame)
+            layers = self.model.layers
+            behind = WHITE if layers.background is None else layers.background
+            frame |= {"background": behind}
+            return export.animation_bytes(layers.image, [self.map], [self.pose], **frame)
         picture = Image.fromarray(image)
         picture.thumbnail(self._size)
         return png(np.asarray(picture))
@@ -253,6 +265,26 @@ class Editor(ClosingWidget, ipywidgets.VBox):
     def document(self) -> Document:
         """Picture, cage and poses as one value."""
         return self.model.document
+
+    @property
+    def background(self) -> Behind:
+        """What lies behind the shape on the canvas and in exports: a colour (red, green, blue),
+        ``"filled"`` for the old picture with the hole filled in, or None for transparent."""
+        return self.model.look.background
+
+    @background.setter
+    def background(self, background: Behind) -> None:
+        self.model.set_look(replace(self.model.look, background=background))
+
+    @property
+    def cut_out(self) -> bool:
+        """Whether the shape of an opaque picture is cut out with soft edges, as in
+        `glid_nb.cut_out`. Otherwise all inside the cage is drawn."""
+        return self.model.look.cut_out
+
+    @cut_out.setter
+    def cut_out(self, cut_out: bool) -> None:
+        self.model.set_look(replace(self.model.look, cut_out=cut_out))
 
     def trace(self, **options: Any) -> None:
         """Trace with changed options (fields of `glid_nb.TraceOptions`), and deform the result.
@@ -391,9 +423,10 @@ class Editor(ClosingWidget, ipywidgets.VBox):
         return ipywidgets.VBox([pins, BrushBar(self.deformation, self.canvas.brush, pins)])
 
     def _deform_tab(self) -> ipywidgets.Widget:
-        model, image = self.model.deformation, self.model.image
-        assert image is not None
-        self.canvas = canvas = DeformCanvas(image, model, **self._asked)
+        model, layers = self.model.deformation, self.model.layers
+        self._layers = layers
+        shown = {**self._asked, "background": layers.background}
+        self.canvas = canvas = DeformCanvas(layers.image, model, **shown)
         self.toolbar = Toolbar(self.canvas)
         self.monitor = monitor = SolverMonitor(model, _SIDE_WIDTH, _PLOTS_HEIGHT)
         # Make the hidden parts only when the model rests, and the pins' numbers after the first
@@ -402,6 +435,7 @@ class Editor(ClosingWidget, ipywidgets.VBox):
         canvas.pane.stage.observe(lambda _: self._fill_at_rest(), ["drawn"])
         canvas.brush.observe(lambda _: model.tell("hand"), ["tool"])
         model.observe(lambda what: self._fill("pins") if what == "hand" else None)
+        model.observe(lambda what: self._show_layers() if what == "state" else None)
         self.timeline = TimelinePanel(self.canvas, self._open_files)
         # Fill these boxes later: if the tab's children changed, the page would select another tab.
         self._boxes |= {"solver": ipywidgets.VBox(), "files": ipywidgets.VBox()}
@@ -454,6 +488,24 @@ class Editor(ClosingWidget, ipywidgets.VBox):
             self.canvas.pane.stage.notice = _LEFT.format(left=left.name, path=path.name)
         if "files" in self._parts:
             self.files.follow_autosave()
+
+    def _show_look(self) -> None:
+        with self.model.locked():
+            if not self._closed and self.canvas is not None:
+                self._show_layers()
+                if "files" in self._parts:
+                    self.files.look.follow()
+
+    def _show_layers(self) -> None:
+        """Let the canvas draw the picture as it is cut out by the present cage."""
+        with self.model.locked():
+            if self._closed or self.canvas is None:
+                return
+            if (layers := self.model.layers) is self._layers:
+                return
+            self._layers = layers
+            self.canvas.set_picture(layers.image, layers.background)
+            self.timeline.set_picture()
 
     def _on_tab(self, change: Any) -> None:
         self._fill()

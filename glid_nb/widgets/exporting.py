@@ -15,12 +15,14 @@ from glid_nb._runtime import data_directory
 from glid_nb.certificate import certificate_of
 from glid_nb.certificate.certify import proof_text
 from glid_nb.export.formats import FORMATS, MOTION_FORMATS, ExportError, file_names, suffix_of
+from glid_nb.imaging.backdrop import WHITE
 from glid_nb.imaging.read import png
 from glid_nb.imaging.render import View
 from glid_nb.motion import Motion, unlike_turns
 from glid_nb.session.animation import Animation, motion_of
 from glid_nb.session.document_file import document_bytes
 from glid_nb.session.editor_model import EditorModel
+from glid_nb.session.look import FILLED, WHOLE_CAGE, Look
 from glid_nb.session.script import python_code
 from glid_nb.session.worker import LatestWins, weakly
 from glid_nb.widgets.closing import ClosingWidget
@@ -28,6 +30,16 @@ from glid_nb.widgets.controls import REFUSED, button
 
 _MOST_CHOICES = 10_000  # most bytes of the file with an export's choices
 _NUMBER = {"width": "70px", "flex": "0 0 auto"}
+
+_LOOKS = {
+    "Transparent": Look(),
+    "The old picture, filled in": Look(background=FILLED),
+    "White": Look(background=WHITE),
+    "Black": Look(background=(0, 0, 0)),
+    "Transparent; shape not cut out": WHOLE_CAGE,
+}
+# A picture with transparency of its own is cut out already.
+_LOOKS_OF_CUT_OUTS = {name: _LOOKS[name] for name in ("Transparent", "White", "Black")}
 
 # A name, and a function that takes the files and returns a text about where they are.
 _Task = tuple[str, Callable[[dict[str, bytes]], str]]
@@ -104,23 +116,25 @@ def exported(
         state = deformation.state
     else:
         state = deformation.solved_state(only_current=True)
-    document = model.document
-    image, map_, pose = document.image, state.map, state.pose
+    document, layers = model.document, model.layers
+    map_, pose = state.map, state.pose
+    background = layers.background if suffix in (".png", ".html") else None
     names = [file.name for file in files_of(path)]
     match suffix:
         case ".png":
-            contents = [to.picture_png(image, map_, size, view, pose)]
+            shown = {"view": view, "pose": pose, "background": background}
+            contents = [to.picture_png(layers.image, map_, size, **shown)]
         case ".obj":
-            files = to.mesh_obj(to.textured_mesh(image, map_, pose=pose), path.stem)
+            files = to.mesh_obj(to.textured_mesh(layers.image, map_, pose=pose), path.stem)
             contents = [files[path.stem + rest] for rest in (".obj", *FORMATS[".obj"].beside)]
         case ".glb":
-            contents = [to.mesh_glb(to.textured_mesh(image, map_, pose=pose))]
+            contents = [to.mesh_glb(to.textured_mesh(layers.image, map_, pose=pose))]
         case ".svg":
-            height, width = image.shape[:2]
+            height, width = document.image.shape[:2]
             contents = [to.cage_svg(map_, (width, height), source=True, pose=pose).encode()]
         case ".html":
-            proof = certificate_of(map_)
-            contents = [to.page_html(image, map_, proof, path.stem, pose=pose).encode()]
+            shown = {"title": path.stem, "pose": pose, "background": background}
+            contents = [to.page_html(layers.image, map_, certificate_of(map_), **shown).encode()]
         case ".glid":
             contents = [document_bytes(document)]
         case ".proof.json":
@@ -128,7 +142,7 @@ def exported(
             proof = proof_text(certificate_of(map_))
             contents = [proof.encode(), json_text({**map_.to_dict(), **depths}).encode()]
         case _:
-            contents = [python_code(document, names[1]).encode(), png(image)]
+            contents = [python_code(document, names[1]).encode(), png(document.image)]
     return dict(zip(names, contents, strict=True))
 
 
@@ -143,13 +157,15 @@ def live_page(model: EditorModel, name: str) -> bytes:
     turns = [certificate_of(one.map) for one in state.poses]
     if len(turns) > 1 and not any(unlike_turns(turns[0], one) for one in turns[1:]):
         shown, pose = motion_of(state), [one.pose for one in state.poses]
+    layers = model.layers
     page = to.live_page_html(
-        model.document.image,
+        layers.image,
         shown,
         pose,
         current.energy,
         current.options.p2p_weight,
         title=re.sub(r"(\.live)?\.html$", "", name, flags=re.IGNORECASE),
+        background=layers.background,
     )
     return page.encode()
 
@@ -170,9 +186,12 @@ def write(
 
 
 def _motion_files(model: EditorModel, motion: Motion, name: str, **how: Any) -> dict[str, bytes]:
-    document = model.document
-    poses, loop = [pose.pose for pose in document.poses], motion.repeat != "once"
-    return to.motion_files(name, document.image, motion, poses, loop=loop, **how)
+    layers, background = model.layers, model.layers.background
+    if background is None and name.lower().endswith((".gif", ".mp4")):
+        background = WHITE  # they have no transparency
+    poses, loop = [pose.pose for pose in model.document.poses], motion.repeat != "once"
+    how |= {"loop": loop, "background": background}
+    return to.motion_files(name, layers.image, motion, poses, **how)
 
 
 def last_export() -> dict[str, Any]:
@@ -194,6 +213,26 @@ def remember_export(choices: Mapping[str, Any]) -> None:
 
 def _last_export() -> Path:
     return data_directory() / "last-export.json"
+
+
+class LookChoice(ipywidgets.Dropdown):
+    """Chooses whether the shape is cut out, and what lies behind it."""
+
+    def __init__(self, model: EditorModel, **kwargs: Any) -> None:
+        self._model = model
+        super().__init__(tooltip="What the canvas and exports show behind the shape", **kwargs)
+        self.follow()
+        self.observe(lambda change: model.set_look(change["new"]), ["value"])
+
+    def follow(self) -> None:
+        """Show the model's look, which the list may not have."""
+        look, opaque = self._model.look, self._model.layers.opaque
+        known = dict(_LOOKS if opaque else _LOOKS_OF_CUT_OUTS)
+        if look not in known.values():
+            known["Another"] = look
+        if list(self.options) != list(known.items()):
+            self.options = list(known.items())
+        self.value = look
 
 
 class MotionExport(ClosingWidget, ipywidgets.HBox):

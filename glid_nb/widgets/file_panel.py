@@ -208,6 +208,8 @@ class FilePanel(Asking, ipywidgets.VBox):
         self.view = ipywidgets.Dropdown(options=_VIEWS, tooltip="What it shows", layout=_WIDE)
         """The view of an exported picture, as in `glid_nb.render`."""
         self.picture = _row("Picture", self.width, self.height, self.view)
+        self.look = exporting.LookChoice(model, layout=_WIDE)
+        """What lies behind the shape, on the canvas and in exports."""
         self.code = ipywidgets.Textarea(rows=9, layout={"width": "auto", "display": "none"})
         """The lines of "Copy as Python"."""
         self.clipboard = Clipboard()
@@ -220,6 +222,7 @@ class FilePanel(Asking, ipywidgets.VBox):
                 _row("Session", self.path),
                 _row("", self.save_button, self.open_button),
                 _row("", self.autosave),
+                _row("Behind", self.look),
                 _row("Export", self.format),
                 self.picture,
                 self._moving,

@@ -102,6 +102,10 @@ class PinGestures(Gestures):
         self._waiting: Event | None = None  # a press into a motion, until it is a drag
         self.cursor: list[float] | None = None  # the place of the keyboard's cursor
 
+    def set_image(self, image: Array) -> None:
+        """Take another picture, whose transparent parts hide nothing."""
+        self._image = image
+
     def hit(self, point: Array, reach: float) -> int | None:
         """The handle with the nearest target within reach, else with the nearest image.
         ``canvas/marks.js`` uses the same rule."""

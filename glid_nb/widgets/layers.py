@@ -16,6 +16,8 @@ from glid_nb.figures.style import VERMILION, rgb
 from glid_nb.geometry import Domain, MeshMap, Triangulation, as_points
 from glid_nb.geometry.panels import Panels
 from glid_nb.harmonic import as_complex
+from glid_nb.imaging import PixelFrame
+from glid_nb.imaging.backdrop import RGB
 from glid_nb.methods.mesh.operators import MeshOperators
 from glid_nb.page import ShaderMap, fragment_shader, vertex_shader
 from glid_nb.widgets.overlays import N_COLORS
@@ -30,6 +32,8 @@ MOVED_BY_PAGE = "moved by the page"
 """The name of meshes whose vertices the page moves; ``canvas/vertices.js`` knows it too."""
 
 _LARGEST_SIDE = 2048  # pixels of a texture; every graphics card supports this size
+
+_BEHIND = -4.9  # height of what lies behind the shape, inside the camera's range
 
 # Lines along curves of the undeformed shape are drawn as triangles with a width in pixels.
 _PIECES_PER_SIDE = 80
@@ -178,6 +182,29 @@ def picture_texture(image: NDArray[np.uint8]) -> Any:
     kind = {"format": "RGBAFormat", "type": "UnsignedByteType"}
     filters = {"minFilter": "LinearMipMapLinearFilter", "magFilter": "LinearFilter"}
     return three.DataTexture(data=data, **kind, **filters, generateMipmaps=True, anisotropy=4)
+
+
+class BackdropMesh:
+    """A rectangle behind the shape, with a colour or an opaque picture, that no map moves."""
+
+    def __init__(self, background: RGB | NDArray[np.uint8], frame: PixelFrame) -> None:
+        (left, bottom, right, top), centre = frame.bounds, [*frame.centre, _BEHIND]
+        self._texture, look = None, {}
+        sides: Any = right - left, top - bottom
+        if isinstance(background, tuple):
+            look = {"color": f"rgb({','.join(map(str, background))})"}
+        else:
+            self._texture = picture_texture(background)
+            look = {"map": self._texture}
+        self._geometry = three.PlaneBufferGeometry(*sides)
+        self._material = three.MeshBasicMaterial(depthTest=False, depthWrite=False, **look)
+        self.mesh = three.Mesh(self._geometry, self._material, position=centre)
+
+    def close(self) -> None:
+        """Free the page's resources."""
+        for part in (self.mesh, self._geometry, self._material, self._texture):
+            if part is not None:
+                part.close()
 
 
 def cage_ribbon(domain: Domain) -> Ribbon:

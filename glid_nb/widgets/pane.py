@@ -12,9 +12,10 @@ import traitlets
 from glid_nb._arrays import Array
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging import PixelFrame
+from glid_nb.imaging.backdrop import Backdrop
 from glid_nb.page import bundle, stylesheet
 from glid_nb.widgets.closing import ClosingWidget
-from glid_nb.widgets.layers import EvaluatedIn, picture_texture
+from glid_nb.widgets.layers import BackdropMesh, EvaluatedIn, picture_texture
 from glid_nb.widgets.overlays import PANEL_LEGEND, legend
 from glid_nb.widgets.pad import Pad
 from glid_nb.widgets.scene import N_VERTICES, UNIFORM_VECTORS, Drawing, Scene, renderer
@@ -103,6 +104,7 @@ class Pane(ClosingWidget, ipywidgets.GridBox):
         interactive: bool,
         n_vertices: int | None,
         evaluated_in: EvaluatedIn | None,
+        background: Backdrop = None,
     ) -> None:
         self._picture = PixelFrame(*image.shape[1::-1]), picture_texture(image)
         self._n_vertices = self._fewest = n_vertices or _FEWEST_VERTICES  # at first
@@ -112,7 +114,8 @@ class Pane(ClosingWidget, ipywidgets.GridBox):
         self._drawing = Drawing(map)
         self._times: dict[str, float] = {}  # ms for a vertex, by who evaluates
         self.scene = self._new_scene(0)  # what pythreejs draws
-        self._renderer = renderer(self.scene)
+        self._backdrop = self._new_backdrop(background)
+        self._renderer = renderer(self._meshes)
         self.stage = Stage(
             width=size[0],
             height=size[1],
@@ -129,7 +132,7 @@ class Pane(ClosingWidget, ipywidgets.GridBox):
             ipywidgets.dlink((self.stage, side), (self._renderer, side))
             ipywidgets.dlink((self.stage, side), (self.layout, side), "{}px".format)
         self.fit()
-        self._endings = (lambda: self.scene.close(), self._picture[1].close)
+        self._endings = (self._free,)
 
     def show(self, drawing: Drawing) -> None:
         """Show a drawing. If only the map and the marks have changed, this sends one message."""
@@ -137,6 +140,17 @@ class Pane(ClosingWidget, ipywidgets.GridBox):
         if drawing.map.domain is not old.domain:
             self.scene = self._new_scene(self.stage.uniform_vectors)
         self._show(old)
+
+    def set_picture(self, image: Array, background: Backdrop) -> None:
+        """Draw another picture of the same size, and what lies behind it."""
+        texture, behind, old = self._picture[1], self._backdrop, self.scene
+        self._picture = self._picture[0], picture_texture(image)
+        self._backdrop = self._new_backdrop(background)
+        self.scene = self._new_scene(self.stage.uniform_vectors)
+        self._show(old)
+        texture.close()
+        if behind is not None:
+            behind.close()
 
     def adapt(self) -> None:
         """Adapt to the page: evaluate in the kernel if its shaders are too small, in the page's
@@ -175,7 +189,7 @@ class Pane(ClosingWidget, ipywidgets.GridBox):
     def _show(self, old: Scene) -> None:
         drawing, scene, stage = self._drawing, self.scene, self.stage
         scene.show(drawing)
-        if self._renderer.scene.children != (meshes := scene.meshes):
+        if self._renderer.scene.children != (meshes := self._meshes):
             self._renderer.scene.children = meshes
         panels = drawing.panels is not None and drawing.comparison is None
         with stage.hold_sync():
@@ -251,6 +265,20 @@ class Pane(ClosingWidget, ipywidgets.GridBox):
         vectors = uniform_vectors or UNIFORM_VECTORS  # 0 before a page has reported the number
         mesh = self._n_vertices, self._evaluated_in, vectors
         return Scene(*self._picture, self._drawing.map, *mesh)
+
+    def _new_backdrop(self, background: Backdrop) -> BackdropMesh | None:
+        return None if background is None else BackdropMesh(background, self._picture[0])
+
+    @property
+    def _meshes(self) -> list[Any]:
+        behind = [] if self._backdrop is None else [self._backdrop.mesh]
+        return [*behind, *self.scene.meshes]
+
+    def _free(self) -> None:
+        self.scene.close()
+        self._picture[1].close()
+        if self._backdrop is not None:
+            self._backdrop.close()
 
     def _wire(self) -> bytes:
         scene = self.scene

@@ -269,9 +269,9 @@ def drawing_order(mesh: Triangulation) -> Array:
     return mesh.triangles[np.lexsort((x, np.searchsorted(rows, y), np.floor(x / width)))]
 
 
-def renderer(scene: Scene) -> Any:
-    """A pythreejs renderer of a scene. The page sets its camera's frame."""
+def renderer(meshes: list[Any]) -> Any:
+    """A pythreejs renderer of meshes. The page sets its camera's frame."""
     camera = three.OrthographicCamera(-10, 10, 10, -10, 0, 10, position=[0, 0, 5])
-    drawn = three.Scene(children=scene.meshes, background=None)
+    drawn = three.Scene(children=meshes, background=None)
     look = {"antialias": True, "alpha": True, "background_opacity": 0, "clearOpacity": 0}
     return three.Renderer(camera=camera, scene=drawn, controls=[], sortObject=False, **look)

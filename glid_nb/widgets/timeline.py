@@ -188,6 +188,13 @@ class TimelinePanel(Pad):
             "floats": b"".join(map(scene.shader_map.wire, maps)) if in_page else b"",
         }
 
+    def set_picture(self) -> None:
+        """Draw the thumbnails again, because the canvas has another picture."""
+        with self.canvas.deformation.locked():
+            self._texture = None
+            self._pictures.clear()
+            self._show("state")
+
     def _draw_thumbnails(self, poses: tuple[NamedPose, ...], worker: Any) -> None:
         pictures, done = self._pictures, False
         for pose in poses:

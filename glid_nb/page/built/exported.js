@@ -49,17 +49,17 @@ buttons)seen.observe(button)}mark(time){this.buttons.forEach((button,i)=>{button
 current",String(Math.abs(this.times[i]-time)<SOON))})}drawOne(){const next=this.#waiting.shift();if(next===
 void 0)return;const picture=this.draw(this.times[next]);const small=this.buttons[next].firstChild;small.
 width=picture.width;small.height=picture.height;penOf(small).drawImage(picture,0,0)}#drawOn(){if(!this.#waiting.
-length)return;this.drawNext();requestAnimationFrame(()=>this.#drawOn())}};var FLOAT=4;var CannotShow=class extends Error{};var Renderer=class{#gl;#program;#position;#count;#index;#points;#uniforms={};#move;constructor(canvas,gl,data,mesh,cage){
+length)return;this.drawNext();requestAnimationFrame(()=>this.#drawOn())}};var FLOAT=4;var CannotShow=class extends Error{};var Renderer=class{#gl;#program;#position;#count;#index;#points;#uniforms={};#move;#frame;constructor(canvas,gl,data,mesh,cage){
 this.canvas=canvas;this.ranges=data.ranges;this.#gl=gl;this.#program=linked(gl,data.vertex,data.fragment);
 gl.useProgram(this.#program);this.#position=positions(mesh);this.#points=this.#buffer(gl.ARRAY_BUFFER,
 this.#position);this.#attribute("position",3,0,0);const corners=inOrder(mesh).flat();const many=mesh.
 heights.length>65535;this.#count=corners.length;this.#index=many?gl.UNSIGNED_INT:gl.UNSIGNED_SHORT;this.#buffer(
 gl.ELEMENT_ARRAY_BUFFER,new(many?Uint32Array:Uint16Array)(corners));this.#move=cage.length?this.#movedByShader(
-cage):this.#movedByBuffer();const[left,bottom,right,top]=data.frame;gl.uniform4f(this.#uniform("fram\
-e"),left,bottom,right-left,top-bottom);gl.uniform3fv(this.#uniform("colors"),data.colors);gl.uniform1f(
-this.#uniform("grid_spacing"),data.grid);gl.enable(gl.DEPTH_TEST);gl.depthFunc(gl.LEQUAL);gl.enable(
-gl.BLEND);gl.blendFunc(gl.ONE,gl.ONE_MINUS_SRC_ALPHA)}setPicture(picture){const gl=this.#gl;const most=gl.
-getParameter(gl.MAX_TEXTURE_SIZE);if(Math.max(picture.width,picture.height)>most){throw new CannotShow(
+cage):this.#movedByBuffer();this.#frame=data.frame;const[left,bottom,right,top]=data.frame;gl.uniform4f(
+this.#uniform("frame"),left,bottom,right-left,top-bottom);gl.uniform3fv(this.#uniform("colors"),data.
+colors);gl.uniform1f(this.#uniform("grid_spacing"),data.grid);gl.enable(gl.DEPTH_TEST);gl.depthFunc(
+gl.LEQUAL);gl.enable(gl.BLEND);gl.blendFunc(gl.ONE,gl.ONE_MINUS_SRC_ALPHA)}setPicture(picture){const gl=this.#gl;
+const most=gl.getParameter(gl.MAX_TEXTURE_SIZE);if(Math.max(picture.width,picture.height)>most){throw new CannotShow(
 `This device shows pictures of at most ${most} pixels.`)}gl.bindTexture(gl.TEXTURE_2D,gl.createTexture());
 gl.pixelStorei(gl.UNPACK_PREMULTIPLY_ALPHA_WEBGL,true);gl.pixelStorei(gl.UNPACK_FLIP_Y_WEBGL,true);gl.
 pixelStorei(gl.UNPACK_COLORSPACE_CONVERSION_WEBGL,gl.NONE);gl.texImage2D(gl.TEXTURE_2D,0,gl.RGBA,gl.
@@ -71,33 +71,35 @@ round(width*ratio),Math.round(height*ratio));gl.clear(gl.COLOR_BUFFER_BIT|gl.DEP
 width,height,unit,x,y);gl.uniformMatrix4fv(this.#uniform("projectionMatrix"),false,projection);gl.uniform1f(
 this.#uniform("pixel"),unit/ratio);gl.uniform1f(this.#uniform("overlay"),Number(overlay));gl.uniform2fv(
 this.#uniform("color_range"),this.ranges[overlay]??[0,1]);if(heights)this.#lift(heights);this.#move(
-coefficients);gl.drawElements(gl.TRIANGLES,this.#count,this.#index,0)}#resize(width,height){const{canvas}=this;
-if(canvas.width!==width||canvas.height!==height){canvas.width=width;canvas.height=height}this.#gl.viewport(
-0,0,width,height)}#lift(heights){heights.forEach((height,i)=>{this.#position[3*i+2]=height});this.#put(
-this.#gl.ARRAY_BUFFER,this.#points,this.#position)}#movedByShader(cage){const gl=this.#gl;const[,coefficients,
-holes]=["cage","coefficients","holes"].map((name,i)=>{const block=gl.getUniformBlockIndex(this.#program,
-`${name}_block`);gl.uniformBlockBinding(this.#program,block,i);const buffer=this.#buffer(gl.UNIFORM_BUFFER,
-cage);gl.bindBufferBase(gl.UNIFORM_BUFFER,i,buffer);return buffer});return mixed=>{this.#put(gl.UNIFORM_BUFFER,
-coefficients,mixed.subarray(0,cage.length));this.#put(gl.UNIFORM_BUFFER,holes,mixed.subarray(cage.length))}}#movedByBuffer(){
-const gl=this.#gl;const images=gl.createBuffer();gl.bindBuffer(gl.ARRAY_BUFFER,images);this.#attribute(
-"image",2,6*FLOAT,0);this.#attribute("derivatives",4,6*FLOAT,2*FLOAT);return mixed=>this.#put(gl.ARRAY_BUFFER,
-images,mixed)}#uniform(name){this.#uniforms[name]??=this.#gl.getUniformLocation(this.#program,name);
-return this.#uniforms[name]}#attribute(name,size,stride,offset){const gl=this.#gl;const place=gl.getAttribLocation(
-this.#program,name);gl.enableVertexAttribArray(place);gl.vertexAttribPointer(place,size,gl.FLOAT,false,
-stride,offset)}#buffer(target,values){const buffer=this.#gl.createBuffer();this.#put(target,buffer,values);
-return buffer}#put(target,buffer,values){this.#gl.bindBuffer(target,buffer);this.#gl.bufferData(target,
-values,this.#gl.DYNAMIC_DRAW)}};function linked(gl,vertex,fragment){const program=gl.createProgram();
-gl.attachShader(program,compiled(gl,gl.VERTEX_SHADER,vertex));gl.attachShader(program,compiled(gl,gl.
-FRAGMENT_SHADER,fragment));gl.linkProgram(program);if(!gl.getProgramParameter(program,gl.LINK_STATUS)){
-throw new CannotShow(gl.getProgramInfoLog(program)??"The shaders do not fit together.")}return program}
-function compiled(gl,kind,text){const shader=gl.createShader(kind);if(!shader)throw new CannotShow("\
-The graphics card was lost.");gl.shaderSource(shader,text);gl.compileShader(shader);if(!gl.getShaderParameter(
-shader,gl.COMPILE_STATUS)){throw new CannotShow(gl.getShaderInfoLog(shader)??"A shader does not comp\
-ile.")}return shader}function positions({source,heights}){const count=source.length/2;const position=new Float32Array(
-3*count);for(let i=0;i<count;i++){position.set([source[2*i],source[2*i+1],heights[i]],3*i)}return position}
-function inOrder({heights,triangles}){const height=([a,b,c])=>heights[a]+heights[b]+heights[c];return[
-...triangles].sort((a,b)=>height(a)-height(b))}function projectionMatrix(width,height,unit,x,y){const sx=2/
-(unit*width);const sy=2/(unit*height);return[sx,0,0,0,0,sy,0,0,0,0,-1,0,-x*sx,-y*sy,0,1]}function bytesOf(text){return Uint8Array.from(atob(text),letter=>letter.charCodeAt(0)).buffer}async function unpacked({
+coefficients);gl.drawElements(gl.TRIANGLES,this.#count,this.#index,0);const[left,bottom,right,top]=this.#frame;
+const{style}=this.canvas;style.backgroundSize=`${(right-left)/unit}px ${(top-bottom)/unit}px`;style.
+backgroundPosition=`${(left-x)/unit+width/2}px ${(y-top)/unit+height/2}px`}#resize(width,height){const{
+canvas}=this;if(canvas.width!==width||canvas.height!==height){canvas.width=width;canvas.height=height}
+this.#gl.viewport(0,0,width,height)}#lift(heights){heights.forEach((height,i)=>{this.#position[3*i+2]=
+height});this.#put(this.#gl.ARRAY_BUFFER,this.#points,this.#position)}#movedByShader(cage){const gl=this.#gl;
+const[,coefficients,holes]=["cage","coefficients","holes"].map((name,i)=>{const block=gl.getUniformBlockIndex(
+this.#program,`${name}_block`);gl.uniformBlockBinding(this.#program,block,i);const buffer=this.#buffer(
+gl.UNIFORM_BUFFER,cage);gl.bindBufferBase(gl.UNIFORM_BUFFER,i,buffer);return buffer});return mixed=>{
+this.#put(gl.UNIFORM_BUFFER,coefficients,mixed.subarray(0,cage.length));this.#put(gl.UNIFORM_BUFFER,
+holes,mixed.subarray(cage.length))}}#movedByBuffer(){const gl=this.#gl;const images=gl.createBuffer();
+gl.bindBuffer(gl.ARRAY_BUFFER,images);this.#attribute("image",2,6*FLOAT,0);this.#attribute("derivati\
+ves",4,6*FLOAT,2*FLOAT);return mixed=>this.#put(gl.ARRAY_BUFFER,images,mixed)}#uniform(name){this.#uniforms[name]??=
+this.#gl.getUniformLocation(this.#program,name);return this.#uniforms[name]}#attribute(name,size,stride,offset){
+const gl=this.#gl;const place=gl.getAttribLocation(this.#program,name);gl.enableVertexAttribArray(place);
+gl.vertexAttribPointer(place,size,gl.FLOAT,false,stride,offset)}#buffer(target,values){const buffer=this.#gl.
+createBuffer();this.#put(target,buffer,values);return buffer}#put(target,buffer,values){this.#gl.bindBuffer(
+target,buffer);this.#gl.bufferData(target,values,this.#gl.DYNAMIC_DRAW)}};function linked(gl,vertex,fragment){
+const program=gl.createProgram();gl.attachShader(program,compiled(gl,gl.VERTEX_SHADER,vertex));gl.attachShader(
+program,compiled(gl,gl.FRAGMENT_SHADER,fragment));gl.linkProgram(program);if(!gl.getProgramParameter(
+program,gl.LINK_STATUS)){throw new CannotShow(gl.getProgramInfoLog(program)??"The shaders do not fit\
+ together.")}return program}function compiled(gl,kind,text){const shader=gl.createShader(kind);if(!shader)
+throw new CannotShow("The graphics card was lost.");gl.shaderSource(shader,text);gl.compileShader(shader);
+if(!gl.getShaderParameter(shader,gl.COMPILE_STATUS)){throw new CannotShow(gl.getShaderInfoLog(shader)??
+"A shader does not compile.")}return shader}function positions({source,heights}){const count=source.
+length/2;const position=new Float32Array(3*count);for(let i=0;i<count;i++){position.set([source[2*i],
+source[2*i+1],heights[i]],3*i)}return position}function inOrder({heights,triangles}){const height=([
+a,b,c])=>heights[a]+heights[b]+heights[c];return[...triangles].sort((a,b)=>height(a)-height(b))}function projectionMatrix(width,height,unit,x,y){
+const sx=2/(unit*width);const sy=2/(unit*height);return[sx,0,0,0,0,sy,0,0,0,0,-1,0,-x*sx,-y*sy,0,1]}function bytesOf(text){return Uint8Array.from(atob(text),letter=>letter.charCodeAt(0)).buffer}async function unpacked({
 bytes,step},width){const stream=new Blob([bytesOf(bytes)]).stream().pipeThrough(new DecompressionStream(
 "deflate"));const planes=new Uint8Array(await new Response(stream).arrayBuffer());const n=planes.length/
 4;const whole=new Int32Array(n);for(let i=0;i<n;i++){const low=planes[i]|planes[n+i]<<8;const folded=low|

@@ -49,6 +49,7 @@ export class Renderer {
   #uniforms = {};
   /** @type {(coefficients: Float32Array) => void} shows the map that an array stands for */
   #move;
+  #frame;
 
   /**
    * @param {HTMLCanvasElement} canvas
@@ -72,6 +73,7 @@ export class Renderer {
     this.#index = many ? gl.UNSIGNED_INT : gl.UNSIGNED_SHORT;
     this.#buffer(gl.ELEMENT_ARRAY_BUFFER, new (many ? Uint32Array : Uint16Array)(corners));
     this.#move = cage.length ? this.#movedByShader(cage) : this.#movedByBuffer();
+    this.#frame = data.frame;
     const [left, bottom, right, top] = data.frame;
     gl.uniform4f(this.#uniform("frame"), left, bottom, right - left, top - bottom);
     gl.uniform3fv(this.#uniform("colors"), data.colors);
@@ -114,6 +116,11 @@ export class Renderer {
     if (heights) this.#lift(heights);
     this.#move(coefficients);
     gl.drawElements(gl.TRIANGLES, this.#count, this.#index, 0);
+    // The style sheet of a page may give the canvas a picture to lie behind.
+    const [left, bottom, right, top] = this.#frame;
+    const { style } = this.canvas;
+    style.backgroundSize = `${(right - left) / unit}px ${(top - bottom) / unit}px`;
+    style.backgroundPosition = `${(left - x) / unit + width / 2}px ${(y - top) / unit + height / 2}px`;
   }
 
   /**
