@@ -15,6 +15,7 @@
 # make docs   the site in site/, checked: pages, links, and each page in Chromium
 # make notebooks  all chapters, run in place and saved; ARGUMENTS="03 07" runs these two
 # make student  the student edition of the course in student/, without solutions
+# make slides  six lectures in slides/, from the chapters' own cells
 # make browser  Chromium and Firefox for the browser tests, by apt
 # The environment is made with the newest Python that tools/pythons.sh finds, or with $PYTHON; another
 # one beside it: make unit VENV=.venv-3.12 PYTHON=python3.12
@@ -27,7 +28,7 @@ WORKERS = $(shell expr $$(nproc) + 1)
 # Without bytecode every process of the tests compiles the package and the test files anew.
 unexport PYTHONDONTWRITEBYTECODE
 
-.PHONY: demo test unit page page-tests install-tests pythons chapter leaks lint format dev compare bench gpu docs notebooks student browser clean
+.PHONY: demo test unit page page-tests install-tests pythons chapter leaks lint format dev compare bench gpu docs notebooks student slides browser clean
 .DEFAULT_GOAL := demo
 
 demo: $(VENV)/.demo
@@ -98,6 +99,9 @@ notebooks: $(VENV)/.test
 student: $(VENV)/.test
 	$(VENV)/bin/python tools/student_edition.py $(ARGUMENTS)
 
+slides: $(VENV)/.test
+	$(VENV)/bin/python tools/slides.py $(ARGUMENTS)
+
 browser:
 	tools/chromium.sh
 	tools/firefox.sh
@@ -132,4 +136,4 @@ node_modules/.package-lock.json: package.json package-lock.json | $(VENV)/.page
 	touch $@
 
 clean:
-	rm -rf $(VENV) node_modules glid-nb-demo artefacts build dist site student
+	rm -rf $(VENV) node_modules glid-nb-demo artefacts build dist site student slides

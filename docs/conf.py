@@ -47,6 +47,7 @@ exclude_patterns = [
     "glid-nb-*",
     "node_modules",
     "site",
+    "slides",
     "student",
     "docs/templates",
     "studies",
@@ -59,6 +60,9 @@ html_math_renderer = "mathml"
 # Notebooks show what they were saved with.
 nb_execution_mode = "off"
 nb_merge_streams = True
+# Cells with the tag hide-input: the set-up of a chapter, and checks.
+nb_code_prompt_show = "Show the code"
+nb_code_prompt_hide = "Hide the code"
 # Saved outputs have no widgets; nothing is fetched for them.
 nb_ipywidgets_js: dict[str, dict[str, str]] = {}
 nb_mime_priority_overrides = [("html", "application/vnd.jupyter.widget-view+json", None)]

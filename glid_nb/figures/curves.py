@@ -107,6 +107,8 @@ def convergence(
 ) -> NotebookFigure:
     """Total energies of results, on a logarithmic axis, labelled by the results' or methods' names.
 
+    A ring marks the last iteration of each result.
+
     The horizontal axis shows "iterations" or "seconds" (`Iteration.time`, without compiling). With
     ``gap_to``, for example the lowest known energy, the curves show (E - gap_to) / gap_to.
     """
@@ -125,7 +127,10 @@ def convergence(
         y = np.array([s.energy for s in steps])
         y = y if gap_to is None else (y - gap_to) / gap_to
         mark = "o" if len(x) <= 40 else ""
-        axes.plot(x, np.where(y > 0, y, np.nan), label=name, marker=mark, **look)
+        shown = np.where(y > 0, y, np.nan)
+        axes.plot(x, shown, label=name, marker=mark, **look)
+        ring = {"fillstyle": "none", "markeredgewidth": 1.4, "zorder": 3}
+        axes.plot(x[-1:], shown[-1:], "o", color=look["color"], markersize=6 + 2.2 * below, **ring)
     axes.set_yscale("log")
     _named(axes, against, "energy" if gap_to is None else "(E − E*) / E*", "")
     axes.legend(**style.LEGEND)

@@ -79,7 +79,7 @@ class DrawnMap(NamedTuple):
         w = map.images @ np.array([1, 1j])
         fz, fzb = (np.abs(v)[order] for v in MeshOperators(mesh).wirtinger(w))
         drawn = DeformedMesh(mesh.vertices, map.images, mesh.triangles[order], mesh.vertices[:, 0])
-        return cls(drawn, fz, fzb, [], True)
+        return cls(drawn, fz, fzb, [map.images[loop] for loop in mesh.border], True)
 
     @property
     def folded(self) -> NDArray[np.bool_]:
@@ -197,6 +197,8 @@ def picture(
     figure, grid = _side_by_side(maps, sheets, None if numbers else pose, titles, 0.05)
     for axes, map, sheet in zip(grid, maps, sheets, strict=True):
         draw_deformed(axes, image, sheet, _PIXELS)
+        if image is None:  # its pale checks would not show where the shape ends
+            drawing.loops(axes, sheet.outline, color=INK, linewidth=0.4)
         if cages and isinstance(map, HarmonicMap):
             drawing.loops(axes, map.domain.cage.loops, color=BLUE, linewidth=1.2)
             drawing.loops(axes, map.domain.offset_cage.loops, color=INK, linestyle=":")
@@ -266,7 +268,8 @@ def basis(domain: Domain, j: int, part: Literal["re", "im", "abs"] = "re") -> No
     axes.plot(*singular[j], "X" if is_log else "o", color=GREEN, markersize=7, zorder=5)
     figure.legend(loc="outside lower center", ncols=3, **style.LEGEND)
     name = "ln|z − ρ|" if is_log else f"$C_{{{j}}}(z)$"
-    label = {"re": "Re ", "im": "Im ", "abs": "modulus of "}[part] + name
+    parts = {"re": "" if is_log else "Re ", "im": "Im ", "abs": "modulus of "}
+    label = parts[part] + name
     drawing.color_bar(axes, drawn, label).set_xlim(least, most)
     return figure
 

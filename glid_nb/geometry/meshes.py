@@ -50,6 +50,24 @@ class Triangulation(Rebuilt):
         return one_way.maximum(one_way.T)
 
     @cached_property
+    def border(self) -> list[NDArray[np.int64]]:
+        """The loops of edges that belong to one triangle only, as numbers of their vertices.
+
+        The exterior runs counter-clockwise, holes clockwise.
+        """
+        starts, ends = self.triangles.ravel(), np.roll(self.triangles, -1, axis=1).ravel()
+        edges = set(zip(starts.tolist(), ends.tolist(), strict=True))
+        # All triangles are counter-clockwise, so an edge inside runs once in each direction.
+        following = {a: b for a, b in sorted(edges) if (b, a) not in edges}
+        loops = list[NDArray[np.int64]]()
+        while following:
+            loop = [next(iter(following))]
+            while loop[-1] in following:
+                loop.append(following.pop(loop[-1]))
+            loops.append(np.array(loop[:-1]))
+        return loops
+
+    @cached_property
     def _tree(self) -> shapely.STRtree:
         triangles: Any = shapely.polygons(self.vertices[self.triangles])
         return shapely.STRtree(triangles)

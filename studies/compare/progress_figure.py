@@ -36,15 +36,14 @@ _LEAST_GAP = 1e-9
 
 
 def draw(found: list[Measurement], folder: Path) -> None:
-    """A figure for each shape."""
+    """Two figures for each shape: the maps, and the energies."""
     for data in found:
         rows = [method for method in _ROWS if method in data["runs"]]
-        figure = figures.figure(13.0, 1.5 * len(rows))
-        parts: Any = figure.subfigures(1, 2, width_ratios=(1.45, 1.0))
-        left, right = parts
-        _draw_maps(left, data, rows)
-        _draw_energies(right, data["runs"])
-        figures.save(figure, folder / f"progress-{data['name']}.webp")
+        maps, energies = (figures.figure(width, 1.5 * len(rows)) for width in (7.7, 5.3))
+        _draw_maps(maps, data, rows)
+        _draw_energies(energies, data["runs"])
+        figures.save(maps, folder / f"progress-{data['name']}.webp")
+        figures.save(energies, folder / f"energies-{data['name']}.webp")
 
 
 def _draw_maps(figure: Any, data: Measurement, rows: list[str]) -> None:

@@ -108,12 +108,24 @@ def test_a_harmonic_map_that_folds_says_so() -> None:
 def test_handles_are_numbered_and_cages_drawn_and_a_boundary_stands_alone() -> None:
     figure = figures.picture(None, RING, POSE, numbers=True, cages=True)
     assert {"0", "1"} <= set(texts(figure).split("\n"))
-    assert len(figure.axes[0].lines) == 2 * len(RING.domain.cage.loops) + 1
+    # Outline, cage and offset cage, and the lines between handles and targets.
+    assert len(figure.axes[0].lines) == 3 * len(RING.domain.cage.loops) + 1
     (axes,) = figures.boundary(RING).axes
     assert [line.get_linestyle() for line in axes.lines if line.get_fillstyle() != "none"] == [
         "-",
         "--",
     ]
+
+
+def test_a_shape_has_an_outline_also_on_a_mesh() -> None:
+    """Pale checks and pale colours would not show where it ends."""
+    mesh = triangulate(RING.domain.cage, 500)
+    moved = MeshMap(mesh, RING(mesh.vertices))
+    for figure in (figures.picture(None, moved), figures.distortion(moved)):
+        outline = [line for line in figure.axes[0].lines if line.get_marker() == "None"]
+        assert len(outline) == len(RING.domain.cage.loops)
+        ends = np.concatenate([line.get_xydata() for line in outline])
+        assert np.isin(ends, moved.images).all()
 
 
 def test_unknown_quantities_and_things_that_are_no_maps_are_refused() -> None:
@@ -185,3 +197,6 @@ def test_level_sets_and_convergence_are_labelled() -> None:
     for against in ("iterations", "seconds"):
         figure = figures.convergence({"ours": result}, against, gap_to=2.0)
         assert {"ours", against} <= set(texts(figure).split("\n"))
+        curve, ring = figure.axes[0].lines
+        assert ring.get_fillstyle() == "none"  # marks the last iteration
+        assert np.array_equal(np.array(ring.get_xydata())[0], np.array(curve.get_xydata())[-1])

@@ -34,6 +34,16 @@ def check_fills(cage: Cage, mesh: Triangulation) -> None:
     assert np.sum(count == 1) == mesh.n_boundary
 
 
+def check_border(cage: Cage, mesh: Triangulation) -> None:
+    """The loops of the border hold the vertices on the cage, each once, in the cage's order."""
+    loops = mesh.border
+    assert sorted(np.concatenate(loops).tolist()) == list(range(mesh.n_boundary))
+    assert len(loops) == 1 + cage.n_holes
+    for loop in loops:
+        turned = np.roll(loop, -loop.argmin())
+        assert np.array_equal(turned, turned[0] + np.arange(len(turned)))
+
+
 def check_boundary(cage: Cage, mesh: Triangulation) -> None:
     boundary = mesh.vertices[: mesh.n_boundary]
     starts = np.concatenate(cage.loops)
@@ -65,6 +75,7 @@ def test_random_cages_are_filled(cage: Cage, n: int) -> None:
     mesh = triangulate(cage, n)
     check_fills(cage, mesh)
     check_boundary(cage, mesh)
+    check_border(cage, mesh)
     if n > 4 * cage.n_vertices:
         assert len(mesh.vertices) == pytest.approx(n, rel=0.15)
 

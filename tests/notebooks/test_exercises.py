@@ -203,14 +203,14 @@ def test_a_chapter_says_at_its_top_what_it_leaves_out_and_runs_without_it(
     code = [cell.source for cell in cells(path) if cell.cell_type == "code"]
     texts = [printed(source, path.name, namespace) for source in code]
     sentence = f"Without {package}, which is not installed, this chapter leaves out {left_out}. "
-    assert texts[1].startswith(sentence)  # after the cell for Colab
-    assert "pip install 'glid-nb[course]'" in texts[1]
+    assert texts[0].startswith(sentence)
+    assert "pip install 'glid-nb[course]'" in texts[0]
 
 
 @pytest.mark.usefixtures("without_extras")
 def test_a_chapter_that_cannot_run_without_a_package_says_so_at_its_top() -> None:
     (path,) = FOLDER.glob("10_*.ipynb")
-    _, first, *_ = (cell.source for cell in cells(path) if cell.cell_type == "code")
+    first, *_ = (cell.source for cell in cells(path) if cell.cell_type == "code")
     with pytest.raises(InputError) as refusal:
         printed(first, path.name, {"__name__": "__main__"})
     assert str(refusal.value) == (

@@ -116,6 +116,7 @@ def test_progress_from_measurement_to_table(tmp_path: Path) -> None:
     assert aqp["minimum"] <= aqp["energy"][-1] <= aqp["minimum"] * (1 + 1e-3)
     progress.draw([data], tmp_path)
     assert shades(tmp_path / "progress-bent.webp").std() > 5
+    assert shades(tmp_path / "energies-bent.webp").std() > 5
     variants = data["variants"]
     assert variants["projected Hessian, our samples"]["status"] == "converged"
     assert 2 <= data["area_mean_aligned"] <= ours * (1 + 1e-6)

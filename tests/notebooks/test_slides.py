@@ -1,0 +1,89 @@
+"""`make slides`: lectures made from the chapters' own cells."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+from typing import Any
+
+import nbformat
+import pytest
+
+from tools import slides
+
+from ..support.browser import launched_chromium, still_sliders
+
+CHECKOUT = Path(__file__).parents[2]
+
+
+@pytest.fixture(scope="module")
+def lectures(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("slides")
+    slides.main(folder)
+    return folder
+
+
+def outputs(numbers: tuple[str, ...]) -> list[Any]:
+    """What the chapters' cells show, except exercises and their checks."""
+    found = []
+    for number in numbers:
+        (path,) = slides.NOTEBOOKS.glob(f"{number}_*.ipynb")
+        for cell in nbformat.read(path, as_version=4).cells:
+            if not {"check", "exercise"} & set(cell.metadata.get("tags", ())):
+                found += [out.get("data", {}) for out in cell.get("outputs", ())]
+    return found
+
+
+def test_there_is_a_file_for_each_lecture_of_the_lecturers_page(lectures: Path) -> None:
+    page = (CHECKOUT / "docs" / "lecturers.md").read_text(encoding="utf-8")
+    table = page.partition("## Six lectures")[2].partition("\n\n|")[2].partition("\n\n")[0]
+    rows = re.findall(r"^\| (\d)\. .*? \| ([\d, ]+) \|", table, re.MULTILINE)
+    listed = {number: tuple(chapters.split(", ")) for number, chapters in rows}
+    assert {name[0]: numbers for name, numbers in slides.LECTURES.items()} == listed
+    assert sorted(file.stem for file in lectures.glob("*.html")) == sorted(slides.LECTURES)
+
+
+@pytest.mark.parametrize("name", slides.LECTURES)
+def test_a_lecture_shows_every_figure_of_its_chapters(lectures: Path, name: str) -> None:
+    text = (lectures / f"{name}.html").read_text(encoding="utf-8")
+    shown = outputs(slides.LECTURES[name])
+    live = sum("text/html" in data for data in shown)
+    pictures = sum("image/png" in data and "text/html" not in data for data in shown)
+    assert text.count('<figure class="glid-frames"') == live > 0
+    assert len(re.findall(r'<div class="shown"><img src="data:image/png', text)) == pictures
+
+
+@pytest.mark.parametrize("name", slides.LECTURES)
+def test_a_lecture_shows_no_solution_and_needs_no_network(lectures: Path, name: str) -> None:
+    text = (lectures / f"{name}.html").read_text(encoding="utf-8")
+    assert "<details" not in text
+    for number in slides.LECTURES[name]:
+        (path,) = (slides.NOTEBOOKS / "solutions").glob(f"{number}_*.py")
+        first = path.read_text(encoding="utf-8").partition(": solution\n")[2]
+        assert first.splitlines()[0] not in text
+    assert not re.search(r'(?:src|href)="https?:', text)
+
+
+def test_a_point_is_a_first_sentence_with_the_equations_after_it() -> None:
+    text = "Take **1. this** one. It is long. $$x^2$$ And more."
+    made = slides.point(text)
+    assert "Take <strong>1. this</strong> one." in made
+    assert "long" not in made
+    assert "<math" in made
+
+
+@pytest.mark.browser
+def test_slides_change_and_live_figures_move(lectures: Path) -> None:
+    with launched_chromium() as browser:
+        page = browser.new_page(viewport={"width": 1366, "height": 768})
+        failed: list[str] = []
+        page.on("pageerror", lambda error: failed.append(str(error)))
+        page.goto((lectures / "1-folding.html").as_uri())
+        assert page.locator("section.now").count() == 1
+        assert still_sliders(page.locator("section.now .glid-frames")) == []
+        page.locator("section.now h1").click()
+        page.keyboard.press("ArrowRight")
+        assert page.locator("section.now h2").inner_text() == "Holomorphic functions"
+        page.keyboard.press("n")
+        assert page.locator("section.now aside").is_visible()
+        assert not failed
