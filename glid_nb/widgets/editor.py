@@ -30,7 +30,7 @@ from glid_nb.session.status_line import StatusLine
 from glid_nb.solvers import Method
 from glid_nb.widgets import exporting
 from glid_nb.widgets.brush import BrushBar
-from glid_nb.widgets.canvas import DeformCanvas, Toolbar, check_size
+from glid_nb.widgets.canvas import DeformCanvas, check_size
 from glid_nb.widgets.closing import ClosingWidget, close_with_parts, one_a_cell
 from glid_nb.widgets.controls import REFUSED, paragraph
 from glid_nb.widgets.file_panel import FilePanel, KeptOffer, OpenPanel
@@ -39,6 +39,7 @@ from glid_nb.widgets.monitor import SolverMonitor
 from glid_nb.widgets.pins import PinBar
 from glid_nb.widgets.solver_panel import SolverPanel
 from glid_nb.widgets.timeline import TimelinePanel
+from glid_nb.widgets.toolbar import Toolbar
 from glid_nb.widgets.tracer import CageTracer
 
 _TRACE, _DEFORM = 0, 1

@@ -8,7 +8,7 @@ import pytest
 from playwright.sync_api import Locator
 
 from .conftest import OpenNotebook
-from .editor_page import SETUP, Hand
+from .editor_page import SETUP, Hand, choose_view
 
 pytestmark = [pytest.mark.browser, pytest.mark.slow]
 
@@ -150,14 +150,14 @@ def test_pale_and_dark_outlines_are_seen_in_dark_themes_and_high_contrast(
     finally:
         book.theme("JupyterLab Light")
     # Where the system forces its colours, pressed buttons still look pressed.
-    page.locator(".glid-tools button", has_text="Cage").click()
+    choose_view(page, "Cage")
     book.wait_for("canvas.show_cage")
     page.emulate_media(forced_colors="active")
     try:
         color = "one => getComputedStyle(one).backgroundColor"
         pressed, other = (
-            page.locator(".glid-tools button", has_text=name).evaluate(color)
-            for name in ("Cage", "Offset")
+            page.locator(f".glid-tools [data-tool={name}]").evaluate(color)
+            for name in ("select", "stiff")
         )
         book.screenshot("editor-forced-colours")
         assert pressed != other

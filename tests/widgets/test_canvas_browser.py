@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from .conftest import OpenNotebook
-from .editor_page import EDITOR, SETUP, Hand, center, line
+from .editor_page import EDITOR, SETUP, Hand, center, choose_view, line
 
 pytestmark = [pytest.mark.browser, pytest.mark.slow]
 
@@ -154,10 +154,9 @@ def test_controls_and_overlays(open_notebook: OpenNotebook) -> None:
     book.wait_for("model.moment.comparison is None")
     hand.settle()
 
-    overlay = page.locator(".glid-tools select")
     plain = hand.color_at([0.0, -0.5])
     for label in ("Stretch σ₁", "Dilatation k", "Energy density", "Stretch σ₂"):
-        overlay.select_option(label=label)
+        choose_view(page, label)
         page.locator(".glid-legend-title", has_text=label).wait_for()
         assert "Colours of the shape" in (
             page.locator(".glid-legend-part").get_attribute("title") or ""
@@ -166,26 +165,31 @@ def test_controls_and_overlays(open_notebook: OpenNotebook) -> None:
     colored = hand.color_at([0.0, -0.5])
     assert max(abs(a - b) for a, b in zip(colored, plain, strict=True)) > 20
     for label in ("Cage", "Offset", "Certificate"):
-        page.locator(".glid-tools button", has_text=label).click()
+        choose_view(page, label)
     book.wait_for("canvas.show_panels and canvas.show_cage and 'panels' in canvas.pane.scene.lines")
     page.wait_for_timeout(500)
     book.screenshot("editor-overlays")
-    overlay.select_option(label="Picture")
+    choose_view(page, "Picture")
     page.locator(".glid-legend-title", has_text="Certified σ₂").wait_for()
     hand.wait_until_drawn()
     book.screenshot("editor-certificate")
     book.theme("JupyterLab Dark")
-    arrow = overlay.evaluate("menu => getComputedStyle(menu).backgroundImage")
+    arrow = method.evaluate("menu => getComputedStyle(menu).backgroundImage")
     assert "e0e0e0" in arrow  # light on dark
-    tools = page.locator(".glid-tools button")
-    pressed, other = tools.filter(has_text="Certificate"), tools.filter(has_text="Source")
+    tools = page.locator(".glid-tools")
+    pressed, other = (tools.locator(f"[data-tool={name}]") for name in ("select", "stiff"))
     color = "button => getComputedStyle(button).backgroundColor"
-    assert pressed.evaluate(color) == "rgb(0, 114, 178)"
-    assert other.evaluate(color) != "rgb(0, 114, 178)"
+    assert pressed.evaluate(color) == "rgb(47, 155, 219)"
+    assert other.evaluate(color) != "rgb(47, 155, 219)"
+    checks = [
+        page.get_by_role("menuitemcheckbox", name=name, include_hidden=True)
+        for name in ("Certificate", "Source")
+    ]
+    assert [one.get_attribute("aria-checked") for one in checks] == ["true", "false"]
     book.screenshot("editor-certificate-dark")
     book.theme("JupyterLab Light")
-    overlay.select_option(label="Picture and grid")
-    page.locator(".glid-tools button", has_text="Source").click()
+    choose_view(page, "Picture and grid")
+    choose_view(page, "Source")
     book.wait_for("canvas.source is not None")
     pads = page.locator(".glid-pad")
     pads.nth(1).wait_for()
@@ -194,7 +198,7 @@ def test_controls_and_overlays(open_notebook: OpenNotebook) -> None:
     assert right is not None
     assert left["x"] + left["width"] <= right["x"]
     book.screenshot("editor-source")
-    page.locator(".glid-tools button", has_text="Source").click()
+    choose_view(page, "Source")
     book.wait_for("canvas.source is None")
     # The status line.
     page.locator(".glid-editor").get_by_text("Converged").first.wait_for()
@@ -366,7 +370,7 @@ def test_what_is_beside_the_canvas_neither_takes_undo_nor_moves_it(
     book.wait_for("len(model.pose) == 3")
     # Undo by keys works wherever in the editor the last click was, except in a text field.
     elsewhere = (
-        page.locator(".glid-tools button", has_text="Cage"),
+        page.locator(".glid-tools [data-tool=select]"),
         page.get_by_role("tab", name="Solver"),
         page.locator(".glid-solver-panel .widget-label").first,
     )

@@ -499,7 +499,7 @@ def test_the_numbers_are_made_without_the_models_lock(
 
 def test_the_numbers_come_with_the_brush(editor: Editor) -> None:
     assert numbers(editor).children == ()
-    editor.toolbar.stiff.value = True
+    editor.toolbar.tool = "stiff"
     assert len(numbers(editor).children) == 1
 
 
@@ -521,7 +521,7 @@ def test_a_part_that_cannot_be_made_says_why_in_its_place(
         [said] = numbers(editor).children
         assert "ValueError: no such &lt;option&gt;" in said.value
         assert [str(report.exc_value) for report in caught] == ["no such <option>"]  # for the log
-    editor.toolbar.stiff.value = True
+    editor.toolbar.tool = "stiff"
     assert said not in numbers(editor).children
 
 

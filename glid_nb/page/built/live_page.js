@@ -63,19 +63,19 @@ O]=[s[2*l]-u,s[2*l+1]-d],ut=p*O-b*k,A=((n-u)*O-(o-d)*k)/ut,g=(p*(o-d)-b*(n-u))/u
 g<=1))continue;let M=1-A-g,Ot=M*t[h]+A*t[c]+g*t[l];Ot<=r||(r=Ot,a=[M*i[2*h]+A*i[2*c]+g*i[2*l],M*i[2*
 h+1]+A*i[2*c+1]+g*i[2*l+1]])}return a}function K(i){let[t,e,s,n]=[1/0,1/0,-1/0,-1/0];for(let o=0;o<i.
 length;o+=2)t=Math.min(t,i[o]),s=Math.max(s,i[o]),e=Math.min(e,i[o+1]),n=Math.max(n,i[o+1]);return[t,
-e,s,n]}function W(i,t){return{handle:i,target:t,angle:null,scale:null,weight:1,name:""}}function x(i){return{
+e,s,n]}function z(i,t){return{handle:i,target:t,angle:null,scale:null,weight:1,name:""}}function x(i){return{
 handles:i.map(({handle:t})=>t),targets:i.map(({target:t})=>t),weights:i.map(({weight:t})=>t),angles:i.
-map(({angle:t})=>t),scales:i.map(({scale:t})=>t)}}function j(i,t,e){return i.map((s,n)=>t.includes(n)?
+map(({angle:t})=>t),scales:i.map(({scale:t})=>t)}}function W(i,t,e){return i.map((s,n)=>t.includes(n)?
 {...s,...e(s,n)}:s)}function Nt(i,t){return i.filter((e,s)=>!t.includes(s))}function Ft(i){return Math.
 min(20,Math.max(.05,i))}function pt(i){return Math.atan2(Math.sin(i),Math.cos(i))}function Ct(i,t,e){
 return i?((t??(e>0?-1:i))+e+i)%i:-1}function Bt(i,t,e,s){let n=new Map(i.map(h=>[It(h),h])),o=new Map(
 t.map(h=>[It(h),h])),r=[...new Set([...n.keys(),...o.keys()])],a=[[],[]];for(let h of r){let c=n.get(
-h)??o.get(h),l=o.get(h)??c;a[0].push(n.has(h)?c:W(c.handle,e(c.handle))),a[1].push(o.has(h)?l:W(l.handle,
+h)??o.get(h),l=o.get(h)??c;a[0].push(n.has(h)?c:z(c.handle,e(c.handle))),a[1].push(o.has(h)?l:z(l.handle,
 s(l.handle)))}return a}function Dt(i,t,e){let s=(n,o)=>n+e*(o-n);return i.map((n,o)=>{let r=t[o],a=n.
 angle===null||r.angle===null?null:pt(r.angle-n.angle);return{...n,target:[s(n.target[0],r.target[0]),
 s(n.target[1],r.target[1])],weight:s(n.weight,r.weight),angle:n.angle===null||a===null?null:n.angle+
 e*a,scale:n.scale===null||r.scale===null?null:s(n.scale,r.scale)}})}function It({handle:i}){return i.
-join()}var Ke=.15,z=class{pins=[];selected=[];inGesture=!1;#t=new H;#e=0;#s=0;constructor(t,e,s,n=s.coefficients){
+join()}var Ke=.15,j=class{pins=[];selected=[];inGesture=!1;#t=new H;#e=0;#s=0;constructor(t,e,s,n=s.coefficients){
 this.solving=t,this.mesh=e,this.rest=n,this.frame=s,this.told=()=>{},t.onmap=o=>this.#f(o)}begin(t){
 this.#h({pins:t,selected:[],coefficients:this.frame.coefficients})}get now(){let{pins:t,selected:e,frame:s}=this;
 return{pins:t,selected:e,coefficients:s.coefficients}}get canUndo(){return this.#t.canUndo}get canRedo(){
@@ -90,12 +90,12 @@ frame.pins,s=e.length/4,[n,o]=this.#n?[e[t],e[s+t]]:[1,0],{angle:r,scale:a}=this
 Math.atan2(o,n),scale:a??Math.hypot(n,o)}}get#n(){return this.frame.pins.images.length===2*this.pins.
 length}sourceAt(t){return _t(this.mesh,this.frame.images??[],t)}select(t){this.selected=[...new Set(
 t)],this.told()}selectNext(t){let e=Ct(this.pins.length,this.selected.at(-1),t);e>=0&&this.select([e])}pin(t){
-let e=this.sourceAt(t);return e?(this.#r([...this.pins,W(e,t)],[this.pins.length]),!0):!1}remove(){this.
+let e=this.sourceAt(t);return e?(this.#r([...this.pins,z(e,t)],[this.pins.length]),!0):!1}remove(){this.
 selected.length&&this.#r(Nt(this.pins,this.selected),[])}move(t){let e=(s,n)=>({target:t.get(n)??s.target});
-this.#r(j(this.pins,[...t.keys()],e),this.selected)}nudge([t,e]){let s=({target:[n,o]})=>({target:[n+
-t,o+e]});this.#r(j(this.pins,this.selected,s),this.selected)}turn(t){let e=(s,n)=>{let{angle:o,scale:r}=t(
+this.#r(W(this.pins,[...t.keys()],e),this.selected)}nudge([t,e]){let s=({target:[n,o]})=>({target:[n+
+t,o+e]});this.#r(W(this.pins,this.selected,s),this.selected)}turn(t){let e=(s,n)=>{let{angle:o,scale:r}=t(
 n);return{...o===void 0?{}:{angle:o===null?null:pt(o)},...r===void 0?{}:{scale:r===null?null:Ft(r)}}};
-this.selected.length&&this.#r(j(this.pins,this.selected,e),this.selected)}beginGesture(){this.inGesture||
+this.selected.length&&this.#r(W(this.pins,this.selected,e),this.selected)}beginGesture(){this.inGesture||
 (this.#t.note(this.now),this.inGesture=!0)}endGesture(){this.inGesture&&(this.inGesture=!1,this.told())}cancelGesture(){
 if(!this.inGesture)return;this.inGesture=!1;let t=this.#t.drop();t&&this.#h(t)}undo(){let t=this.#t.
 undo(this.now);t&&this.#h(t)}redo(){let t=this.#t.redo(this.now);t&&this.#h(t)}replace(t,e){this.#t.
@@ -108,35 +108,35 @@ certificate.certified||(this.frame=t,this.told())}};function m(i){return V(i,HTM
 t))throw new Error(`the page has no ${i}`);return e}function f(i,t={},...e){let s=document.createElement(i);s instanceof HTMLButtonElement&&(s.type="but\
 ton");for(let[n,o]of Object.entries(t))n.startsWith("on")?s.addEventListener(n.slice(2),o):n in s&&n!==
 "list"?Reflect.set(s,n,o):s.setAttribute(n,o);return s.append(...e),s}function T(i){let t=i.getContext(
-"2d");if(!t)throw new Error("this browser does not draw on canvases");return t}var We="rgba(255, 255, 255, 0.004)";function Ut(i,t,e,s){let n=0;return e.addEventListener("abort",()=>cancelAnimationFrame(
-n)),()=>{n||(n=requestAnimationFrame(()=>{n=0,s(je(i,t))}))}}function je(i,{width:t,height:e}){let s=window.
+"2d");if(!t)throw new Error("this browser does not draw on canvases");return t}var ze="rgba(255, 255, 255, 0.004)";function Ut(i,t,e,s){let n=0;return e.addEventListener("abort",()=>cancelAnimationFrame(
+n)),()=>{n||(n=requestAnimationFrame(()=>{n=0,s(We(i,t))}))}}function We(i,{width:t,height:e}){let s=window.
 devicePixelRatio||1,n=Math.round(t*s),o=Math.round(e*s);(i.width!==n||i.height!==o)&&(i.width=n,i.height=
-o);let r=T(i);return r.setTransform(s,0,0,s,0,0),r.clearRect(0,0,t,e),r.fillStyle=We,r.fillRect(0,0,
+o);let r=T(i);return r.setTransform(s,0,0,s,0,0),r.clearRect(0,0,t,e),r.fillStyle=ze,r.fillRect(0,0,
 t,e),r}function N(i,[t,e],s,n,o){i.beginPath(),i.arc(t,e,s,0,2*Math.PI),v(i,n,o)}function R(i,t,e,s,n,o=1){
 N(i,t,e,[]),i.fillStyle=s,i.fill(),n&&v(i,[[o,n]])}function P(i,t,e=!0){i.beginPath();for(let s of t)
 s.forEach(([n,o],r)=>{r?i.lineTo(n,o):i.moveTo(n,o)}),e&&i.closePath()}function X([i,t],[e,s]){return[
 [i,t],[e,t],[e,s],[i,s]]}function Y(i,t,e,s="evenodd"){P(i,t),i.fillStyle=e,i.fill(s)}function v(i,t,e=[]){
-i.setLineDash(e);for(let[s,n]of t)i.lineWidth=s,i.strokeStyle=n,i.stroke();i.setLineDash([])}function Gt(i,t){let e=null,s=1/0;for(let n of i){let o=n.d+(n.loss??0);n.d>t||o>=s||(e=n,s=o)}return e}var _=6,ze=4,Ve=42,Xe=24,$t=14,Ht=[36,112];function mt(i,t,e){let s=t.selected.at(-1),[n,o]=t.ring;if(n===void 0||o===void 0||s===void 0||!t.targets[s])
+i.setLineDash(e);for(let[s,n]of t)i.lineWidth=s,i.strokeStyle=n,i.stroke();i.setLineDash([])}function Gt(i,t){let e=null,s=1/0;for(let n of i){let o=n.d+(n.loss??0);n.d>t||o>=s||(e=n,s=o)}return e}var _=6,je=4,Ve=42,Xe=24,$t=14,Ht=[36,112];function mt(i,t,e){let s=t.selected.at(-1),[n,o]=t.ring;if(n===void 0||o===void 0||s===void 0||!t.targets[s])
 return null;let r=i.toScreen(e?.get(s)??t.targets[s]),a=Ve*Math.min(2.5,Math.max(.5,o));return{centre:r,
 radius:a,knob:Ye(i,r,a,n)}}function Ye(i,t,e,s){let n=[0,1,-1,2,-2,3,-3,4].map(o=>{let r=s+o*Math.PI/
 4,a=t[0]+e*Math.cos(r),h=t[1]-e*Math.sin(r);return[q(a,i.width),q(h,i.height)]});return n.find(o=>w(
-o,t)>=Xe)??n[0]}function Wt(i,t,e,s){let n=mt(i,t);return n?w(e,n.knob)<=Math.max(_+ze,s)?{part:"knob"}:Math.abs(w(e,
+o,t)>=Xe)??n[0]}function zt(i,t,e,s){let n=mt(i,t);return n?w(e,n.knob)<=Math.max(_+je,s)?{part:"knob"}:Math.abs(w(e,
 n.centre)-n.radius)<=s?{part:"turn"}:null:null}function Z(i,t,e){return Kt(i,!1,t,e)??Kt(i,!0,t,e)}function Kt(i,t,e,s){
 let o=(t?i.images:i.targets).map((r,a)=>{let h=i.hidden.includes(a)?s/3:0;return{mark:a,reached:t,d:w(
-r,e),loss:h}});return Gt(o,s)}function jt(i,t){return t.filter(e=>!qe(i,e)).map(e=>{let[s,n]=i.toScreen(
+r,e),loss:h}});return Gt(o,s)}function Wt(i,t){return t.filter(e=>!qe(i,e)).map(e=>{let[s,n]=i.toScreen(
 e),o=q(n,i.height),r=o<Ht[1]?Ht[0]:0,a=q(s,i.width-r);return{at:[a,o],target:e,angle:Math.atan2(n-o,
 s-a)}})}function qe(i,t){let[e,s]=i.toScreen(t);return e>=0&&s>=0&&e<=i.width&&s<=i.height}function q(i,t){return Math.
-min(t-$t,Math.max($t,i))}var zt=7.5,Vt=3.5,Xt=12,Ze=2,F="rgba(255,255,255,0.85)",qt="rgba(255,255,255,0.9)",Je="#2b2b2b",Zt="\
+min(t-$t,Math.max($t,i))}var jt=7.5,Vt=3.5,Xt=12,Ze=2,F="rgba(255,255,255,0.85)",qt="rgba(255,255,255,0.9)",Je="#2b2b2b",Zt="\
 #00d5e0",Jt="#063f45",Qe="#067a82",Qt="#0072b2",gt="#d55e00",Yt="rgba(40,40,40,0.75)";function wt(i,t,e){i.lineCap="round",P(i,t,!1),v(i,e)}function te(i,t,e){Y(i,[t.line(e)],"rgba(0,114,178,0.12)"),v(i,[[3,F],[1.4,Qt]],[5,3])}function ee(i,t,e,{
 hovered:s,held:n,cursor:o}){let r=t.line(e.targets.map((h,c)=>n.get(c)??h)),a=t.line(e.images);ts(i,
 r,a),r.forEach((h,c)=>{e.selected.includes(c)?R(i,h,Xt,"rgba(0,114,178,0.28)",Qt,2):c===s&&R(i,h,Xt,
 "rgba(0,114,178,0.14)"),es(i,h,e.hidden.includes(c))}),ss(i,t,e,n),ns(i,t,e),a.forEach((h,c)=>{e.hidden.
 includes(c)||(R(i,h,Vt+1,qt),R(i,h,Vt,"#111"))}),o&&is(i,t.toScreen(o))}function ts(i,t,e){let n=t.map(
 (o,r)=>[e[r],o]).filter(([o,r])=>o&&w(o,r)>=Ze);wt(i,n,[[3.6,F],[1.6,Je]])}function es(i,t,e){if(!e){
-R(i,t,zt,Zt,Jt,1.4);return}N(i,t,zt,[[3.4,F],[1.6,Qe]],[3.5,2.4])}function ss(i,t,e,s){let n=mt(t,e,
+R(i,t,jt,Zt,Jt,1.4);return}N(i,t,jt,[[3.4,F],[1.6,Qe]],[3.5,2.4])}function ss(i,t,e,s){let n=mt(t,e,
 s);if(!n)return;let[,,o,r]=e.ring,{centre:a,radius:h,knob:c}=n,[l,u]=c,d=o?gt:Yt;N(i,a,h,[[4,F]]),N(
 i,a,h,[[2,d]],o?[]:[6,4]),wt(i,[[a,c]],[[3,F],[1.2,d]]);let p=X([l-_,u-_],[l+_,u+_]);Y(i,[p],r?gt:"#\
-fff"),v(i,[[1.6,r?"#fff":Yt]])}function ns(i,t,e){for(let{at:s,angle:n}of jt(t,e.targets)){let o=(r,a)=>[
+fff"),v(i,[[1.6,r?"#fff":Yt]])}function ns(i,t,e){for(let{at:s,angle:n}of Wt(t,e.targets)){let o=(r,a)=>[
 s[0]+a*Math.cos(n+r),s[1]+a*Math.sin(n+r)];Y(i,[[o(0,11),o(2.4,9),o(-2.4,9)]],Zt),v(i,[[1.6,Jt]])}}function is(i,[
 t,e]){let s=(n,o)=>[[t+4*n,e+4*o],[t+13*n,e+13*o]];wt(i,[s(1,0),s(-1,0),s(0,1),s(0,-1)],[[4,qt],[1.6,
 gt]])}var os=["pointerdown","pointermove","wheel","keydown","keyup","contextmenu"];function se(i){for(let t of os)
@@ -148,17 +148,21 @@ return{table:t,button:n,toggle:()=>{t.togglePopover()}}}function rs([i,t]){retur
 h4",{},i),f("table",{},...t.map(as)))}function as([i,t]){return f("tr",{},f("th",{},i),f("td",{},t))}var hs={edit:"M3 2l9.5 5.2-4 1.2 2.4 4.3-1.8 1-2.4-4.3L3 12z",foreground:"M13.5 2.5l-6 6 M6.7 9.2c-1\
 .6-.5-3 .6-3.1 2.1-.1 1-.7 1.7-1.6 2 2.2.9 5.6.4 5.9-2.2 .1-.8-.4-1.6-1.2-1.9z M9.5 12.5h5 M12 10v5",
 background:"M13.5 2.5l-6 6 M6.7 9.2c-1.6-.5-3 .6-3.1 2.1-.1 1-.7 1.7-1.6 2 2.2.9 5.6.4 5.9-2.2 .1-.8\
--.4-1.6-1.2-1.9z M9.5 12.5h5",color:"M9 4l3 3 M10 3.2l1-1a1.6 1.6 0 0 1 2.8 2.2l-1.1 1.1 M9.6 5.2L3.\
-4 11.4 2.5 13.5l2.1-.9 6.2-6.2",component:"M8 1.5v3 M8 11.5v3 M1.5 8h3 M11.5 8h3 M8 5.2a2.8 2.8 0 1 \
-0 0 5.6 2.8 2.8 0 0 0 0-5.6z",polygon:"M8 2l5.5 4-2 7h-7l-2-7z",rectangle:"M2.5 4h11v8h-11z",undo:"M\
-5.5 3L2.5 6l3 3 M3 6h6.2a3.6 3.6 0 0 1 0 7.2H6",redo:"M10.5 3l3 3-3 3 M13 6H6.8a3.6 3.6 0 0 0 0 7.2H\
-10",fit:"M2 5.5V2h3.5 M10.5 2H14v3.5 M14 10.5V14h-3.5 M5.5 14H2v-3.5",plus:"M8 3v10 M3 8h10",minus:"\
-M3 8h10",open:"M2 12.5v-9h4l1.5 2H14v7z",play:"M5 3l8 5-8 5z",pause:"M5.5 3v10 M10.5 3v10",record:"M\
-8 4.2a3.8 3.8 0 1 0 0 7.6 3.8 3.8 0 0 0 0-7.6z",onion:"M6.2 4a4 4 0 1 0 0 8 4 4 0 0 0 0-8z M9.8 4a4 \
-4 0 1 1 0 8",copy:"M5.5 5.5h8v8h-8z M3 10.5v-8h8",export:"M8 2v8 M4.8 6.8L8 10l3.2-3.2 M3 13.5h10",trash:"\
-M3 4.5h10 M6.5 4.5v-2h3v2 M4.5 4.5l.6 9h5.8l.6-9"};function cs(i){return`<svg viewBox="0 0 16 16" ar\
-ia-hidden="true"><path d="${hs[i]}"/></svg>`}function S(i,t,e,s="glid-icon"){return f("button",{title:t,
-"aria-label":t,className:s,onclick:e,innerHTML:cs(i)})}var ls={Comma:",<",Period:".>",Slash:"/?",Minus:"-_",Equal:"=+",BracketLeft:"[{",BracketRight:"]}"};
+-.4-1.6-1.2-1.9z M9.5 12.5h5",brush:"M13.5 2.5l-6 6 M6.7 9.2c-1.6-.5-3 .6-3.1 2.1-.1 1-.7 1.7-1.6 2 \
+2.2.9 5.6.4 5.9-2.2 .1-.8-.4-1.6-1.2-1.9z",eraser:"M9.2 2.8l4 4-6.4 6.4H4.4L2.2 11z M5.5 6.6l4 4 M7 \
+13.2h6.5",color:"M9 4l3 3 M10 3.2l1-1a1.6 1.6 0 0 1 2.8 2.2l-1.1 1.1 M9.6 5.2L3.4 11.4 2.5 13.5l2.1-\
+.9 6.2-6.2",component:"M8 1.5v3 M8 11.5v3 M1.5 8h3 M11.5 8h3 M8 5.2a2.8 2.8 0 1 0 0 5.6 2.8 2.8 0 0 \
+0 0-5.6z",polygon:"M8 2l5.5 4-2 7h-7l-2-7z",rectangle:"M2.5 4h11v8h-11z",undo:"M5.5 3L2.5 6l3 3 M3 6\
+h6.2a3.6 3.6 0 0 1 0 7.2H6",redo:"M10.5 3l3 3-3 3 M13 6H6.8a3.6 3.6 0 0 0 0 7.2H10",fit:"M2 5.5V2h3.\
+5 M10.5 2H14v3.5 M14 10.5V14h-3.5 M5.5 14H2v-3.5",screen:"M10 2h4v4 M14 2L9.5 6.5 M6 14H2v-4 M2 14l4\
+.5-4.5",eye:"M1.5 8S4 3.8 8 3.8 14.5 8 14.5 8 12 12.2 8 12.2 1.5 8 1.5 8z M8 6.2a1.8 1.8 0 1 0 0 3.6\
+ 1.8 1.8 0 0 0 0-3.6z",plus:"M8 3v10 M3 8h10",minus:"M3 8h10",open:"M2 12.5v-9h4l1.5 2H14v7z",play:"\
+M5 3l8 5-8 5z",pause:"M5.5 3v10 M10.5 3v10",record:"M8 4.2a3.8 3.8 0 1 0 0 7.6 3.8 3.8 0 0 0 0-7.6z",
+onion:"M6.2 4a4 4 0 1 0 0 8 4 4 0 0 0 0-8z M9.8 4a4 4 0 1 1 0 8",copy:"M5.5 5.5h8v8h-8z M3 10.5v-8h8",
+export:"M8 2v8 M4.8 6.8L8 10l3.2-3.2 M3 13.5h10",trash:"M3 4.5h10 M6.5 4.5v-2h3v2 M4.5 4.5l.6 9h5.8l\
+.6-9"};function cs(i){return`<svg viewBox="0 0 16 16" aria-hidden="true"><path d="${hs[i]}"/></svg>`}
+function S(i,t,e,s="glid-icon"){return f("button",{title:t,"aria-label":t,className:s,onclick:e,innerHTML:cs(
+i)})}var ls={Comma:",<",Period:".>",Slash:"/?",Minus:"-_",Equal:"=+",BracketLeft:"[{",BracketRight:"]}"};
 function yt({key:i,code:t="",shiftKey:e=!1}){if(i.length>1||i<="ɏ")return i;let[,s,n]=t.match(/^(?:Key([A-Z])|(?:Digit|Numpad)([0-9]))$/)??
 [];return s?e?s:s.toLowerCase():n??ls[t]?.[Number(e)]??i}function J(i){if(!i.ctrlKey&&!i.metaKey)return null;
 let t=yt(i).toLowerCase();return t==="z"?i.shiftKey?"redo":"undo":t==="y"?"redo":null}function us(i){let{width:t,height:e}=i.getBoundingClientRect(),s=t/i.offsetWidth||1;return{across:s,
@@ -317,7 +321,7 @@ Ps=5,_s=.1,Is=.5,Ns=6,Fs=30,Cs=12,Bs=.06,Ds=.12,be=Math.PI/36,Mt=1.05,Ee={ArrowL
 1,0],ArrowUp:[0,1],ArrowDown:[0,-1]},Us={"<":[be,1],">":[-be,1],"+":[0,Mt],"=":[0,Mt],"-":[0,1/Mt]},
 nt=class{reach=Os;keys=Ls;ownsWheel=window===window.top;signal=new AbortController().signal;cursorAt=null;#t=null;#e=[
 0,0];constructor(t,e,s){this.editing=t,this.view=e,this.around=s,this.actions={"?":s.help}}changed(){
-this.around.redraw()}tapped(){this.around.play()}find(t,e){let{marks:s}=this.editing;this.#e=t;let n=()=>Wt(
+this.around.redraw()}tapped(){this.around.play()}find(t,e){let{marks:s}=this.editing;this.#e=t;let n=()=>zt(
 this.view,s,this.view.toScreen(t),e/this.view.unit/2);return Z(s,t,e)??n()}held({mark:t}){let{pins:e,
 selected:s}=this.editing,n=Number(t),o=s.includes(n)?s:[n];return new Map(o.map(r=>[r,e[r].target]))}encloses(t,e){
 return e.shiftKey?"box":null}cursor(t){return t?"grab":"crosshair"}pans(t,e){return!t&&!e.shiftKey&&
@@ -379,17 +383,17 @@ shift()}draw(){let{canvas:t}=this,{clientWidth:e,clientHeight:s}=t;if(!e||!s)ret
 range),a=r.at(-1);if(!a)return;this.value.textContent=this.words(this.#t[r.length-1]);let h=getComputedStyle(
 t).color,[c]=r;P(o,[[...r,[a[0],s],[c[0],s]]]),o.globalAlpha=.12,o.fillStyle=h,o.fill(),o.globalAlpha=
 1,o.lineJoin="round",P(o,[r],!1),v(o,[[1.5,h]]),o.beginPath(),o.arc(a[0],a[1],2,0,2*Math.PI),o.fillStyle=
-h,o.fill()}};var Ks=5e3,Ws=.02,ot=class{#t=new I("Certificate","The least stretch anywhere, as proved. The map fo\
-lds nowhere while this is above 0",[0,1+Ws],t=>`σ₂ ≥ ${kt(t)}`);#e=new I("Energy","The distorti\
+h,o.fill()}};var Ks=5e3,zs=.02,ot=class{#t=new I("Certificate","The least stretch anywhere, as proved. The map fo\
+lds nowhere while this is above 0",[0,1+zs],t=>`σ₂ ≥ ${kt(t)}`);#e=new I("Energy","The distorti\
 on of the shape, and of the pins",null,t=>t.toPrecision(4));#s=new I("Step","Time of a certified ste\
 p",null,t=>`${t.toFixed(1)} ms`);#o=-1;#n;constructor(){m("plots").append(this.#t.element,this.#e.element,
 this.#s.element)}plot({id:t,certificate:e,energy:s,steps:n,took:o}){t===this.#o&&!n||(this.#o=t,this.#t.
 add(e.sigma2_lower),this.#e.add(s),n&&this.#s.add(o/n))}draw(){for(let t of[this.#t,this.#e,this.#s])
 t.draw()}proved({certificate:{sigma2_lower:t,sigma1_upper:e,k_upper:s}}){let n=`σ₂ ≥ ${kt(t)}, \
 σ₁ ≤ ${Tt(e)}, k ≤ ${Tt(s)}`;m("proved").title=`Proved in this page for the map that is shown\
-: ${n}`,m("bound").textContent=n}pins(t){let e=js(t);e&&this.tell(e)}tell(t){let e=m("status");e.textContent!==
+: ${n}`,m("bound").textContent=n}pins(t){let e=Ws(t);e&&this.tell(e)}tell(t){let e=m("status");e.textContent!==
 t&&(e.textContent=t)}say(t){let e=m("notice");e.textContent=t,e.hidden=!1,clearTimeout(this.#n),this.#n=
-setTimeout(()=>{e.hidden=!0},Ks)}};function js({pins:i,selected:t,missed:e,inGesture:s}){if(e.length&&
+setTimeout(()=>{e.hidden=!0},Ks)}};function Ws({pins:i,selected:t,missed:e,inGesture:s}){if(e.length&&
 !s)return`The shape does not reach pin ${e.map(h=>h+1).join(", ")}`;let n=t.at(-1);if(n===void 0)return"";
 let[o,r]=i[n].target;return`Pin ${n+1} of ${i.length}, at ${ke(o)}, ${ke(r)}`}function ke(i){return(Math.
 round(10*i)/10+0).toFixed(1)}var Te=80;function B(i){let t=i.getBoundingClientRect(),e=m("free").getBoundingClientRect();return{left:e.
@@ -397,14 +401,14 @@ left-t.left,top:e.top-t.top,width:Math.max(e.width,Te),height:Math.max(e.height,
 height:t.height}}}function D(i,t,e){let[s,n,o,r]=K(i),a=(o-s)/t.width,h=(r-n)/t.height,c=Math.max(a,
 h)/(1-2*e),l=(s+o)/2+c*(t.size.width/2-t.left-t.width/2),u=(n+r)/2-c*(t.size.height/2-t.top-t.height/
 2);return{unit:c,x:l,y:u}}var rt=class{#t;#e;#s;#o;constructor(t,{chain:e,shaderHoles:s}){let n=[t.offset_cage,...t.offset_holes];
-this.#e=t,this.#o={chain:e,holes:s},this.#t=zs(n.map(o=>o.length)),this.#s=n.flat(),this.cage=this.#n()}#n(){
+this.#e=t,this.#o={chain:e,holes:s},this.#t=js(n.map(o=>o.length)),this.#s=n.flat(),this.cage=this.#n()}#n(){
 let t=new Float32Array(4*this.#o.chain),e=this.#s[this.#s.length-1];for(let s=0;s<this.#o.chain;s++){
 let n=this.#t[s],[o,r]=n?this.#s[n.vertex]:e,a=n&&!n.first?this.#r(s):[0,0];t.set([o,r,...a],4*s)}return t}#r(t){
 let[e,s]=this.#s[this.#t[t].vertex],[n,o]=this.#s[this.#t[t-1].vertex],[r,a]=[e-n,s-o],h=r*r+a*a;return[
 r/h,-a/h]}of(t){let{chain:e,holes:s}=this.#o,n=t.length/4,o=new Float32Array(4*(e+s));for(let[h,{vertex:c}]of this.#t.
 entries())for(let l=0;l<4;l++)o[4*h+l]=t[l*n+c];let r=1e3*Math.max(...this.#s.map(([h,c])=>Math.hypot(
 h,c))),a=this.#e.hole_points;for(let h=0;h<s;h++){let c=this.#s.length+h,l=h<a.length?[...a[h],t[c],
-t[n+c]]:[r];o.set(l,4*(e+h))}return o}};function zs(i){let t=[],e=0;for(let s of i){t.push({vertex:e+
+t[n+c]]:[r];o.set(l,4*(e+h))}return o}};function js(i){let t=[],e=0;for(let s of i){t.push({vertex:e+
 s-1,first:!0});for(let n=0;n<s;n++)t.push({vertex:e+n,first:!1});e+=s}return t}function Se({images:i,
 samples:t}){if(!i||!t)throw new Error("the map was not evaluated at the mesh");let e=i.length/2,s=new Float32Array(
 6*e);for(let n=0;n<e;n++){s[6*n]=i[2*n],s[6*n+1]=i[2*n+1];for(let o=0;o<4;o++)s[6*n+2+o]=t[o*e+n]}return s}
@@ -492,7 +496,7 @@ i,t),a=y.outline.hole_points.length,h=e.map((c,l)=>({coefficients:Oe(r.subarray(
 min(o[l-1]??1/0,o[l]??1/0)}));return{times:e,knots:h,keyframes:s,repeat:n}}async function en(){let i=V(
 "picture",HTMLCanvasElement),t=Qs(i),[e,s,n]=await Promise.all([Fe(),Zs(),Js()]),o=new $(()=>{},{nearest:1e-4,
 farthest:1});Object.assign(o,B(m("pad")).size),Object.assign(o,D(s.source,B(m("pad")),y.margin));let r=new lt(
-i,t,y,s,n),a=await r.choose(e,o),h=new z(e,s,a,U(y.outline)),c=new at(y,{stage:r,editing:h,view:o},async()=>{
+i,t,y,s,n),a=await r.choose(e,o),h=new j(e,s,a,U(y.outline)),c=new at(y,{stage:r,editing:h,view:o},async()=>{
 let u=await Fe();return await u.map({type:"points",points:r.points}),u});h.begin(y.poses[0]),y.motion&&
 await c.film.load(await tn(y.motion),y.poses),Object.assign(Ce,{view:o,editing:h});let{dataset:l}=document.
 documentElement;l.mover=r.mover,l.frame=r.frameTime.toFixed(1),l.ready="true"}en().catch(i=>{let t=m(
