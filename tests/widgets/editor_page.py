@@ -244,12 +244,13 @@ def line(start: Sequence[float], end: Sequence[float], count: int) -> list[list[
     ]
 
 
-def choose_view(page: Page, label: str) -> None:
-    """Choose an item of the menu of what the canvas shows."""
+def choose_view(page: Page, label: str, closes: bool = False) -> None:
+    """Choose an item of the menu of what the canvas shows. Some items close it."""
     menu = page.locator(".glid-view-menu")
     page.locator(".glid-view-button").click()
     menu.get_by_text(label, exact=True).click()
-    page.keyboard.press("Escape")
+    if not closes:
+        page.keyboard.press("Escape")
     menu.wait_for(state="hidden")
 
 

@@ -103,7 +103,10 @@ def test_controls_and_overlays(open_notebook: OpenNotebook) -> None:
     hand.drag(line(THREE[1], [5.0, 2.5], 10))
     hand.wait_for_target(1, [5.0, 2.5])
     page = book.page
-    # Each plot has a name and an explanation, on hover and by its "?".
+    # One click shows the plots. Each has a name and an explanation, on hover and by its "?".
+    page.get_by_role("tab", name="Proof").click()
+    assert not page.locator(".glid-plots").is_visible()
+    page.get_by_role("button", name="Plots").click()
     for name, place in (("Energy", "Section 6"), ("Steps", "Section 9.2"), ("Time", "Section 10")):
         about = page.get_by_label(f"About the plot: {name}")
         assert place in (about.get_attribute("title") or "")
@@ -112,7 +115,7 @@ def test_controls_and_overlays(open_notebook: OpenNotebook) -> None:
         book.screenshot(f"editor-about-{name}")
         about.click()
         page.locator(".glid-guide p", has_text=place).wait_for(state="hidden")
-    page.locator(".lm-TabBar-tabLabel", has_text="Solver").click()
+    page.get_by_role("tab", name="Proof").click()
     # Single steps say what each did.
     page.get_by_title("Pause the solver").click()
     book.value("None", setup="model.drag(1, to=(5.5, 2.0))")
@@ -209,7 +212,7 @@ def test_by_keyboard_alone(open_notebook: OpenNotebook) -> None:
     hand = Hand(book)
     keys, shown = hand.page.keyboard, hand.pad.locator(".glid-help")
     hand.pad.get_by_text("Click the shape to pin a point").wait_for()
-    hand.pad.get_by_role("button", name="Keys and gestures").click()
+    hand.page.locator(".glid-tools").get_by_role("button", name="Keys and gestures").click()
     shown.get_by_text("Ctrl+Shift+Z").wait_for()
     shown.get_by_text("the shape follows, and never folds").wait_for()
     book.screenshot("editor-help")
@@ -306,8 +309,8 @@ def test_touch_drags_and_pinches(open_notebook: OpenNotebook) -> None:
     np.testing.assert_allclose(hand.place([1.0, 0.5]), target, atol=0.5)
 
 
-# The box for the numbers of pins, above the canvas.
-NUMBERS = "editor.tabs.children[1].children[0].children[0].children[1]"
+# The box for the numbers of pins.
+NUMBERS = "editor.inspector.children[0]"
 PREPARED_AS_TOLD = """
 import threading
 from glid_nb._runtime import stage
@@ -338,7 +341,7 @@ def test_while_the_solver_is_prepared_nothing_covers_the_picture_and_pins_follow
     book.value("None", setup=f"{PREPARED_AS_TOLD}model.drag(1, to=(6.5, 0.5))")
     bar.wait_for()
     page.wait_for_function("one => one.ariaValueNow === '50'", arg=bar.element_handle())
-    page.get_by_text("Preparing the solver… 50%").wait_for()  # in the status line
+    page.locator(".glid-foot").get_by_text("Preparing the solver… 50%").wait_for()
     pad, box = hand.pad.bounding_box(), bar.bounding_box()
     assert pad is not None
     assert box is not None
@@ -371,7 +374,7 @@ def test_what_is_beside_the_canvas_neither_takes_undo_nor_moves_it(
     # Undo by keys works wherever in the editor the last click was, except in a text field.
     elsewhere = (
         page.locator(".glid-tools [data-tool=select]"),
-        page.get_by_role("tab", name="Solver"),
+        page.get_by_role("tab", name="Proof"),
         page.locator(".glid-solver-panel .widget-label").first,
     )
     for left, place in zip((2, 1, 0), elsewhere, strict=True):
@@ -406,14 +409,16 @@ def test_what_is_beside_the_canvas_neither_takes_undo_nor_moves_it(
     assert book.value("len(model.pose)") == 1
 
     def places() -> list[object]:
-        parts = (".glid-pad", ".glid-files", ".glid-timeline")
+        parts = (".glid-pad", ".glid-side", ".glid-timeline")
         return [page.locator(f".glid-editor {part}").first.bounding_box() for part in parts]
 
-    # A long status moves nothing, and a notice is beside the colour bar, at every width.
+    # A long status and a refusal move nothing, and a notice is beside the colour bar.
+    page.get_by_role("tab", name="Pin").click()
     book.value("None", setup="canvas.overlay = 'energy'; stage = canvas.pane.stage")
     page.locator(".glid-legend-bar").wait_for()
-    for width in (1366, 800):
+    for width, room in ((1366, "> 800"), (800, "< 400")):
         page.set_viewport_size({"width": width, "height": 768})
+        book.wait_for(f"canvas.pane.stage.room[0] {room}")
         hand.wait_until_still()
         before = places()
         book.value("None", setup="editor.monitor.line.value = 'A long status. ' * 40")
@@ -422,7 +427,7 @@ def test_what_is_beside_the_canvas_neither_takes_undo_nor_moves_it(
         )
         book.value("None", setup=f"bars = {NUMBERS}.children[0]")
         book.value("None", setup="bars.children[0].refusal.value = '<div>Refused. </div>' * 9")
-        page.locator(".glid-column .glid-refusal").get_by_text("Refused.").first.wait_for()
+        page.locator(".glid-refusal").get_by_text("Refused.").first.wait_for()
         notice = page.locator(".glid-notice", has_text="So it is.")
         notice.wait_for()
         bar = page.locator(".glid-legend[data-corner='top left']")

@@ -61,7 +61,7 @@ def test_no_key_in_the_editor_is_the_notebooks(
     book.wait_for("model.selection == ()")
     places = (
         page.locator(".glid-tools [data-tool=select]"),
-        page.get_by_role("tab", name="Solver"),
+        page.get_by_role("tab", name="Proof"),
         page.locator(".glid-solver-panel .widget-label").first,
         page.locator(".glid-solver-panel .noUi-handle").first,
         page.locator(".glid-timeline-note"),

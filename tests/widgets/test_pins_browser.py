@@ -44,7 +44,7 @@ def test_a_ring_turns_and_scales_and_the_list_takes_numbers(open_notebook: OpenN
     ).hover()
     page.locator(".glid-tools [data-tool=stiff]").click()
     page.get_by_title("Of the brush").hover()
-    assert not any(page.locator(".glid-column label[title=null]").all_inner_texts())
+    assert not any(page.locator(".glid-side label[title=null]").all_inner_texts())
     page.keyboard.press("Escape")
     field = page.get_by_label("Angle °")
     field.fill("much")

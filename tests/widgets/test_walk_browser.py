@@ -115,8 +115,8 @@ def test_a_cut_out(
     page.keyboard.press("?")
     shot("help")
     page.keyboard.press("Escape")
-    page.get_by_role("tab", name="Solver").click()
-    shot("solver")
+    page.get_by_role("tab", name="Proof").click()
+    shot("proof")
 
     # The kernel is restarted. The work comes back, is saved, exported and opened again.
     page.evaluate(RESTART)

@@ -64,26 +64,21 @@ s movement becomes keyframes.";if(reason)return reason;if(spans.some(({status})=
 return"Proving the motion between poses…";const last=spans.at(-1);if(!last)return count<2?"Keep a \
 second pose to see the motion between them.":"";const least=Math.min(...spans.flatMap(({sigma2})=>sigma2));
 const lasts=seconds(last.end-spans[0].start);return`Proved at every instant of ${lasts}: σ₂ ≥ ${least.
-toFixed(3)}.`}var EASINGS=[["linear","Even"],["in","Ease in"],["out","Ease out"],["in-out","Ease in, out"]];var REPEATS=[
-["once","Once"],["loop","Loop"],["ping-pong","Ping-pong"]];var ONION="Onion skin: outlines of the po\
-ses before (blue) and after (orange) the edited pose";var KEEP="Keep this pose and continue with a c\
-opy; between poses, keep the shown shape";var Bar=class{recording=false;onionOn=false;constructor({play,
-keep,act,edit}){this.play=iconButton("play","Play, pause (Space)",play);this.repeat=menu("Play once,\
- in a loop, or there and back",REPEATS,repeat=>act("set_repeat",{repeat}));this.clock=make("span",{className:"\
-glid-time",role:"timer"});this.record=iconButton("record","Record: keep the next drag as keyframes",
-()=>act("record",{on:!this.recording}));this.onion=iconButton("onion",ONION,()=>act("onion",{on:!this.
-onionOn}));this.keep=make("button",{className:"glid-keep",title:KEEP,onclick:keep});const copy=iconButton(
-"copy","Duplicate this pose",()=>edit("duplicate_pose"));this.remove=iconButton("trash","Delete this\
- pose (Delete)",()=>edit("delete_pose"));this.name=make("input",{type:"text","aria-label":"Name of t\
-he pose",title:"Name of the pose",maxLength:200,onchange:()=>edit("rename_pose",{name:this.name.value})});
-this.easing=menu("How the motion leaves this pose",EASINGS,easing=>edit("set_easing",{easing}));this.
-save=iconButton("export","Export the motion",()=>act("export"));this.element=make("div",{className:"\
-glid-bar",role:"toolbar","aria-label":"Motion"},...[this.play,this.repeat,this.clock,gap()],...[this.
-record,this.onion,gap()],...[this.keep,copy,this.remove,this.name,this.easing,this.save])}update({keyframes,
-active,repeat,recording,onion,exports},moved){const{name,easing}=keyframes[active];const alone=keyframes.
-length<2;this.repeat.value=repeat;this.easing.value=easing;if(document.activeElement!==this.name||moved)
-this.name.value=name;this.remove.disabled=alone;for(const control of[this.play,this.save,this.repeat,
-this.easing]){control.disabled=alone}this.save.hidden=!exports;this.recording=recording;this.onionOn=
+toFixed(3)}.`}var REPEATS=[["once","Once"],["loop","Loop"],["ping-pong","Ping-pong"]];var ONION="Onion skin: outli\
+nes of the poses before (blue) and after (orange) the edited pose";var KEEP="Keep this pose and cont\
+inue with a copy; between poses, keep the shown shape";var Bar=class{recording=false;onionOn=false;constructor({
+play,keep,act,edit}){this.play=iconButton("play","Play, pause (Space)",play);this.repeat=menu("Play \
+once, in a loop, or there and back",REPEATS,repeat=>act("set_repeat",{repeat}));this.clock=make("spa\
+n",{className:"glid-time",role:"timer"});this.record=iconButton("record","Record: keep the next drag\
+ as keyframes",()=>act("record",{on:!this.recording}));this.onion=iconButton("onion",ONION,()=>act("\
+onion",{on:!this.onionOn}));this.keep=make("button",{className:"glid-keep",title:KEEP,onclick:keep});
+const copy=iconButton("copy","Duplicate this pose",()=>edit("duplicate_pose"));this.remove=iconButton(
+"trash","Delete this pose (Delete)",()=>edit("delete_pose"));this.save=iconButton("export","Export t\
+he motion",()=>act("export"));this.element=make("div",{className:"glid-bar",role:"toolbar","aria-lab\
+el":"Motion"},...[this.play,this.repeat,this.clock,gap()],...[this.record,this.onion,gap()],...[this.
+keep,copy,this.remove,gap(),this.save])}update({keyframes,repeat,recording,onion,exports}){const alone=keyframes.
+length<2;this.repeat.value=repeat;this.remove.disabled=alone;for(const control of[this.play,this.save,
+this.repeat]){control.disabled=alone}this.save.hidden=!exports;this.recording=recording;this.onionOn=
 onion;this.record.ariaPressed=String(recording);this.onion.ariaPressed=String(onion)}showTime(place,end,playing,between){
 const does=playing?"pause":"play";if(this.play.dataset.does!==does)this.play.innerHTML=icon(does);this.
 play.dataset.does=does;this.clock.textContent=`${place.toFixed(2)} / ${seconds(end)}`;this.keep.textContent=
@@ -197,7 +192,7 @@ const end=this.spans.at(-1)?.end??keyframes[keyframes.length-1].time;this.track.
 this.bar.showTime(place,end,playing,seen&&keyAt(keyframes,place)<0)}showKeys(){this.track.showKeys(this.
 shown,this.model.get("thumbnails"))}showState(){const{keyframes,active}=this.shown;const now=`${active}\
 /${keyframes.length}`;const moved=this.root.dataset.active!==now;this.root.dataset.active=now;this.bar.
-update(this.shown,moved);this.showKeys();this.showMotion();if(moved||!this.player.seen)this.release()}showMotion(){
+update(this.shown);this.showKeys();this.showMotion();if(moved||!this.player.seen)this.release()}showMotion(){
 const{player,shown,spans}=this;const intervals=spans.map(span=>({...span,floats:toFloats(span.floats)}));
 player.set(intervals,shown.repeat);const computing=spans.some(({status})=>status==="computing");if(shown.
 kernel&&!player.playing&&player.seen&&computing)this.release();this.tell();this.track.showSpans(spans,
@@ -208,16 +203,16 @@ time)??null:null;stage.trigger("glid:motion",moving?floats??true:null,this.#play
 shown.kernel)return this.act("frame",{time:time??null,replaces:"frame"})}#keep(){const{player}=this;
 this.act("keep",{time:player.seen?player.place:this.active.time})}#selectHere(){const index=keyAt(this.
 shown.keyframes,this.player.place);if(index>=0)this.select(index)}#typing(e){return this.bar.element.
-contains(e.target)}#keydown(e){const history=e.target===this.bar.name?null:undoOrRedo(e);if(!history&&
-(e.ctrlKey||e.metaKey))return;e.stopPropagation();const does=this.#typing(e)?null:this.#keyDoes(e);if(!history&&
-!does)return;e.preventDefault();if(history)this.act(history);else does?.()}#keyDoes(e){const{keyframes}=this.
-shown;switch(e.key){case" ":return()=>void(e.repeat||this.player.play());case"ArrowLeft":return()=>this.#step(
-e,-1);case"ArrowRight":return()=>this.#step(e,1);case"Delete":case"Backspace":return()=>void this.edit(
-"delete_pose");case"Home":return()=>this.select(0);case"End":return()=>this.select(keyframes.length-
-1);case"Escape":return()=>{this.track.drop();this.release()};default:return null}}#step(e,sign){const{
-player,track}=this;const{keyframes,active}=this.shown;if(e.altKey){const time=track.landing(active,this.
-active.time+sign*NUDGE);this.edit("move_pose",{time})}else if(e.shiftKey){this.select(nextKey(keyframes,
-player.place,sign)??active)}else{player.scrub(player.place+sign*STEP)}}};function render(context){const{model,el,signal}=context;const timeline=new Timeline(context);const{player}=timeline;
+contains(e.target)}#keydown(e){const history=undoOrRedo(e);if(!history&&(e.ctrlKey||e.metaKey))return;
+e.stopPropagation();const does=this.#typing(e)?null:this.#keyDoes(e);if(!history&&!does)return;e.preventDefault();
+if(history)this.act(history);else does?.()}#keyDoes(e){const{keyframes}=this.shown;switch(e.key){case"\
+ ":return()=>void(e.repeat||this.player.play());case"ArrowLeft":return()=>this.#step(e,-1);case"Arro\
+wRight":return()=>this.#step(e,1);case"Delete":case"Backspace":return()=>void this.edit("delete_pose");case"\
+Home":return()=>this.select(0);case"End":return()=>this.select(keyframes.length-1);case"Escape":return()=>{
+this.track.drop();this.release()};default:return null}}#step(e,sign){const{player,track}=this;const{
+keyframes,active}=this.shown;if(e.altKey){const time=track.landing(active,this.active.time+sign*NUDGE);
+this.edit("move_pose",{time})}else if(e.shiftKey){this.select(nextKey(keyframes,player.place,sign)??
+active)}else{player.scrub(player.place+sign*STEP)}}};function render(context){const{model,el,signal}=context;const timeline=new Timeline(context);const{player}=timeline;
 const tapped=e=>{const target=e.target;if(target.closest(".glid-editor")===el.closest(".glid-editor"))
 player.play()};window.addEventListener("glid:play",tapped,{signal});follow(model,{"change:shown":()=>timeline.
 showState(),"change:motion":()=>timeline.showMotion(),"change:heights":()=>timeline.showHeights(),"c\

@@ -19,13 +19,6 @@ import { seconds } from "./words.js";
 /** @typedef {[value: string, label: string]} Choice */
 
 /** @type {Choice[]} */
-const EASINGS = [
-  ["linear", "Even"],
-  ["in", "Ease in"],
-  ["out", "Ease out"],
-  ["in-out", "Ease in, out"],
-];
-/** @type {Choice[]} */
 const REPEATS = [
   ["once", "Once"],
   ["loop", "Loop"],
@@ -52,38 +45,24 @@ export class Bar {
     this.keep = make("button", { className: "glid-keep", title: KEEP, onclick: keep });
     const copy = iconButton("copy", "Duplicate this pose", () => edit("duplicate_pose"));
     this.remove = iconButton("trash", "Delete this pose (Delete)", () => edit("delete_pose"));
-    this.name = make("input", {
-      type: "text",
-      "aria-label": "Name of the pose",
-      title: "Name of the pose",
-      maxLength: 200,
-      onchange: () => edit("rename_pose", { name: this.name.value }),
-    });
-    this.easing = menu("How the motion leaves this pose", EASINGS, (easing) =>
-      edit("set_easing", { easing }),
-    );
     this.save = iconButton("export", "Export the motion", () => act("export"));
     this.element = make(
       "div",
       { className: "glid-bar", role: "toolbar", "aria-label": "Motion" },
       ...[this.play, this.repeat, this.clock, gap()],
       ...[this.record, this.onion, gap()],
-      ...[this.keep, copy, this.remove, this.name, this.easing, this.save],
+      ...[this.keep, copy, this.remove, gap(), this.save],
     );
   }
 
   /**
    * @param {Shown} shown
-   * @param {boolean} moved whether another pose is edited now
    */
-  update({ keyframes, active, repeat, recording, onion, exports }, moved) {
-    const { name, easing } = keyframes[active];
+  update({ keyframes, repeat, recording, onion, exports }) {
     const alone = keyframes.length < 2;
     this.repeat.value = repeat;
-    this.easing.value = easing;
-    if (document.activeElement !== this.name || moved) this.name.value = name;
     this.remove.disabled = alone;
-    for (const control of [this.play, this.save, this.repeat, this.easing]) {
+    for (const control of [this.play, this.save, this.repeat]) {
       control.disabled = alone;
     }
     this.save.hidden = !exports;

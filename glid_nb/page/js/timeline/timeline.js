@@ -152,7 +152,7 @@ export class Timeline {
     const now = `${active}/${keyframes.length}`;
     const moved = this.root.dataset.active !== now;
     this.root.dataset.active = now;
-    this.bar.update(this.shown, moved);
+    this.bar.update(this.shown);
     this.showKeys();
     this.showMotion();
     if (moved || !this.player.seen) this.release();
@@ -208,7 +208,7 @@ export class Timeline {
 
   /** @param {KeyboardEvent} e */
   #keydown(e) {
-    const history = e.target === this.bar.name ? null : undoOrRedo(e);
+    const history = undoOrRedo(e);
     if (!history && (e.ctrlKey || e.metaKey)) return;
     e.stopPropagation();
     const does = this.#typing(e) ? null : this.#keyDoes(e);
