@@ -151,7 +151,7 @@ def test_a_walk_cycle_made_by_hand(open_notebook: OpenNotebook) -> None:
         book.wait_for(f"len(model.pose) == {i + 1}")
     for i, step in enumerate(STEPS):
         if i:
-            timeline.button("Keep this pose")
+            timeline.button("Key this pose")
             book.wait_for(f"len(editor.poses) == {i + 1} and model.state.active == {i}")
         for pin, target in enumerate(step, 1):
             start = hand.targets[pin]
@@ -221,7 +221,7 @@ def test_a_walk_cycle_made_by_hand(open_notebook: OpenNotebook) -> None:
     assert len(hand.handles) == 5
     # A map between poses is kept as a pose, and undo takes it back.
     timeline.scrub([0.5])
-    timeline.button("Keep this pose")
+    timeline.button("Key this pose")
     book.wait_for("len(editor.poses) == 6 and model.state.active == 1")
     page.keyboard.press("Control+z")
     book.wait_for("len(editor.poses) == 5")

@@ -98,7 +98,7 @@ def test_a_cut_out(
     hand.settle()
     shot("stiff-head")
     page.keyboard.press("Escape")
-    page.get_by_role("button", name="Keep", exact=True).click()
+    page.get_by_role("button", name="Key", exact=True).click()
     book.wait_for("len(editor.poses) == 2")
     raised = [PINS[1][0], PINS[1][1] + 2]
     hand.drag(line(PINS[1], raised, 10))

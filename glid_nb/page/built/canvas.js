@@ -252,10 +252,10 @@ select nothing"]]],["Poses",[["Ctrl+Z, Ctrl+Shift+Z","undo, redo"],["Ctrl+C, Ctr
  put it on this or a similar shape"],["M","swap left and right"],["0","back to the undeformed shape"]]],
 ["Stiff areas",[["B, E","paint stiff areas, erase them; Esc ends painting"]]],["View",[["Wheel, two \
 fingers","zoom"],["Middle button, Space and drag","move the view"],["F","see everything"],["P","the \
-picture alone, for lectures; Esc brings the rest back"],["W","the whole screen"]]],["Timeline",[["Sp\
-ace","play the motion through the poses, pause; on the canvas too"],["Arrow keys, Home, End","step i\
-n time, with Shift to the next pose; first, last pose"],["Alt and arrow keys","move the pose in time\
-; Delete removes it"]]]];var Legend=class{element=make("div",{className:"glid-legend"});show(model,moving){const bars=[model.
+picture alone, for lectures; Esc brings the rest back"],["W","the whole screen"]]],["Timeline",[["K",
+"make a keyframe of what is shown"],["Space","play the motion through the poses, pause; on the canva\
+s too"],["Arrow keys, Home, End","step in time, with Shift to the next pose; first, last pose"],["Al\
+t and arrow keys","move the pose in time; Delete removes it"]]]];var Legend=class{element=make("div",{className:"glid-legend"});show(model,moving){const bars=[model.
 get("legend"),model.get("panel_legend")].filter(bar=>bar.title);this.element.replaceChildren(...bars.
 map(bar=>colorBar(bar,moving)));this.element.hidden=!bars.length;this.element.dataset.corner=model.get(
 "legend_corner")}};function colorBar({title,moving,colors,ticks,about},moves){const gradient=`backgr\
@@ -275,19 +275,19 @@ ects several";var IMAGE_TIP="where the shape is now. The cyan disk is where it s
 . Another part of the shape covers it";var RING_TIPS={turn:"Drag around the pin to turn the shape th\
 ere; X frees it again",knob:"Drag around the pin to turn the shape there, away from it to scale it; \
 X frees it again"};var PinBehaviour=class{reach=REACH;keys=KEYS;constructor(canvas){this.canvas=canvas;
-this.actions={"?":canvas.help.toggle,contextmenu:()=>canvas.openMenu(),p:()=>canvas.room?.alone(),w:()=>canvas.
-room?.fullScreen()}}get painting(){return this.canvas.painting}changed(){this.canvas.redraw()}menu(place,found){
-this.canvas.openMenu(place,found)}pressedAt(){return this.canvas.pressedAt()}tapped(){this.canvas.box.
-dispatchEvent(new CustomEvent("glid:play",{bubbles:true}))}find(point,reach){const{view,marks,shapes,
-painting}=this.canvas;if(shapes.motion||painting)return null;const mark=markAt(marks,point,reach);return mark??
-ringAt(view,marks,view.toScreen(point),reach/view.unit/2)}encloses(found,e){if(found)return null;if(e.
-shiftKey)return"box";return e.ctrlKey||e.metaKey?"lasso":null}held({mark}){const{selected,targets}=this.
-canvas.marks;const pressed=Number(mark);const moved=selected.includes(pressed)?selected:[pressed];return new Map(
-moved.map(i=>[i,targets[i]]))}cursor(found){this.canvas.box.title=this.#tip(found);return found?"gra\
-b":"crosshair"}#tip(found){if(!found)return"";if(found.part)return RING_TIPS[found.part];const{marks,
-model}=this.canvas;const mark=Number(found.mark);const name=["Pin",mark+1,model.get("names")[mark]].
-join(" ").trim();const tip=found.reached?IMAGE_TIP:TARGET_TIP;return`${name}: ${tip}${marks.hidden.includes(
-mark)?COVERED:""}`}};async function copied(text){try{await navigator.clipboard.writeText(text);return true}catch{return copiedBySelection(
+this.actions={"?":canvas.help.toggle,contextmenu:()=>canvas.openMenu(),k:()=>void canvas.box.dispatchEvent(
+new CustomEvent("glid:key",{bubbles:true})),p:()=>canvas.room?.alone(),w:()=>canvas.room?.fullScreen()}}get painting(){
+return this.canvas.painting}changed(){this.canvas.redraw()}menu(place,found){this.canvas.openMenu(place,
+found)}pressedAt(){return this.canvas.pressedAt()}tapped(){this.canvas.box.dispatchEvent(new CustomEvent(
+"glid:play",{bubbles:true}))}find(point,reach){const{view,marks,shapes,painting}=this.canvas;if(shapes.
+motion||painting)return null;const mark=markAt(marks,point,reach);return mark??ringAt(view,marks,view.
+toScreen(point),reach/view.unit/2)}encloses(found,e){if(found)return null;if(e.shiftKey)return"box";
+return e.ctrlKey||e.metaKey?"lasso":null}held({mark}){const{selected,targets}=this.canvas.marks;const pressed=Number(
+mark);const moved=selected.includes(pressed)?selected:[pressed];return new Map(moved.map(i=>[i,targets[i]]))}cursor(found){
+this.canvas.box.title=this.#tip(found);return found?"grab":"crosshair"}#tip(found){if(!found)return"";
+if(found.part)return RING_TIPS[found.part];const{marks,model}=this.canvas;const mark=Number(found.mark);
+const name=["Pin",mark+1,model.get("names")[mark]].join(" ").trim();const tip=found.reached?IMAGE_TIP:
+TARGET_TIP;return`${name}: ${tip}${marks.hidden.includes(mark)?COVERED:""}`}};async function copied(text){try{await navigator.clipboard.writeText(text);return true}catch{return copiedBySelection(
 text)}}function copiedBySelection(text){const focused=document.activeElement;const area=document.createElement(
 "textarea");area.value=text;area.setAttribute("readonly","");Object.assign(area.style,{position:"fix\
 ed",top:"0",left:"0",opacity:"0"});document.body.append(area);area.select();try{return document.execCommand(

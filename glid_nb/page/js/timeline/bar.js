@@ -25,7 +25,14 @@ const REPEATS = [
   ["ping-pong", "Ping-pong"],
 ];
 const ONION = "Onion skin: outlines of the poses before (blue) and after (orange) the edited pose";
-const KEEP = "Keep this pose and continue with a copy; between poses, keep the shown shape";
+const KEY =
+  "Key this pose and continue with a copy (K); at another time, key the shape that is shown there";
+/** @type {[kind: string, label: string][]} */
+const LEGEND = [
+  ["proved", "proved"],
+  ["computing", "not yet"],
+  ["refused", "not proved"],
+];
 
 export class Bar {
   recording = false;
@@ -42,7 +49,7 @@ export class Bar {
       act("record", { on: !this.recording }),
     );
     this.onion = iconButton("onion", ONION, () => act("onion", { on: !this.onionOn }));
-    this.keep = make("button", { className: "glid-keep", title: KEEP, onclick: keep });
+    this.keep = make("button", { className: "glid-keep", title: KEY, onclick: keep }, "Key");
     const copy = iconButton("copy", "Duplicate this pose", () => edit("duplicate_pose"));
     this.remove = iconButton("trash", "Delete this pose (Delete)", () => edit("delete_pose"));
     this.save = iconButton("export", "Export the motion", () => act("export"));
@@ -76,15 +83,21 @@ export class Bar {
    * @param {number} place of the playhead
    * @param {number} end
    * @param {boolean} playing
-   * @param {boolean} between whether a time between the poses is seen
    */
-  showTime(place, end, playing, between) {
+  showTime(place, end, playing) {
     const does = playing ? "pause" : "play";
     if (this.play.dataset.does !== does) this.play.innerHTML = icon(does);
     this.play.dataset.does = does;
     this.clock.textContent = `${place.toFixed(2)} / ${seconds(end)}`;
-    this.keep.textContent = between ? "Keep it" : "Keep";
   }
+}
+
+/** What the colours of the strip mean. */
+export function legend() {
+  const parts = LEGEND.map(([kind, label]) => {
+    return make("span", {}, make("i", { className: `glid-piece glid-${kind}` }), label);
+  });
+  return make("div", { className: "glid-proof-legend", "aria-hidden": true }, ...parts);
 }
 
 function gap() {
