@@ -19,6 +19,7 @@ const WIDGETS = {
   live_editor: "live_editor/main.js",
   loader: "pad/loader.js",
   timeline: "timeline/main.js",
+  toolbar: "toolbar/main.js",
   tracer: "tracer/main.js",
 };
 const SCRIPTS = { exported: "exported/main.js" };
@@ -32,6 +33,7 @@ const STYLES = {
   canvas: "canvas/canvas.css",
   exported: "exported/exported.css",
   timeline: "timeline/timeline.css",
+  toolbar: "toolbar/toolbar.css",
   tracer: "tracer/tracer.css",
 };
 

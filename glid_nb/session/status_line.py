@@ -20,6 +20,8 @@ class StatusLine:
 
     level: Level
     text: str
+    proved: str = ""
+    """What is proved of the map at rest, in plain words; empty if nothing is said of it."""
 
 
 def describe(moment: Moment) -> StatusLine:
@@ -44,9 +46,10 @@ def describe(moment: Moment) -> StatusLine:
     if not moment.paused and not moment.solved and frame is None:
         return StatusLine("idle", "Not solved yet")
     level, text = ("idle", "Paused") if moment.paused else _ended(moment)
-    mesh = moment.comparison
-    proof = _proof(certificate_of(moment.map)) if mesh is None else uncertified(mesh)
-    return StatusLine(level, f"{text} · {proof}")
+    if (mesh := moment.comparison) is not None:
+        return StatusLine(level, f"{text} · {uncertified(mesh)}")
+    certificate = certificate_of(moment.map)
+    return StatusLine(level, f"{text} · {_proof(certificate)}", in_plain_words(certificate))
 
 
 def _ended(moment: Moment) -> tuple[Level, str]:
@@ -78,6 +81,13 @@ def _bound(frame: Frame | None) -> str:
     if frame is None or frame.certificate is None:
         return ""
     return f" · certified σ₂ ≥ {rounded_down(frame.certificate.sigma2_lower)}"
+
+
+def in_plain_words(certificate: Certificate) -> str:
+    """What a certificate proves; empty if it proves nothing."""
+    if not certificate.certified:
+        return ""
+    return f"Proved: never folds, worst squeeze {rounded_down(certificate.sigma2_lower, 2)}"
 
 
 def _proof(certificate: Certificate) -> str:

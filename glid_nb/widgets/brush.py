@@ -86,7 +86,7 @@ class BrushBar(EditControls):
     """Controls of a brush. They replace ``other`` while the brush has a tool."""
 
     def __init__(self, deformation: Deformation, brush: Brush, other: ipywidgets.DOMWidget) -> None:
-        look: Any = {"layout": {"width": "210px"}, "style": {"description_width": "68px"}}
+        look: Any = {"layout": {"width": "auto"}, "style": {"description_width": "60px"}}
         most = _LARGEST_RADIUS * deformation.state.domain.cage.longer_side
         size = {"min": most / 50, "max": most, "step": most / 50, "tooltip": "Of the brush"}
         self.size = ipywidgets.FloatSlider(description="Size", readout=False, **size, **look)
@@ -94,17 +94,19 @@ class BrushBar(EditControls):
         self.strength = ipywidgets.FloatSlider(description="Strength", readout_format=".1f", **look)
         ipywidgets.link((brush, "radius"), (self.size, "value"))
         ipywidgets.link((brush, "strength"), (self.strength, "value"))
-        self.erase = toggle("", "eraser", "Erase (E)", {"width": "auto"})
+        self.erase = toggle("Erase", "eraser", "Erase (E)", {"width": "auto"})
         answer_during_cells(self.erase)  # in the pad's thread: before the stroke that follows
         chosen = lambda tool: tool == "erase", lambda on: "erase" if on else "stiff"
         ipywidgets.link((brush, "tool"), (self.erase, "value"), chosen)
         clear = functools.partial(self._act, lambda: deformation.set_stiffness(Stiffness()))
         self.clear = button("Clear", "trash", "Erase all stiff areas", clear)
-        shown = [self.size, self.strength, self.erase, self.clear]
-        super().__init__(deformation, [ipywidgets.HBox(shown)])
-        this, that = (self.layout, "visibility"), (other.layout, "visibility")
-        ipywidgets.dlink((brush, "tool"), this, lambda tool: None if tool else "hidden")
-        ipywidgets.dlink((brush, "tool"), that, lambda tool: "hidden" if tool else None)
+        buttons = ipywidgets.HBox([self.erase, self.clear]).add_class("glid-wide")
+        shown = [self.size, self.strength, buttons]
+        super().__init__(deformation, [ipywidgets.GridBox(shown)])
+        self.children[0].add_class("glid-pin")
+        this, that = (self.layout, "display"), (other.layout, "display")
+        ipywidgets.dlink((brush, "tool"), this, lambda tool: None if tool else "none")
+        ipywidgets.dlink((brush, "tool"), that, lambda tool: "none" if tool else None)
 
     def _show(self) -> None:
         self.clear.disabled = not self.deformation.pose.stiffness

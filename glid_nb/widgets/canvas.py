@@ -1,4 +1,4 @@
-"""The deformation canvas, a picture that follows its handles, and the buttons above it."""
+"""The deformation canvas: a picture that follows its handles."""
 
 import functools
 import time
@@ -23,22 +23,14 @@ from glid_nb.session.deformation import Deformation
 from glid_nb.session.edit_state import EditState, Moment
 from glid_nb.widgets.brush import BrushGestures, painted_areas
 from glid_nb.widgets.closing import ClosingWidget
-from glid_nb.widgets.controls import button, toggle
 from glid_nb.widgets.gestures import Event
 from glid_nb.widgets.layers import EvaluatedIn
 from glid_nb.widgets.overlays import OVERLAYS
-from glid_nb.widgets.pad import answer_during_cells
 from glid_nb.widgets.page_solver import PageSolver
 from glid_nb.widgets.pane import Pane
 from glid_nb.widgets.scene import Drawing, Range
 
 _INTERVAL = 0.2  # least seconds between updates of panels, colours and hidden pins in a drag
-_TOGGLES = (
-    ("show_cage", "Cage", "Draw the cage"),
-    ("show_offset_cage", "Offset", "Draw the offset cage, which carries the basis"),
-    ("show_panels", "Certificate", "Colour the boundary by its certified margin"),
-    ("show_source", "Source", "Show the undeformed shape beside the result"),
-)
 _SOURCE_SHARE = 0.4  # share of the width for the undeformed shape
 _LEAST_SIZE, _USUAL_SIZE = 100, (600, 500)  # CSS pixels
 _NARROW = 480  # CSS pixels; a canvas with less room, as on a phone, is as high as it is wide
@@ -355,44 +347,6 @@ def _ring(moment: Moment) -> tuple[float, ...]:
     angle, scale = (float(values[0]) for values in turned_now(moment.state, [last]))
     wanted = (float(not np.isnan(values[last])) for values in (pose.angles, pose.scales))
     return round(angle, 4), round(scale, 4), *wanted
-
-
-class Toolbar(ClosingWidget, ipywidgets.HBox):
-    """Buttons for undo, redo, reset, fit, and the display of the canvas."""
-
-    def __init__(self, canvas: DeformCanvas, **kwargs: Any) -> None:
-        self.deformation = model = canvas.deformation
-        # Buttons share layouts, because every widget delays the first canvas.
-        narrow, fitting = ipywidgets.Layout(width="34px"), ipywidgets.Layout(width="auto")
-        self.undo = button("", "undo", "Undo (Ctrl+Z)", model.undo, narrow)
-        self.redo = button("", "repeat", "Redo (Ctrl+Shift+Z)", model.redo, narrow)
-        self.reset = button("", "home", "The undeformed shape (0)", model.reset, narrow)
-        self.fit = button("", "expand", "Make everything visible (F)", canvas.fit, narrow)
-        self.overlay = ipywidgets.Dropdown(
-            options=[(overlay.label, name) for name, overlay in OVERLAYS.items()],
-            tooltip="What the shape shows",
-            layout={"flex": "1 1 72px", "min_width": "72px", "max_width": "136px"},
-        )
-        self.toggles: dict[str, ipywidgets.ToggleButton] = {}
-        ipywidgets.link((canvas, "overlay"), (self.overlay, "value"))
-        for name, label, tooltip in _TOGGLES:
-            self.toggles[name] = toggle(label, "", tooltip, fitting)
-            ipywidgets.link((canvas, name), (self.toggles[name], "value"))
-        self.stiff = toggle("Stiff", "paint-brush", "Paint what should stay as it is (B)", fitting)
-        answer_during_cells(self.stiff)  # in the pad's thread: before the stroke that follows
-        chosen = bool, lambda on: "stiff" if on else ""
-        ipywidgets.link((canvas.brush, "tool"), (self.stiff, "value"), chosen)
-        kwargs = {"layout": {"flex_flow": "row wrap"}, **kwargs}
-        always = [self.undo, self.redo, self.reset, self.fit, self.overlay]
-        super().__init__([*always, *self.toggles.values(), self.stiff], **kwargs)
-        self.add_class("glid-tools")
-        self._show("state")
-        self._endings = (model.observe(self._show),)
-
-    def _show(self, what: str) -> None:
-        if what == "state":
-            model = self.deformation
-            self.undo.disabled, self.redo.disabled = not model.can_undo, not model.can_redo
 
 
 def check_size(least: int, n_vertices: Any, **sides: Any) -> tuple[int, int]:

@@ -2,7 +2,7 @@
 
 import html
 import threading
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import ipywidgets
@@ -33,6 +33,43 @@ def button(
 def toggle(label: str, icon: str, tooltip: str, layout: Any) -> ipywidgets.ToggleButton:
     """A button that stays pressed."""
     return ipywidgets.ToggleButton(description=label, icon=icon, tooltip=tooltip, layout=layout)
+
+
+def heading(text: str) -> ipywidgets.HTML:
+    """The title of a part of the inspector."""
+    return ipywidgets.HTML(f"<h4>{html.escape(text)}</h4>").add_class("glid-heading")
+
+
+class FieldRows(ipywidgets.GridBox):
+    """Rows of labels and controls. Changes, also by `show`, call ``on_change(name, value)``."""
+
+    def __init__(
+        self,
+        controls: Mapping[str, tuple[str, Any]],
+        on_change: Callable[[str, Any], None] | None = None,
+    ) -> None:
+        self._on_change = on_change
+        columns = "96px minmax(0, 1fr)"
+        super().__init__([], layout={"grid_template_columns": columns, "grid_gap": "2px 8px"})
+        self.build(controls)
+
+    def build(self, controls: Mapping[str, tuple[str, Any]]) -> None:
+        """Show these rows. ``controls`` has a label and a control for each field's name."""
+        old = self.children
+        self.controls: dict[str, Any] = {name: one for name, (_, one) in controls.items()}
+        if (act := self._on_change) is not None:
+            for name, control in self.controls.items():
+                control.observe(lambda change, name=name: act(name, change["new"]), "value")
+        rows = ((ipywidgets.Label(label), control) for label, control in controls.values())
+        self.children = [part for row in rows for part in row]
+        self.layout.display = "none" if not controls else None
+        for part in old:
+            part.close()
+
+    def show(self, value: Any) -> None:
+        """Show the fields of a value."""
+        for name, control in self.controls.items():
+            control.value = getattr(value, name)
 
 
 class EditControls(ClosingWidget, ipywidgets.VBox):

@@ -33,21 +33,24 @@ from glid_nb.session.status_line import StatusLine
 from glid_nb.solvers import Method
 from glid_nb.widgets import exporting
 from glid_nb.widgets.brush import BrushBar
-from glid_nb.widgets.canvas import DeformCanvas, Toolbar, check_size
+from glid_nb.widgets.canvas import DeformCanvas, check_size
 from glid_nb.widgets.closing import ClosingWidget, close_with_parts, one_a_cell
 from glid_nb.widgets.controls import REFUSED, paragraph
 from glid_nb.widgets.file_panel import FilePanel, KeptOffer, OpenPanel
 from glid_nb.widgets.live_editor import LiveEditor
 from glid_nb.widgets.monitor import SolverMonitor
+from glid_nb.widgets.motion_panel import MotionPanel
 from glid_nb.widgets.pins import PinBar
 from glid_nb.widgets.solver_panel import SolverPanel
 from glid_nb.widgets.timeline import TimelinePanel
+from glid_nb.widgets.toolbar import Toolbar
 from glid_nb.widgets.tracer import CageTracer
 
 _TRACE, _DEFORM = 0, 1
-_FILES = 2  # of the tabs beside the canvas
+_PIN, _FILES = 0, 2  # of the inspector's sections
 _LEAST_SIZE = 240  # CSS pixels, of the Trace tab, and of a canvas whose corner is dragged
-_SIDE_WIDTH, _PLOTS_HEIGHT = 460, 382  # CSS pixels
+_PLOTS_SIZE = 460, 382  # CSS pixels
+_PLOTS = "Show energy, steps and certificate of the solve"
 _EMPTY = "<p style='padding:2em'>Open a picture in the Trace tab; the shape appears here.</p>"
 
 _LEFT = (
@@ -55,7 +58,7 @@ _LEFT = (
 )
 _NOT_SAVED = (
     "The session could not be saved: {error}. The next change tries again; "
-    "Save in the Files tab writes it elsewhere."
+    "Save in the section Files writes it elsewhere."
 )
 
 
@@ -77,6 +80,7 @@ class Editor(ClosingWidget, ipywidgets.VBox):
     mesh for the picture; by default 10,000, or as many as the page draws within 40 ms. The shape of
     a photograph is cut out (`cut_out`). ``background`` is what lies behind it at first, by default
     that of the session file.
+    With ``plots``, plots of energy, steps and certificate are shown at first.
 
     Raises a TraceError when the picture cannot be read, a DocumentError when the session file
     cannot be read or belongs to another picture, a TypeError or ValueError for a wrong size.
@@ -95,6 +99,7 @@ class Editor(ClosingWidget, ipywidgets.VBox):
     """
 
     _displayed = False
+    _section: int | None = _PIN  # of the inspector, before a brush was chosen
     _told_path: Path | None = None
     _live: tuple[Domain, LiveEditor] | None = None
     _layers: Layers | None = None  # what the canvas draws
@@ -110,9 +115,11 @@ class Editor(ClosingWidget, ipywidgets.VBox):
         height: int | None = None,
         n_vertices: int | None = None,
         background: Behind = None,
+        plots: bool = False,
         **kwargs: Any,
     ) -> None:
         self._size = check_size(_LEAST_SIZE, n_vertices, width=width, height=height)
+        self._plots = plots
         self._asked = {"width": width, "height": height, "n_vertices": n_vertices}
         once_loaded(enable_compilation_cache)
         document = None if path is None else find_document(path)
@@ -206,12 +213,12 @@ class Editor(ClosingWidget, ipywidgets.VBox):
 
     @property
     def solver_panel(self) -> SolverPanel:
-        """The Solver tab beside the canvas."""
+        """The solver's controls in the section Proof."""
         return self._part("solver")
 
     @property
     def files(self) -> FilePanel:
-        """The Files tab beside the canvas."""
+        """The section Files beside the canvas."""
         return self._part("files")
 
     # From code
@@ -402,6 +409,7 @@ class Editor(ClosingWidget, ipywidgets.VBox):
         makers: dict[str, Callable[[], ipywidgets.Widget]] = {
             "tracer": lambda: CageTracer(model=self.model.tracing, height=self._asked["height"]),
             "pins": self._bars,
+            "motion": lambda: MotionPanel(self.deformation, self._open_files),
             "solver": lambda: SolverPanel(self.deformation),
             "files": lambda: FilePanel(self.model, self.timeline.animation),
         }
@@ -422,41 +430,54 @@ class Editor(ClosingWidget, ipywidgets.VBox):
         pins = PinBar(self.deformation)
         return ipywidgets.VBox([pins, BrushBar(self.deformation, self.canvas.brush, pins)])
 
+    def _show_brush(self, change: Any) -> None:
+        """Show the brush's controls while there is a brush, then the section that was open."""
+        self.deformation.tell("hand")
+        if not change["old"]:
+            self._section = self.inspector.selected_index
+        if change["new"]:
+            self.inspector.selected_index = _PIN
+        elif self.inspector.selected_index == _PIN:
+            self.inspector.selected_index = self._section
+
     def _deform_tab(self) -> ipywidgets.Widget:
         model, layers = self.model.deformation, self.model.layers
         self._layers = layers
         shown = {**self._asked, "background": layers.background}
         self.canvas = canvas = DeformCanvas(layers.image, model, **shown)
-        self.toolbar = Toolbar(self.canvas)
-        self.monitor = monitor = SolverMonitor(model, _SIDE_WIDTH, _PLOTS_HEIGHT)
+        self.monitor = monitor = SolverMonitor(model, *_PLOTS_SIZE, self._plots)
+        self.toolbar = Toolbar(self.canvas, monitor)
         # Make the hidden parts only when the model rests, and the pins' numbers after the first
         # gesture. So the first drag has the processor for itself.
         monitor.observe(lambda _: self._fill_at_rest(), ["rested"])
         canvas.pane.stage.observe(lambda _: self._fill_at_rest(), ["drawn"])
-        canvas.brush.observe(lambda _: model.tell("hand"), ["tool"])
+        canvas.brush.observe(self._show_brush, ["tool"])
         model.observe(lambda what: self._fill("pins") if what == "hand" else None)
         model.observe(lambda what: self._show_layers() if what == "state" else None)
         self.timeline = TimelinePanel(self.canvas, self._open_files)
         # Fill these boxes later: if the tab's children changed, the page would select another tab.
-        self._boxes |= {"solver": ipywidgets.VBox(), "files": ipywidgets.VBox()}
-        bars = self._boxes["pins"] = ipywidgets.VBox().add_class("glid-bars")
-        self._side = ipywidgets.Tab(
-            [self.monitor.plots, self._boxes["solver"], self._boxes["files"]],
-            titles=("Monitor", "Solver", "Files"),
-            layout={"min_height": f"{_PLOTS_HEIGHT + 64}px"},
+        names = "pins", "motion", "files", "solver"
+        self._boxes |= {name: ipywidgets.VBox() for name in names}
+        self._boxes["pins"].add_class("glid-bars")
+        plots_shown = ipywidgets.ToggleButton(
+            description="Plots", icon="line-chart", tooltip=_PLOTS
         )
-        self._side.observe(lambda _: self._fill(), ["selected_index"])
-        line = self.monitor.line
-        line.layout.height, line.layout.overflow = "44px", "hidden auto"  # for any length of text
-        side = ipywidgets.VBox([self._side], layout={"width": f"{_SIDE_WIDTH + 38}px"})
-        side.add_class("glid-side")
-        left = ipywidgets.VBox([self.toolbar, bars, self.canvas, self.timeline, line])
-        left.add_class("glid-column")
-        wrapped = {"align_items": "flex-start", "flex_flow": "row wrap", "overflow": "visible"}
-        return ipywidgets.HBox([left, side], layout=wrapped)
+        ipywidgets.link((monitor, "shown"), (plots_shown, "value"))
+        proof = ipywidgets.VBox([monitor.verdict, plots_shown, self._boxes["solver"]])
+        sections = [*(self._boxes[name] for name in names[:-1]), proof]
+        titles = "Pin", "Motion", "Files", "Proof"
+        self.inspector = ipywidgets.Tab(sections, titles=titles, selected_index=_PIN)
+        """The sections beside the canvas."""
+        self.inspector.observe(lambda _: self._fill(), ["selected_index"])
+        self.inspector.add_class("glid-skin").add_class("glid-side")
+        plots = monitor.plots.add_class("glid-plots-box")
+        visible = (plots.layout, "display"), lambda shown: None if shown else "none"
+        ipywidgets.dlink((monitor, "shown"), *visible)
+        parts = [self.toolbar, canvas, self.inspector, self.timeline, monitor.line, plots]
+        return ipywidgets.GridBox(parts).add_class("glid-shell")
 
     def _open_files(self) -> None:
-        self._side.selected_index = _FILES
+        self.inspector.selected_index = _FILES
         self.files.show_motion()
 
     def _take_down(self) -> None:

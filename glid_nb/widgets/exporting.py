@@ -253,7 +253,7 @@ class MotionExport(ClosingWidget, ipywidgets.HBox):
         self._running = (self.progress, self.cancel)
         self._show(False)
         px, fps = (ipywidgets.Label(text, layout={"flex": "0 0 auto"}) for text in ("px", "fps"))
-        layout = {"flex": "1 1 auto", "min_width": "0"}
+        layout = {"flex": "1 1 auto", "min_width": "0", "flex_flow": "row wrap"}
         super().__init__([self.size, px, self.rate, fps, *self._running], layout=layout)
         self._endings = (self.worker.close,)
 

@@ -21,13 +21,12 @@ from glid_nb.session.document import DocumentError
 from glid_nb.session.editor_model import EditorModel, open_document
 from glid_nb.session.script import python_code
 from glid_nb.widgets import exporting
-from glid_nb.widgets.controls import REFUSED, button, paragraph
+from glid_nb.widgets.controls import REFUSED, button, heading, paragraph
 
 _SUFFIX = ".glid"
 DOUBLE_CLICK = 0.5  # seconds
 _MOTION = "motion"  # prefix of the suffixes of motions in the menu
 _MOVING = {".html": ".motion", ".glb": ".motion", ".zip": ".frames"}  # inserted before these
-_LABEL = {"width": "58px", "flex": "0 0 auto"}
 _WIDE = {"width": "auto", "min_width": "0", "flex": "1 1 auto"}
 _VIEWS = (("Whole shape", "fit"), ("Original frame", "source"))
 _NO_AUTOSAVE = (
@@ -207,7 +206,7 @@ class FilePanel(Asking, ipywidgets.VBox):
         self.height = ipywidgets.Label(layout={"flex": "0 0 auto"})
         self.view = ipywidgets.Dropdown(options=_VIEWS, tooltip="What it shows", layout=_WIDE)
         """The view of an exported picture, as in `glid_nb.render`."""
-        self.picture = _row("Picture", self.width, self.height, self.view)
+        self.picture = _row(self.width, self.height, self.view)
         self.look = exporting.LookChoice(model, layout=_WIDE)
         """What lies behind the shape, on the canvas and in exports."""
         self.code = ipywidgets.Textarea(rows=9, layout={"width": "auto", "display": "none"})
@@ -215,18 +214,20 @@ class FilePanel(Asking, ipywidgets.VBox):
         self.clipboard = Clipboard()
         self.message = ipywidgets.HTML()  # what was done, or why it was refused
         self._add_buttons()
-        self._moving = _row("Motion", *([] if self.motion is None else [self.motion]))
+        self._moving = _row(*([] if self.motion is None else [self.motion]))
         super().__init__(
             [
-                # Names and formats have whole rows, because they are long.
-                _row("Session", self.path),
-                _row("", self.save_button, self.open_button),
-                _row("", self.autosave),
-                _row("Behind", self.look),
-                _row("Export", self.format),
+                heading("Session"),
+                self.path,
+                _row(self.save_button, self.open_button),
+                self.autosave,
+                heading("Background"),
+                self.look,
+                heading("Export"),
+                self.format,
                 self.picture,
                 self._moving,
-                _row("", self.export_button, self.download_button, self.code_button),
+                _row(self.download_button, self.export_button, self.code_button),
                 self.clipboard,
                 self.message,
                 self.code,
@@ -363,5 +364,5 @@ class FilePanel(Asking, ipywidgets.VBox):
         self.autosave.value = paragraph(text, "color:var(--jp-ui-font-color2,inherit)")
 
 
-def _row(label: str, *controls: ipywidgets.Widget) -> ipywidgets.HBox:
-    return ipywidgets.HBox([ipywidgets.Label(label, layout=_LABEL), *controls])
+def _row(*controls: ipywidgets.Widget) -> ipywidgets.HBox:
+    return ipywidgets.HBox(controls, layout={"flex_flow": "row wrap"})

@@ -70,6 +70,7 @@ class SolverMonitor(ClosingWidget, ipywidgets.VBox):
     The plots are ``width`` by ``height`` CSS pixels. Without ``plots``, there is only the line.
     """
 
+    shown = traitlets.Bool(True)  # whether the plots are shown; hidden ones are not drawn
     rested = traitlets.Bool(False)  # whether the model has begun and has been at rest for a while
 
     def __init__(
@@ -81,13 +82,15 @@ class SolverMonitor(ClosingWidget, ipywidgets.VBox):
         **kwargs: Any,
     ) -> None:
         self.deformation = deformation  # the model of this view
-        self.line = ipywidgets.HTML()  # the status line
+        self.line = ipywidgets.HTML().add_class("glid-foot")  # the status line
+        self.verdict = ipywidgets.HTML().add_class("glid-verdict")
+        """What is proved, in plain words, then the status line."""
         empty, size = _placeholder(width, height), {"width": width, "height": height}
         self.image = ipywidgets.Image(value=empty, format="svg+xml", **size)
         """The plots; empty axes until the solver has begun."""
         self.plots = ipywidgets.VBox([guide(width, height), self.image])
         """The plots and their explanations."""
-        self._size, self._with_plots = (width, height), plots
+        self._size = width, height
         self._plots = None  # `LivePlots`, once they are drawn
         self._frames: deque[float] = deque()
         self._changed = time.monotonic()
@@ -95,9 +98,11 @@ class SolverMonitor(ClosingWidget, ipywidgets.VBox):
         self._worker = LatestWins[None](weakly(self._update), self, "monitor", **how)
         self._drawn: Any = None
         super().__init__([self.line, self.plots] if plots else [self.line], **kwargs)
+        self.shown = plots
         self.add_class("glid-monitor")
         self.image.add_class("glid-plots")
         self.image.layout.width, self.image.layout.height = f"{width}px", f"{height}px"
+        self.observe(lambda _: self._worker.submit(None), ["shown"])
         self._endings = (deformation.observe(self._on_model), self._worker.close)
         self._worker.submit(None)
 
@@ -124,12 +129,8 @@ class SolverMonitor(ClosingWidget, ipywidgets.VBox):
                 return
             moment = self.deformation.moment
             status = self._status(moment)
-            self.line.value = (
-                f'<div style="display:flex;align-items:center;gap:8px;line-height:1.4">'
-                f'<span style="flex:none;width:10px;height:10px;border-radius:5px;'
-                f'background:{_TONES[status.level]}"></span>'
-                f"<span>{html.escape(status.text)}</span></div>"
-            )
+            self.line.value = _line(status)
+            self.verdict.value = _verdict(status)
         begun, moves = self.deformation.begun, moment.busy or moment.dragged
         now_rests = begun and not moves and time.monotonic() - self._changed > REST
         self.rested = self.rested or now_rests
@@ -138,7 +139,7 @@ class SolverMonitor(ClosingWidget, ipywidgets.VBox):
             self._worker.submit(None)
         # The first canvas and the first drag must not wait for matplotlib.
         pulled = moment.frame is not None and moment.frame.history and not moment.dragged
-        if self._with_plots and (self._plots or self.rested or pulled):
+        if self.shown and (self._plots or self.rested or pulled):
             self._draw(moment)
 
     def _status(self, moment: Moment) -> StatusLine:
@@ -149,7 +150,8 @@ class SolverMonitor(ClosingWidget, ipywidgets.VBox):
         rate = len(self._frames)
         if not rate or not moment.busy or moment.solved:
             return status
-        return StatusLine(status.level, f"{status.text} · {rate} frame{'s' * (rate > 1)}/s")
+        text = f"{status.text} · {rate} frame{'s' * (rate > 1)}/s"
+        return StatusLine(status.level, text, status.proved)
 
     def _draw(self, moment: Moment) -> None:
         frame, solution = moment.frame, moment.solution
@@ -175,6 +177,27 @@ class SolverMonitor(ClosingWidget, ipywidgets.VBox):
             if not self._closed:
                 self.image.format, self.image.value = "png", picture
         self._drawn = new
+
+
+def _line(status: StatusLine) -> str:
+    """The status in one line: what is proved first, if all is well."""
+    text = html.escape(status.text)
+    if status.level == "good" and status.proved:
+        text = f'<b>{html.escape(status.proved)}</b> <span class="glid-detail">{text}</span>'
+    return (
+        f'<div style="display:flex;align-items:center;gap:8px;line-height:1.4" '
+        f'title="{html.escape(status.text)}">'
+        f'<span style="flex:none;width:10px;height:10px;border-radius:5px;'
+        f'background:{_TONES[status.level]}"></span>'
+        f'<span class="glid-said">{text}</span></div>'
+    )
+
+
+def _verdict(status: StatusLine) -> str:
+    text = html.escape(status.text)
+    if not status.proved:
+        return f"<p>{text}</p>"
+    return f'<p><b>{html.escape(status.proved)}</b></p><p class="glid-detail">{text}</p>'
 
 
 def _placeholder(width: int, height: int) -> bytes:

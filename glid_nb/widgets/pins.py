@@ -31,37 +31,43 @@ class PinBar(EditControls):
         self._add_fields()
         self._bind_fields(deformation)
         self._add_buttons(deformation)
-        place = [self.list, self.name, self.x, self.y, self.depth, self.back, self.front]
-        shape = [self.angle, self.scale, self.weight, self.release, self.mirror]
-        self._of_a_pin: list[Any] = [*place[1:], *shape[:-1]]
-        wrapping = ipywidgets.Layout(flex_flow="row wrap")
-        rows = [ipywidgets.HBox(row, layout=wrapping) for row in (place, shape)]
-        super().__init__(deformation, [ipywidgets.HBox(rows, layout=wrapping)], **kwargs)
+        numbers = [self.x, self.y, self.angle, self.scale, self.depth]
+        order = ipywidgets.HBox([self.back, self.front])
+        self._of_a_pin: list[Any] = [self.name, *numbers, self.back, self.front, self.weight]
+        self._of_a_pin.append(self.release)
+        buttons = ipywidgets.HBox([self.release, self.mirror, self.reset])
+        controls = [self.list, self.name, *numbers, order, self.weight, buttons]
+        super().__init__(deformation, [ipywidgets.GridBox(controls)], **kwargs)
+        self.children[0].add_class("glid-pin")
+        self.name.add_class("glid-wide")
+        buttons.add_class("glid-wide")
 
     def _add_fields(self) -> None:
-        style = {"description_width": "initial"}
-        late: dict[str, Any] = {"style": style, "continuous_update": False}
-        shown: Any = {"tooltip": "The selected pin", "layout": {"width": "94px"}}
+        full = ipywidgets.Layout(width="auto")
+        late: dict[str, Any] = {"continuous_update": False, "layout": full}
+        shown: Any = {"tooltip": "The selected pin", "layout": full}
         self.list = ipywidgets.Dropdown(options=[("No pin", _NO_PIN)], **shown)
-        shown = {"tooltip": "The selected pin's name", "layout": {"width": "90px"}}
-        self.name = ipywidgets.Text(placeholder="name", **shown, **late)
+        tip = "The selected pin's name"
+        self.name = ipywidgets.Text(placeholder="name", tooltip=tip, **late)
+        late["style"] = {"description_width": "50px"}
 
-        def field(name: str, tip: str, width: str, **more: Any) -> ipywidgets.Text:
+        def field(name: str, tip: str, **more: Any) -> ipywidgets.Text:
             # A text field with a description shows no tooltip, except that of a span inside it.
             said: Any = {"description": f"<span title='{tip}'>{name}</span>", **more, **late}
-            return ipywidgets.Text(description_allow_html=True, layout={"width": width}, **said)
+            return ipywidgets.Text(description_allow_html=True, **said)
 
-        self.x, self.y = (field(name, "Target", "84px") for name in "xy")
+        self.x, self.y = (field(name, "Target") for name in "xy")
         tip = "Where parts overlap, those near pins of greater depth are in front"
-        self.depth = field("Depth", tip, "104px")
-        free: Any = {"width": "124px", "placeholder": "free"}
+        self.depth = field("Depth", tip)
+        free: Any = {"placeholder": "free"}
         tip = "By how much the shape is {} at the pin; empty: free ({}, X)".format
         self.angle = field("Angle °", tip("turned", "&lt; and &gt;"), **free)
         self.scale = field("Scale", tip("scaled", "+ and -"), **free)
         tooltip = "How firmly the pin is held: soft to the left, firm to the right"
         scale: Any = {"min": -6, "max": 2, "step": 0.25, "value": 1, "readout_format": ".2g"}
-        scale |= {"tooltip": tooltip, "layout": {"width": "196px"}}
-        self.weight = ipywidgets.FloatLogSlider(description="Weight", base=10, **scale, **late)
+        scale |= {"tooltip": tooltip, "layout": full, "continuous_update": False}
+        scale["style"] = {"description_width": "50px"}
+        self.weight = ipywidgets.FloatLogSlider(description="Weight", base=10, **scale)
 
     def _bind_fields(self, model: Deformation) -> None:
         def set_pins(**numbers: Any) -> None:
@@ -86,7 +92,7 @@ class PinBar(EditControls):
         self._bind(self.depth, lambda d: model.set_depths(model.selection, _number(d, *_DEPTH)))
 
     def _add_buttons(self, model: Deformation) -> None:
-        narrow = ipywidgets.Layout(width="38px")
+        narrow = ipywidgets.Layout(width="34px")
 
         def acting(icon: str, tooltip: str, act: Any) -> ipywidgets.Button:
             return button("", icon, tooltip, lambda: self._act(act), narrow)
@@ -102,6 +108,7 @@ class PinBar(EditControls):
             "Remove selected pins and keep the shape until the next change",
             lambda: model.remove_handles(*model.selection, keep_shape=True),
         )
+        self.reset = acting("home", "The undeformed shape (0)", model.reset)
         self.mirror = acting("exchange", "Swap left and right of the pose (M)", model.mirror_pose)
 
     def _on_model(self, what: str) -> None:

@@ -1,7 +1,7 @@
 """The controls of the solver."""
 
 import dataclasses
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from typing import Any, Literal, get_args, get_origin
 
 import ipywidgets
@@ -11,7 +11,7 @@ from glid_nb.energies import ENERGIES, CustomEnergy, Energy, by_name
 from glid_nb.methods import METHODS
 from glid_nb.session.deformation import Deformation
 from glid_nb.solvers import Iteration, Method, Options
-from glid_nb.widgets.controls import EditControls, button, paragraph, toggle
+from glid_nb.widgets.controls import EditControls, FieldRows, button, paragraph, toggle
 
 _WORKS_ON = {"harmonic": "", "mesh": " · mesh", "linear": " · linear"}
 _UNPROVED = " Shown for comparison, without a proof. Save and export use the last certified map."
@@ -32,35 +32,6 @@ _SLIDERS: dict[str, tuple[Any, dict[str, Any]]] = {
 }
 
 
-class FieldRows(ipywidgets.GridBox):
-    """Rows of labels and controls. Changes, also by `show`, call ``on_change(name, value)``."""
-
-    def __init__(
-        self, on_change: Callable[[str, Any], None], controls: Mapping[str, tuple[str, Any]]
-    ) -> None:
-        self._on_change = on_change
-        columns = "144px minmax(0, 1fr)"
-        super().__init__([], layout={"grid_template_columns": columns, "grid_gap": "2px 8px"})
-        self.build(controls)
-
-    def build(self, controls: Mapping[str, tuple[str, Any]]) -> None:
-        """Show these rows. ``controls`` has a label and a control for each field's name."""
-        old = self.children
-        self.controls: dict[str, Any] = {name: one for name, (_, one) in controls.items()}
-        for name, control in self.controls.items():
-            control.observe(lambda change, name=name: self._on_change(name, change["new"]), "value")
-        rows = ((ipywidgets.Label(label), control) for label, control in controls.values())
-        self.children = [part for row in rows for part in row]
-        self.layout.display = None if controls else "none"
-        for part in old:
-            part.close()
-
-    def show(self, value: Any) -> None:
-        """Show the fields of a value."""
-        for name, control in self.controls.items():
-            control.value = getattr(value, name)
-
-
 class SolverPanel(EditControls):
     """Controls of a model's solver: method, energy, options, and buttons."""
 
@@ -73,18 +44,19 @@ class SolverPanel(EditControls):
 
         self.method = _menu(_methods(), "The method: ours, or another one for comparison")
         rows = {"name": ("Method", self.method)}
-        method = FieldRows(lambda _, name: act(lambda: model.set_method(name)), rows)
+        method = FieldRows(rows, lambda _, name: act(lambda: model.set_method(name)))
         self.about = ipywidgets.HTML()  # what the method does
-        self.settings = FieldRows(set_setting, {})  # the method's own settings
+        self.settings = FieldRows({}, set_setting)  # the method's own settings
         self._shown: type[Method] | None = None
         self.energy = _menu({name: e.label for name, e in ENERGIES.items()}, "Energy to minimise")
         self.s = ipywidgets.BoundedFloatText(
             1.0, min=1e-3, max=100.0, step=0.1, layout=_FULL, tooltip="The energy's parameter s"
         )
-        energy = FieldRows(self._set_energy, {"name": ("Energy", self.energy), "s": ("s", self.s)})
+        rows = {"name": ("Energy", self.energy), "s": ("s", self.s)}
+        energy = FieldRows(rows, self._set_energy)
         self.options = FieldRows(
-            lambda name, value: act(lambda: model.set_options(**{name: value})),
             _option_controls(deformation.state.current.options),
+            lambda name, value: act(lambda: model.set_options(**{name: value})),
         )
         """The options, by their names."""
         self.pause = toggle("Pause", "pause", "Pause the solver", _FULL)

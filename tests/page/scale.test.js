@@ -110,6 +110,6 @@ test("the note tells what is proved, or why not", () => {
     "Proving the motion between poses…",
   );
   assert.match(noteOn(shown({ kernel: true }), [span({})]), /^Played by the kernel/);
-  assert.match(noteOn(shown({ keyframes: keys(0) }), []), /^Keep a second pose/);
+  assert.match(noteOn(shown({ keyframes: keys(0) }), []), /^Key \(K\) a second pose/);
   assert.match(noteOn(shown({ recording: true }), [span({})]), /^Recording/);
 });

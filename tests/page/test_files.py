@@ -11,7 +11,7 @@ import glid_nb
 from glid_nb.page import bundle, stylesheet, template, webgl2_shaders
 
 _TEXTS = (".py", ".js", ".css", ".glsl", ".frag", ".vert", ".html")
-_WIDGETS = ("canvas", "clipboard", "loader", "timeline", "tracer")
+_WIDGETS = ("canvas", "clipboard", "loader", "timeline", "toolbar", "tracer")
 
 
 @pytest.mark.parametrize("name", _WIDGETS)
@@ -27,7 +27,7 @@ def test_the_exported_pages_bundle_is_a_plain_script() -> None:
     assert "</script" not in text
 
 
-@pytest.mark.parametrize("name", ["canvas", "timeline", "tracer"])
+@pytest.mark.parametrize("name", ["canvas", "timeline", "toolbar", "tracer"])
 def test_a_stylesheet_imports_nothing(name: str) -> None:
     assert "@import" not in stylesheet(name)
     assert ".glid-skin" in stylesheet(name)

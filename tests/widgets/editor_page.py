@@ -6,7 +6,7 @@ import time
 from collections.abc import Callable, Sequence
 from typing import Any
 
-from playwright.sync_api import Locator
+from playwright.sync_api import Locator, Page
 
 from ..support.browser import NotebookPage
 
@@ -253,6 +253,16 @@ def line(start: Sequence[float], end: Sequence[float], count: int) -> list[list[
     return [
         [s + (e - s) * i / count for s, e in zip(start, end, strict=True)] for i in range(count + 1)
     ]
+
+
+def choose_view(page: Page, label: str, closes: bool = False) -> None:
+    """Choose an item of the menu of what the canvas shows. Some items close it."""
+    menu = page.locator(".glid-view-menu")
+    page.locator(".glid-view-button").click()
+    menu.get_by_text(label, exact=True).click()
+    if not closes:
+        page.keyboard.press("Escape")
+    menu.wait_for(state="hidden")
 
 
 def center(of: Locator) -> tuple[float, float]:

@@ -8,7 +8,7 @@ import pytest
 from playwright.sync_api import Locator
 
 from .conftest import OpenNotebook
-from .editor_page import SETUP, Hand
+from .editor_page import SETUP, Hand, choose_view
 
 pytestmark = [pytest.mark.browser, pytest.mark.slow]
 
@@ -69,8 +69,8 @@ def test_on_a_phone_the_canvas_comes_first_and_the_tools_have_two_rows(
     root, pad = box(page.locator(".glid-editor")), box(hand.pad)
     assert pad[2] >= 0.93 * root[2]  # of the 274 pixels that JupyterLab leaves
     assert pad[3] >= 0.9 * pad[2]
-    column = page.locator(".glid-column")
-    rows = [column.locator(part) for part in (".glid-tools", ".glid-bars", ".glid-timeline")]
+    shell = page.locator(".glid-shell")
+    rows = [shell.locator(part) for part in (".glid-tools", ".glid-bars", ".glid-timeline")]
     places = [box(row) for row in rows]
     assert pad[1] + pad[3] <= places[0][1]  # the canvas is above all of them
     for (_, above, _, height), (_, below, _, _) in itertools.pairwise(places):
@@ -150,14 +150,14 @@ def test_pale_and_dark_outlines_are_seen_in_dark_themes_and_high_contrast(
     finally:
         book.theme("JupyterLab Light")
     # Where the system forces its colours, pressed buttons still look pressed.
-    page.locator(".glid-tools button", has_text="Cage").click()
+    choose_view(page, "Cage")
     book.wait_for("canvas.show_cage")
     page.emulate_media(forced_colors="active")
     try:
         color = "one => getComputedStyle(one).backgroundColor"
         pressed, other = (
-            page.locator(".glid-tools button", has_text=name).evaluate(color)
-            for name in ("Cage", "Offset")
+            page.locator(f".glid-tools [data-tool={name}]").evaluate(color)
+            for name in ("select", "stiff")
         )
         book.screenshot("editor-forced-colours")
         assert pressed != other

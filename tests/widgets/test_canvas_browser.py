@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from .conftest import OpenNotebook
-from .editor_page import EDITOR, SETUP, Hand, center, line
+from .editor_page import EDITOR, SETUP, Hand, center, choose_view, line
 
 pytestmark = [pytest.mark.browser, pytest.mark.slow]
 
@@ -103,7 +103,10 @@ def test_controls_and_overlays(open_notebook: OpenNotebook) -> None:
     hand.drag(line(THREE[1], [5.0, 2.5], 10))
     hand.wait_for_target(1, [5.0, 2.5])
     page = book.page
-    # Each plot has a name and an explanation, on hover and by its "?".
+    # One click shows the plots. Each has a name and an explanation, on hover and by its "?".
+    page.get_by_role("tab", name="Proof").click()
+    assert not page.locator(".glid-plots").is_visible()
+    page.get_by_role("button", name="Plots").click()
     for name, place in (("Energy", "Section 6"), ("Steps", "Section 9.2"), ("Time", "Section 10")):
         about = page.get_by_label(f"About the plot: {name}")
         assert place in (about.get_attribute("title") or "")
@@ -112,7 +115,7 @@ def test_controls_and_overlays(open_notebook: OpenNotebook) -> None:
         book.screenshot(f"editor-about-{name}")
         about.click()
         page.locator(".glid-guide p", has_text=place).wait_for(state="hidden")
-    page.locator(".lm-TabBar-tabLabel", has_text="Solver").click()
+    page.get_by_role("tab", name="Proof").click()
     # Single steps say what each did.
     page.get_by_title("Pause the solver").click()
     book.value("None", setup="model.drag(1, to=(5.5, 2.0))")
@@ -154,10 +157,9 @@ def test_controls_and_overlays(open_notebook: OpenNotebook) -> None:
     book.wait_for("model.moment.comparison is None")
     hand.settle()
 
-    overlay = page.locator(".glid-tools select")
     plain = hand.color_at([0.0, -0.5])
     for label in ("Stretch σ₁", "Dilatation k", "Energy density", "Stretch σ₂"):
-        overlay.select_option(label=label)
+        choose_view(page, label)
         page.locator(".glid-legend-title", has_text=label).wait_for()
         assert "Colours of the shape" in (
             page.locator(".glid-legend-part").get_attribute("title") or ""
@@ -166,26 +168,31 @@ def test_controls_and_overlays(open_notebook: OpenNotebook) -> None:
     colored = hand.color_at([0.0, -0.5])
     assert max(abs(a - b) for a, b in zip(colored, plain, strict=True)) > 20
     for label in ("Cage", "Offset", "Certificate"):
-        page.locator(".glid-tools button", has_text=label).click()
+        choose_view(page, label)
     book.wait_for("canvas.show_panels and canvas.show_cage and 'panels' in canvas.pane.scene.lines")
     page.wait_for_timeout(500)
     book.screenshot("editor-overlays")
-    overlay.select_option(label="Picture")
+    choose_view(page, "Picture")
     page.locator(".glid-legend-title", has_text="Certified σ₂").wait_for()
     hand.wait_until_drawn()
     book.screenshot("editor-certificate")
     book.theme("JupyterLab Dark")
-    arrow = overlay.evaluate("menu => getComputedStyle(menu).backgroundImage")
+    arrow = method.evaluate("menu => getComputedStyle(menu).backgroundImage")
     assert "e0e0e0" in arrow  # light on dark
-    tools = page.locator(".glid-tools button")
-    pressed, other = tools.filter(has_text="Certificate"), tools.filter(has_text="Source")
+    tools = page.locator(".glid-tools")
+    pressed, other = (tools.locator(f"[data-tool={name}]") for name in ("select", "stiff"))
     color = "button => getComputedStyle(button).backgroundColor"
-    assert pressed.evaluate(color) == "rgb(0, 114, 178)"
-    assert other.evaluate(color) != "rgb(0, 114, 178)"
+    assert pressed.evaluate(color) == "rgb(47, 155, 219)"
+    assert other.evaluate(color) != "rgb(47, 155, 219)"
+    checks = [
+        page.get_by_role("menuitemcheckbox", name=name, include_hidden=True)
+        for name in ("Certificate", "Source")
+    ]
+    assert [one.get_attribute("aria-checked") for one in checks] == ["true", "false"]
     book.screenshot("editor-certificate-dark")
     book.theme("JupyterLab Light")
-    overlay.select_option(label="Picture and grid")
-    page.locator(".glid-tools button", has_text="Source").click()
+    choose_view(page, "Picture and grid")
+    choose_view(page, "Source")
     book.wait_for("canvas.source is not None")
     pads = page.locator(".glid-pad")
     pads.nth(1).wait_for()
@@ -194,7 +201,7 @@ def test_controls_and_overlays(open_notebook: OpenNotebook) -> None:
     assert right is not None
     assert left["x"] + left["width"] <= right["x"]
     book.screenshot("editor-source")
-    page.locator(".glid-tools button", has_text="Source").click()
+    choose_view(page, "Source")
     book.wait_for("canvas.source is None")
     # The status line.
     page.locator(".glid-editor").get_by_text("Converged").first.wait_for()
@@ -205,7 +212,7 @@ def test_by_keyboard_alone(open_notebook: OpenNotebook) -> None:
     hand = Hand(book)
     keys, shown = hand.page.keyboard, hand.pad.locator(".glid-help")
     hand.pad.get_by_text("Click the shape to pin a point").wait_for()
-    hand.pad.get_by_role("button", name="Keys and gestures").click()
+    hand.page.locator(".glid-tools").get_by_role("button", name="Keys and gestures").click()
     shown.get_by_text("Ctrl+Shift+Z").wait_for()
     shown.get_by_text("the shape follows, and never folds").wait_for()
     book.screenshot("editor-help")
@@ -302,8 +309,8 @@ def test_touch_drags_and_pinches(open_notebook: OpenNotebook) -> None:
     np.testing.assert_allclose(hand.place([1.0, 0.5]), target, atol=0.5)
 
 
-# The box for the numbers of pins, above the canvas.
-NUMBERS = "editor.tabs.children[1].children[0].children[0].children[1]"
+# The box for the numbers of pins.
+NUMBERS = "editor.inspector.children[0]"
 PREPARED_AS_TOLD = """
 import threading
 from glid_nb._runtime import stage
@@ -334,7 +341,7 @@ def test_while_the_solver_is_prepared_nothing_covers_the_picture_and_pins_follow
     book.value("None", setup=f"{PREPARED_AS_TOLD}model.drag(1, to=(6.5, 0.5))")
     bar.wait_for()
     page.wait_for_function("one => one.ariaValueNow === '50'", arg=bar.element_handle())
-    page.get_by_text("Preparing the solver… 50%").wait_for()  # in the status line
+    page.locator(".glid-foot").get_by_text("Preparing the solver… 50%").wait_for()
     pad, box = hand.pad.bounding_box(), bar.bounding_box()
     assert pad is not None
     assert box is not None
@@ -366,8 +373,8 @@ def test_what_is_beside_the_canvas_neither_takes_undo_nor_moves_it(
     book.wait_for("len(model.pose) == 3")
     # Undo by keys works wherever in the editor the last click was, except in a text field.
     elsewhere = (
-        page.locator(".glid-tools button", has_text="Cage"),
-        page.get_by_role("tab", name="Solver"),
+        page.locator(".glid-tools [data-tool=select]"),
+        page.get_by_role("tab", name="Proof"),
         page.locator(".glid-solver-panel .widget-label").first,
     )
     for left, place in zip((2, 1, 0), elsewhere, strict=True):
@@ -402,14 +409,16 @@ def test_what_is_beside_the_canvas_neither_takes_undo_nor_moves_it(
     assert book.value("len(model.pose)") == 1
 
     def places() -> list[object]:
-        parts = (".glid-pad", ".glid-files", ".glid-timeline")
+        parts = (".glid-pad", ".glid-side", ".glid-timeline")
         return [page.locator(f".glid-editor {part}").first.bounding_box() for part in parts]
 
-    # A long status moves nothing, and a notice is beside the colour bar, at every width.
+    # A long status and a refusal move nothing, and a notice is beside the colour bar.
+    page.get_by_role("tab", name="Pin").click()
     book.value("None", setup="canvas.overlay = 'energy'; stage = canvas.pane.stage")
     page.locator(".glid-legend-bar").wait_for()
-    for width in (1366, 800):
+    for width, room in ((1366, "> 800"), (800, "< 400")):
         page.set_viewport_size({"width": width, "height": 768})
+        book.wait_for(f"canvas.pane.stage.room[0] {room}")
         hand.wait_until_still()
         before = places()
         book.value("None", setup="editor.monitor.line.value = 'A long status. ' * 40")
@@ -418,7 +427,7 @@ def test_what_is_beside_the_canvas_neither_takes_undo_nor_moves_it(
         )
         book.value("None", setup=f"bars = {NUMBERS}.children[0]")
         book.value("None", setup="bars.children[0].refusal.value = '<div>Refused. </div>' * 9")
-        page.locator(".glid-column .glid-refusal").get_by_text("Refused.").first.wait_for()
+        page.locator(".glid-refusal").get_by_text("Refused.").first.wait_for()
         notice = page.locator(".glid-notice", has_text="So it is.")
         notice.wait_for()
         bar = page.locator(".glid-legend[data-corner='top left']")

@@ -374,7 +374,7 @@ from glid_nb._runtime import compilation_clock
 image = np.zeros((60, 90, 4), np.uint8)
 image[10:50, 10:80] = 255
 clock = compilation_clock()
-editor = glid.Editor(image, n_vertices=300)
+editor = glid.Editor(image, n_vertices=300, plots=True)
 unwanted = [m for m in ("matplotlib", "skimage.draw") if m in sys.modules]
 unwanted += [m for m in sys.modules if m.startswith("glid_nb.export.") and m[15:] != "formats"]
 assert not unwanted, unwanted
@@ -383,8 +383,7 @@ assert clock.programs == 0, clock.programs
 assert editor.monitor.image.format == "svg+xml"
 assert b"Certificate" in bytes(editor.monitor.image.value)
 assert len(widget._instances) <= 100, len(widget._instances)
-left, right = editor.tabs.children[1].children[0].children
-boxes = [editor.tabs.children[0], *right.children[0].children[1:]]
+boxes = [editor._boxes[name] for name in ("tracer", "motion", "files", "solver")]
 editor.canvas.pane.stage.drawn = True
 # The first drag comes before plots and hidden tabs.
 editor.deformation.begin_drag([editor.deformation.add_handles([[4, 0], [-4, 0]])[0]])
@@ -397,7 +396,7 @@ assert not any(box.children for box in boxes)
 editor.deformation.end_drag()
 assert editor.monitor.refresh(60)
 made = [type(box.children[0]).__name__ for box in boxes]
-assert made == ["CageTracer", "SolverPanel", "FilePanel"]
+assert made == ["CageTracer", "MotionPanel", "FilePanel", "SolverPanel"]
 assert editor.monitor.image.format == "png"
 assert bytes(editor.monitor.image.value).startswith(b"\\x89PNG")
 editor.close()
@@ -412,33 +411,28 @@ def test_the_first_canvas_waits_for_no_more_than_it_needs(tmp_path: Path) -> Non
     assert done.returncode == 0, done.stderr
 
 
-def columns(editor: Editor) -> tuple[Any, Any]:
-    """The canvas with everything above and below it, and the column beside it."""
-    left, right = editor.tabs.children[1].children[0].children
-    return left, right
-
-
-def side(editor: Editor) -> Any:
-    """The tabs beside the canvas."""
-    return columns(editor)[1].children[0]
+def sections(editor: Editor) -> list[Any]:
+    """The boxes of the inspector's sections: pin, motion, files, and the solver's in the proof."""
+    *boxes, proof = editor.inspector.children
+    return [*boxes, proof.children[-1]]
 
 
 def numbers(editor: Editor) -> Any:
-    """The box for the numbers of pins and for the brush, above the canvas."""
-    return columns(editor)[0].children[1]
+    """The box for the numbers of pins and for the brush."""
+    return sections(editor)[0]
 
 
 def test_what_a_hidden_tab_holds_is_there_for_who_asks(editor: Editor) -> None:
     tracer, panel, files = editor.tracer, editor.solver_panel, editor.files
     assert editor.tabs.children[0].children == (tracer,)
-    assert [box.children for box in side(editor).children[1:]] == [(panel,), (files,)]
+    assert [box.children for box in sections(editor)[2:]] == [(files,), (panel,)]
     assert (editor.tracer, editor.solver_panel, editor.files) == (tracer, panel, files)
 
 
 def test_a_tab_is_filled_when_it_is_chosen(editor: Editor) -> None:
-    box = side(editor).children[1]
+    box = sections(editor)[3]
     assert box.children == ()
-    side(editor).selected_index = 1
+    editor.inspector.selected_index = 3
     assert box.children == (editor.solver_panel,)
 
 
@@ -454,7 +448,7 @@ def test_no_widget_is_made_while_a_page_may_be_connecting(editor: Editor) -> Non
     assert set(ipywidgets.widgets.widget._instances) == made
     canvas.pane.stage.drawn = True
     assert editor.monitor.refresh(60)
-    assert all(box.children for box in side(editor).children[1:])
+    assert all(box.children for box in sections(editor)[1:])
 
 
 def test_the_numbers_come_when_the_first_gesture_has_ended(editor: Editor) -> None:
@@ -499,8 +493,53 @@ def test_the_numbers_are_made_without_the_models_lock(
 
 def test_the_numbers_come_with_the_brush(editor: Editor) -> None:
     assert numbers(editor).children == ()
-    editor.toolbar.stiff.value = True
+    editor.toolbar.tool = "stiff"
     assert len(numbers(editor).children) == 1
+
+
+def test_a_brush_opens_its_section_and_then_the_one_before(editor: Editor) -> None:
+    editor.inspector.selected_index = 3
+    editor.toolbar.tool = "stiff"
+    assert editor.inspector.selected_index == 0
+    editor.toolbar.tool = "erase"
+    assert editor.canvas.brush.tool == "erase"
+    editor.toolbar.tool = ""
+    assert editor.inspector.selected_index == 3
+
+
+def test_the_plots_are_hidden_unless_they_are_asked_for(editor: Editor) -> None:
+    monitor = editor.monitor
+    assert (monitor.shown, monitor.plots.layout.display) == (False, "none")
+    editor.toolbar.shows = {**editor.toolbar.shows, "plots": True, "show_cage": True}
+    assert (monitor.shown, monitor.plots.layout.display) == (True, None)
+    assert editor.canvas.show_cage
+    editor.canvas.show_cage = False
+    assert editor.toolbar.shows["show_cage"] is False
+    other = Editor(editor.document.image, n_vertices=50, plots=True)
+    assert other.monitor.shown
+    other.close()
+
+
+def test_the_motions_controls_change_the_edited_pose(editor: Editor) -> None:
+    model = editor.deformation
+    model.add_handle((-7.0, 0.0))
+    model.save_pose()
+    editor.inspector.selected_index = 1
+    panel = sections(editor)[1].children[0]
+    assert (panel.pose.value, panel.time.value) == (1, "1.00")
+    panel.name.value, panel.time.value, panel.easing.value = "Jump", "1,5", "in-out"
+    panel.repeat.value = "loop"
+    timeline = model.state.timeline
+    assert (model.state.poses[1].name, timeline.times) == ("Jump", (0.0, 1.5))
+    assert (timeline.easing[1], timeline.repeat) == ("in-out", "loop")
+    panel.time.value = "soon"
+    assert "is not a number" in panel.refusal.value
+    assert panel.time.value == "1.50"
+    panel.pose.value = 0
+    assert model.state.active == 0
+    panel.export.click()
+    assert editor.inspector.selected_index == 2
+    assert str(editor.files.format.value).startswith("motion")
 
 
 def test_a_part_that_cannot_be_made_says_why_in_its_place(
@@ -521,7 +560,7 @@ def test_a_part_that_cannot_be_made_says_why_in_its_place(
         [said] = numbers(editor).children
         assert "ValueError: no such &lt;option&gt;" in said.value
         assert [str(report.exc_value) for report in caught] == ["no such <option>"]  # for the log
-    editor.toolbar.stiff.value = True
+    editor.toolbar.tool = "stiff"
     assert said not in numbers(editor).children
 
 

@@ -1,4 +1,4 @@
-"""Saving, opening and exporting by the Files tab and from code, without a browser."""
+"""Saving, opening and exporting by the section Files and from code, without a browser."""
 
 from __future__ import annotations
 

@@ -143,10 +143,8 @@ def test_a_hand_finds_what_it_expects(open_notebook: OpenNotebook) -> None:
 
     # Every control has a name.
     page.locator(".glid-tools button").first.wait_for()
-    for tab in ("Plots", "Solver", "Files"):
-        found = page.get_by_role("tab", name=tab)
-        if found.count():
-            found.click()
+    for tab in ("Motion", "Files", "Proof", "Pin"):
+        page.get_by_role("tab", name=tab, exact=True).click()
         unnamed = root.evaluate(_UNNAMED)
         assert unnamed == [], "\n".join(unnamed)
     page.get_by_role("button", name="Undo (Ctrl+Z)").first.wait_for()
@@ -220,8 +218,8 @@ def test_each_view_of_an_editor_fits_its_own_room(open_notebook: OpenNotebook) -
     def check(one: Hand) -> None:
         one.pad.scroll_into_view_if_needed()
         one.wait_until_still()
-        column = one.pad.locator("xpath=ancestor::*[contains(@class, 'glid-column')]")
-        inner, outer = one.pad.bounding_box(), column.bounding_box()
+        stage = one.pad.locator("xpath=ancestor::*[contains(@class, 'glid-deform')]")
+        inner, outer = one.pad.bounding_box(), stage.bounding_box()
         assert inner is not None
         assert outer is not None
         assert inner["x"] + inner["width"] <= outer["x"] + outer["width"] + 1

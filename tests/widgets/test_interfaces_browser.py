@@ -60,8 +60,8 @@ def test_no_key_in_the_editor_is_the_notebooks(
     page.keyboard.press("Escape")
     book.wait_for("model.selection == ()")
     places = (
-        page.locator(".glid-tools button", has_text="Cage"),
-        page.get_by_role("tab", name="Solver"),
+        page.locator(".glid-tools [data-tool=select]"),
+        page.get_by_role("tab", name="Proof"),
         page.locator(".glid-solver-panel .widget-label").first,
         page.locator(".glid-solver-panel .noUi-handle").first,
         page.locator(".glid-timeline-note"),
@@ -83,12 +83,12 @@ def test_no_key_in_the_editor_is_the_notebooks(
         page.keyboard.press("Escape")
         book.wait_for("model.selection == ()")
     # The hint is also true after a click on the button.
-    page.locator(".glid-tools button", has_text="Stiff").click()
+    page.locator(".glid-tools [data-tool=stiff]").click()
     page.get_by_text("Esc when done").wait_for()
     page.keyboard.press("Escape")
     page.get_by_text("Esc when done").wait_for(state="hidden")
     # A list uses letters itself, and the tracer has its own keys.
-    page.get_by_title("What the shape shows").focus()
+    page.get_by_title("The selected pin", exact=True).focus()
     page.keyboard.press("b")
     page.get_by_role("tab", name="Trace").click()
     page.get_by_role("button", name="Draw a rectangle (R)").click()

@@ -42,9 +42,9 @@ def test_a_ring_turns_and_scales_and_the_list_takes_numbers(open_notebook: OpenN
     page.get_by_title(
         "By how much the shape is turned at the pin; empty: free (< and >, X)"
     ).hover()
-    page.locator(".glid-tools button", has_text="Stiff").click()
+    page.locator(".glid-tools [data-tool=stiff]").click()
     page.get_by_title("Of the brush").hover()
-    assert not any(page.locator(".glid-column label[title=null]").all_inner_texts())
+    assert not any(page.locator(".glid-side label[title=null]").all_inner_texts())
     page.keyboard.press("Escape")
     field = page.get_by_label("Angle °")
     field.fill("much")

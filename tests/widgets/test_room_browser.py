@@ -6,12 +6,12 @@ import pytest
 from playwright.sync_api import Locator
 
 from .conftest import OpenNotebook
-from .editor_page import SETUP, Hand, center
+from .editor_page import SETUP, Hand, center, choose_view
 
 pytestmark = [pytest.mark.browser, pytest.mark.slow]
 
 EDITOR = """
-editor = glid.Editor(picture, n_vertices=300)
+editor = glid.Editor(picture, n_vertices=300, plots=True)
 canvas, model = editor.canvas, editor.deformation
 editor
 """
@@ -55,18 +55,18 @@ def test_the_canvas_takes_the_room_that_there_is(open_notebook: OpenNotebook) ->
         near = f"abs(model.pose.handles[-1] - {point}).max() < 0.1"
         book.wait_for(f"len(model.pose) == {count + 1} and {near}")
 
-    at_first = settle("(lambda w, h, _: w > 560)({})")
+    at_first = settle("(lambda w, h, _: 400 < w < 500)({})")
     pin((-6.0, 0.0))
     page.set_viewport_size({"width": 1920, "height": 1080})
-    x, _, width, height = settle("(lambda w, h, _: w > 1000)({})")
-    assert width > 1100
+    x, _, width, height = settle("(lambda w, h, _: w > 900)({})")
+    assert width > 900
     assert height > 600
     assert x + width < box(plots)[0]  # beside each other
     pin((6.0, 1.0))
     book.screenshot("editor-1920")
 
     page.set_viewport_size({"width": 800, "height": 768})
-    x, y, width, height = settle("(lambda w, h, _: w < 600)({})")
+    x, y, width, height = settle("(lambda w, h, _: w < 400)({})")
     inside = box(page.locator(".glid-editor"))
     for part in (hand.pad, tools, page.locator(".glid-timeline"), plots):
         left, _, across, _ = box(part)
@@ -75,12 +75,12 @@ def test_the_canvas_takes_the_room_that_there_is(open_notebook: OpenNotebook) ->
     assert y + height < box(plots)[1]  # one above the other
     pin((0.0, -1.0))
     page.set_viewport_size({"width": 1366, "height": 768})
-    assert settle("(lambda w, h, _: 600 < w < 1000)({})")[2:] == at_first[2:]
+    assert settle("(lambda w, h, _: 400 < w < 500)({})")[2:] == at_first[2:]
 
     # The picture alone, by key and by button. Escape brings back the rest.
     for enter in (
         lambda: page.keyboard.press("p"),
-        lambda: hand.pad.get_by_role("button", name="The picture alone").click(),
+        lambda: choose_view(page, "The picture alone", closes=True),
     ):
         hand.pad.focus()
         enter()
@@ -98,7 +98,7 @@ def test_the_canvas_takes_the_room_that_there_is(open_notebook: OpenNotebook) ->
     hand.pad.focus()
     page.keyboard.press("w")
     page.wait_for_function("document.fullscreenElement?.classList.contains('glid-editor')")
-    settle("(lambda w, h, _: w > 650)({})")
+    settle("(lambda w, h, _: w > 550)({})")
     pin((-3.0, 1.0))
     page.keyboard.press("p")
     assert settle("(lambda w, h, alone: alone)({})")[2:] == [1366, 768]
@@ -107,14 +107,14 @@ def test_the_canvas_takes_the_room_that_there_is(open_notebook: OpenNotebook) ->
     page.keyboard.press("Escape")
     page.wait_for_function("!document.fullscreenElement")
     # The picture alone ends first, while the editor still has the whole screen.
-    assert settle("(lambda w, h, alone: not alone and w < 650)({})")[2:] == at_first[2:]
-    page.mouse.click(*center(hand.pad.get_by_role("button", name="Full screen")))
+    assert settle("(lambda w, h, alone: not alone and w < 500)({})")[2:] == at_first[2:]
+    page.mouse.click(*center(tools.get_by_role("button", name="Full screen")))
     page.wait_for_function("!!document.fullscreenElement")
     book.screenshot("editor-full-screen")
     buttons = [box(button)[1] for button in page.locator(".glid-bars button").all()]
     assert len(set(buttons)) > 1  # buttons stay beside their numbers
     page.evaluate("document.exitFullscreen()")
-    settle("(lambda w, h, alone: not alone and w < 650)({})")
+    settle("(lambda w, h, alone: not alone and w < 500)({})")
 
 
 def test_the_tracer_takes_the_room_that_there_is(open_notebook: OpenNotebook) -> None:
@@ -182,22 +182,12 @@ def test_nothing_wraps_jumps_or_covers_a_mark(open_notebook: OpenNotebook) -> No
     bar, keep = page.locator(".glid-timeline .glid-bar"), page.locator(".glid-keep")
     numbers = page.locator(".glid-bars")
     numbers.get_by_label("Depth").wait_for()
-    place = "([one, height]) => getComputedStyle(one, '::before').height === height"
-    for width, height in ((1920, "34px"), (1366, "68px"), (800, "68px")):
+    for width in (1920, 1366, 800):
         page.set_viewport_size({"width": width, "height": 900})
-        page.wait_for_function(place, arg=[numbers.element_handle(), height])
         hand.wait_until_still()
-        # They follow the canvas and must not move it.
-        whole, kept, taken = numbers.evaluate(  # at one moment: the canvas may still be growing
-            """(one) => [one.getBoundingClientRect().height,
-              parseFloat(getComputedStyle(one, '::before').height),
-              one.lastElementChild.getBoundingClientRect().height]"""
-        )
-        assert whole == kept >= taken > kept - 34
         heights, left = set(), set()
-        for time, label in (("0.00 / 0.00 s", "Keep"), ("23.00 / 23.00 s", "Keep it")):
+        for time in ("0.00 / 0.00 s", "23.00 / 23.00 s"):
             page.locator(".glid-time").evaluate("(one, text) => { one.textContent = text; }", time)
-            keep.evaluate("(one, text) => { one.textContent = text; }", label)
             heights.add(box(bar)[3])
             left.add(box(keep)[2])
         assert max(heights) < 45  # one line
@@ -209,12 +199,17 @@ def test_nothing_wraps_jumps_or_covers_a_mark(open_notebook: OpenNotebook) -> No
     heights = set()
     for x in (20, pad[2] - 60):
         page.mouse.click(pad[0] + x, pad[1] + 30, button="right")
-        heights |= {box(row)[3] for row in page.locator(".glid-menu button").all()}
+        heights |= {box(row)[3] for row in hand.pad.locator(".glid-menu button").all()}
         book.screenshot(f"menu-{x:.0f}")
         page.keyboard.press("Escape")
     assert len(heights) == 1
 
-    # The arrow to a pin beyond the upper right corner lies beside the corner's buttons.
+    # The arrow to a pin beyond the upper right corner lies beside the corner's buttons, which are
+    # there when the picture is alone.
+    hand.pad.focus()
+    page.keyboard.press("p")
+    book.wait_for("canvas.pane.stage.room[2] == 1")
+    hand.wait_until_still()
     book.value("model.set_pins([0])", setup="model.move_target(0, (40.0, 20.0))")
     hand.settle()
     corner = box(page.locator(".glid-corner").first)
@@ -239,6 +234,8 @@ def test_nothing_wraps_jumps_or_covers_a_mark(open_notebook: OpenNotebook) -> No
     book.value("None", setup="model.undo(); model.select([])")
     page.locator(".glid-corner:not(.glid-through)").first.wait_for()
     book.value("None", setup="model.select([0])")
+    page.keyboard.press("Escape")
+    book.wait_for("canvas.pane.stage.room[2] == 0")
 
     # The largest depth is readable.
     book.value("None", setup="model.set_depths([0], 100.0)")

@@ -24,7 +24,7 @@ CLICK_AND_PAINT = """([[x, y], [end, _]]) => {
   const pad = document.querySelector('.glid-pad');
   const point = (type, clientX) => pad.dispatchEvent(new PointerEvent(type, {
     bubbles: true, pointerId: 1, pointerType: 'mouse', clientX, clientY: y }));
-  document.querySelector('.glid-tools button:has(.fa-paint-brush)').click();
+  document.querySelector('.glid-tools [data-tool=stiff]').click();
   point('pointerdown', x);
   for (let at = x; at < end; at += 4) point('pointermove', at);
   point('pointerup', end);

@@ -98,7 +98,7 @@ def test_a_cut_out(
     hand.settle()
     shot("stiff-head")
     page.keyboard.press("Escape")
-    page.get_by_role("button", name="Keep", exact=True).click()
+    page.get_by_role("button", name="Key", exact=True).click()
     book.wait_for("len(editor.poses) == 2")
     raised = [PINS[1][0], PINS[1][1] + 2]
     hand.drag(line(PINS[1], raised, 10))
@@ -115,8 +115,8 @@ def test_a_cut_out(
     page.keyboard.press("?")
     shot("help")
     page.keyboard.press("Escape")
-    page.get_by_role("tab", name="Solver").click()
-    shot("solver")
+    page.get_by_role("tab", name="Proof").click()
+    shot("proof")
 
     # The kernel is restarted. The work comes back, is saved, exported and opened again.
     page.evaluate(RESTART)

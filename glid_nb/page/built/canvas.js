@@ -17,17 +17,21 @@ assign(table,{autofocus:true}));const title="Keys and gestures (?)";const look={
 "tr",{},make("th",{},keys),make("td",{},what))}var PATHS={edit:"M3 2l9.5 5.2-4 1.2 2.4 4.3-1.8 1-2.4-4.3L3 12z",foreground:"M13.5 2.5l-6 6 M6.7 9.2\
 c-1.6-.5-3 .6-3.1 2.1-.1 1-.7 1.7-1.6 2 2.2.9 5.6.4 5.9-2.2 .1-.8-.4-1.6-1.2-1.9z M9.5 12.5h5 M12 10\
 v5",background:"M13.5 2.5l-6 6 M6.7 9.2c-1.6-.5-3 .6-3.1 2.1-.1 1-.7 1.7-1.6 2 2.2.9 5.6.4 5.9-2.2 .\
-1-.8-.4-1.6-1.2-1.9z M9.5 12.5h5",color:"M9 4l3 3 M10 3.2l1-1a1.6 1.6 0 0 1 2.8 2.2l-1.1 1.1 M9.6 5.\
-2L3.4 11.4 2.5 13.5l2.1-.9 6.2-6.2",component:"M8 1.5v3 M8 11.5v3 M1.5 8h3 M11.5 8h3 M8 5.2a2.8 2.8 \
-0 1 0 0 5.6 2.8 2.8 0 0 0 0-5.6z",polygon:"M8 2l5.5 4-2 7h-7l-2-7z",rectangle:"M2.5 4h11v8h-11z",undo:"\
-M5.5 3L2.5 6l3 3 M3 6h6.2a3.6 3.6 0 0 1 0 7.2H6",redo:"M10.5 3l3 3-3 3 M13 6H6.8a3.6 3.6 0 0 0 0 7.2\
-H10",fit:"M2 5.5V2h3.5 M10.5 2H14v3.5 M14 10.5V14h-3.5 M5.5 14H2v-3.5",plus:"M8 3v10 M3 8h10",minus:"\
-M3 8h10",open:"M2 12.5v-9h4l1.5 2H14v7z",play:"M5 3l8 5-8 5z",pause:"M5.5 3v10 M10.5 3v10",record:"M\
-8 4.2a3.8 3.8 0 1 0 0 7.6 3.8 3.8 0 0 0 0-7.6z",onion:"M6.2 4a4 4 0 1 0 0 8 4 4 0 0 0 0-8z M9.8 4a4 \
-4 0 1 1 0 8",copy:"M5.5 5.5h8v8h-8z M3 10.5v-8h8",export:"M8 2v8 M4.8 6.8L8 10l3.2-3.2 M3 13.5h10",trash:"\
-M3 4.5h10 M6.5 4.5v-2h3v2 M4.5 4.5l.6 9h5.8l.6-9"};function icon(name){return`<svg viewBox="0 0 16 1\
-6" aria-hidden="true"><path d="${PATHS[name]}"/></svg>`}function iconButton(name,title,onclick,className="\
-glid-icon"){return make("button",{title,"aria-label":title,className,onclick,innerHTML:icon(name)})}var TEXT="textarea, [contenteditable], input:not([type=checkbox], [type=range], [type=radio])";var LAST_LATIN="\
+1-.8-.4-1.6-1.2-1.9z M9.5 12.5h5",brush:"M13.5 2.5l-6 6 M6.7 9.2c-1.6-.5-3 .6-3.1 2.1-.1 1-.7 1.7-1.\
+6 2 2.2.9 5.6.4 5.9-2.2 .1-.8-.4-1.6-1.2-1.9z",eraser:"M9.2 2.8l4 4-6.4 6.4H4.4L2.2 11z M5.5 6.6l4 4\
+ M7 13.2h6.5",color:"M9 4l3 3 M10 3.2l1-1a1.6 1.6 0 0 1 2.8 2.2l-1.1 1.1 M9.6 5.2L3.4 11.4 2.5 13.5l\
+2.1-.9 6.2-6.2",component:"M8 1.5v3 M8 11.5v3 M1.5 8h3 M11.5 8h3 M8 5.2a2.8 2.8 0 1 0 0 5.6 2.8 2.8 \
+0 0 0 0-5.6z",polygon:"M8 2l5.5 4-2 7h-7l-2-7z",rectangle:"M2.5 4h11v8h-11z",undo:"M5.5 3L2.5 6l3 3 \
+M3 6h6.2a3.6 3.6 0 0 1 0 7.2H6",redo:"M10.5 3l3 3-3 3 M13 6H6.8a3.6 3.6 0 0 0 0 7.2H10",fit:"M2 5.5V\
+2h3.5 M10.5 2H14v3.5 M14 10.5V14h-3.5 M5.5 14H2v-3.5",screen:"M10 2h4v4 M14 2L9.5 6.5 M6 14H2v-4 M2 \
+14l4.5-4.5",eye:"M1.5 8S4 3.8 8 3.8 14.5 8 14.5 8 12 12.2 8 12.2 1.5 8 1.5 8z M8 6.2a1.8 1.8 0 1 0 0\
+ 3.6 1.8 1.8 0 0 0 0-3.6z",plus:"M8 3v10 M3 8h10",minus:"M3 8h10",open:"M2 12.5v-9h4l1.5 2H14v7z",play:"\
+M5 3l8 5-8 5z",pause:"M5.5 3v10 M10.5 3v10",record:"M8 4.2a3.8 3.8 0 1 0 0 7.6 3.8 3.8 0 0 0 0-7.6z",
+onion:"M6.2 4a4 4 0 1 0 0 8 4 4 0 0 0 0-8z M9.8 4a4 4 0 1 1 0 8",copy:"M5.5 5.5h8v8h-8z M3 10.5v-8h8",
+export:"M8 2v8 M4.8 6.8L8 10l3.2-3.2 M3 13.5h10",trash:"M3 4.5h10 M6.5 4.5v-2h3v2 M4.5 4.5l.6 9h5.8l\
+.6-9"};function icon(name){return`<svg viewBox="0 0 16 16" aria-hidden="true"><path d="${PATHS[name]}\
+"/></svg>`}function iconButton(name,title,onclick,className="glid-icon"){return make("button",{title,
+"aria-label":title,className,onclick,innerHTML:icon(name)})}var TEXT="textarea, [contenteditable], input:not([type=checkbox], [type=range], [type=radio])";var LAST_LATIN="\
 ɏ";var LATIN={Comma:",<",Period:".>",Slash:"/?",Minus:"-_",Equal:"=+",BracketLeft:"[{",BracketRight:"\
 ]}"};function keyOf({key,code="",shiftKey=false}){if(key.length>1||key<=LAST_LATIN)return key;const[
 ,letter,digit]=code.match(/^(?:Key([A-Z])|(?:Digit|Numpad)([0-9]))$/)??[];if(letter)return shiftKey?
@@ -44,8 +48,9 @@ contains(target);const runsTheCell=outside&&e.shiftKey&&e.key==="Enter";const ou
 bubbled=>bubbled.stopPropagation():null;if(outside&&!target.matches(TEXT)&&isForThePad(e,target))act(
 e)};const options={capture:true,signal};window.addEventListener("pointerdown",refocus,options);window.
 addEventListener("focusout",refocus,options);window.addEventListener("keydown",keydown,options)}function isForThePad(e,target){
-if(undoOrRedo(e))return!e.altKey;if(e.ctrlKey||e.metaKey||target.matches("select"))return false;const free=target.
-closest(".glid-timeline")?/^[^ ]$/:/^([^ ]|Escape|Delete)$/;return free.test(keyOf(e))}var BUSY_AFTER=250;var ACKNOWLEDGE_TIMEOUT=2e3;var Link=class{busy=false;refusal=null;view=Math.random().
+if(undoOrRedo(e))return!e.altKey;if(e.ctrlKey||e.metaKey||target.matches("select"))return false;if(keyOf(
+e)==="Escape"&&target.closest(":popover-open"))return false;const free=target.closest(".glid-timelin\
+e")?/^[^ ]$/:/^([^ ]|Escape|Delete)$/;return free.test(keyOf(e))}var BUSY_AFTER=250;var ACKNOWLEDGE_TIMEOUT=2e3;var Link=class{busy=false;refusal=null;view=Math.random().
 toString(36).slice(2);#queue=[];#buffers=[];#promised=[];#waiting=false;#awaited=0;#number=0;#acknowledged=0;#overdue;#timeout;#drawing=0;constructor(model,element,signal,report){
 this.model=model;this.element=element;this.signal=signal;this.report=report;connectNoMoreComms(model.
 widget_manager.kernel);element.dataset.idle="true";signal.addEventListener("abort",()=>this.#stop());
@@ -298,10 +303,10 @@ select nothing"]]],["Poses",[["Ctrl+Z, Ctrl+Shift+Z","undo, redo"],["Ctrl+C, Ctr
  put it on this or a similar shape"],["M","swap left and right"],["0","back to the undeformed shape"]]],
 ["Stiff areas",[["B, E","paint stiff areas, erase them; Esc ends painting"]]],["View",[["Wheel, two \
 fingers","zoom"],["Middle button, Space and drag","move the view"],["F","see everything"],["P","the \
-picture alone, for lectures; Esc brings the rest back"],["W","the whole screen"]]],["Timeline",[["Sp\
-ace","play the motion through the poses, pause; on the canvas too"],["Arrow keys, Home, End","step i\
-n time, with Shift to the next pose; first, last pose"],["Alt and arrow keys","move the pose in time\
-; Delete removes it"]]]];var Legend=class{element=make("div",{className:"glid-legend"});show(model,moving){const bars=[model.
+picture alone, for lectures; Esc brings the rest back"],["W","the whole screen"]]],["Timeline",[["K",
+"make a keyframe of what is shown"],["Space","play the motion through the poses, pause; on the canva\
+s too"],["Arrow keys, Home, End","step in time, with Shift to the next pose; first, last pose"],["Al\
+t and arrow keys","move the pose in time; Delete removes it"]]]];var Legend=class{element=make("div",{className:"glid-legend"});show(model,moving){const bars=[model.
 get("legend"),model.get("panel_legend")].filter(bar=>bar.title);this.element.replaceChildren(...bars.
 map(bar=>colorBar(bar,moving)));this.element.hidden=!bars.length;this.element.dataset.corner=model.get(
 "legend_corner")}};function colorBar({title,moving,colors,ticks,about},moves){const gradient=`backgr\
@@ -321,19 +326,20 @@ ects several";var IMAGE_TIP="where the shape is now. The cyan disk is where it s
 . Another part of the shape covers it";var RING_TIPS={turn:"Drag around the pin to turn the shape th\
 ere; X frees it again",knob:"Drag around the pin to turn the shape there, away from it to scale it; \
 X frees it again"};var PinBehaviour=class{reach=REACH;keys=KEYS;constructor(canvas){this.canvas=canvas;
-this.actions={"?":canvas.help.toggle,contextmenu:()=>canvas.openMenu(),p:()=>canvas.room?.alone(),w:()=>canvas.
-room?.fullScreen()}}get painting(){return this.canvas.painting}changed(){this.canvas.followHand();this.
-canvas.redraw()}menu(place,found){this.canvas.openMenu(place,found)}pressedAt(){return this.canvas.pressedAt()}tapped(){
-this.canvas.box.dispatchEvent(new CustomEvent("glid:play",{bubbles:true}))}find(point,reach){const{view,
-marks,shapes,painting}=this.canvas;if(shapes.motion||painting)return null;const mark=markAt(marks,point,
-reach);return mark??ringAt(view,marks,view.toScreen(point),reach/view.unit/2)}encloses(found,e){if(found)
-return null;if(e.shiftKey)return"box";return e.ctrlKey||e.metaKey?"lasso":null}held({mark}){const{selected,
-targets}=this.canvas.marks;const pressed=Number(mark);const moved=selected.includes(pressed)?selected:
-[pressed];return new Map(moved.map(i=>[i,targets[i]]))}cursor(found){this.canvas.box.title=this.#tip(
-found);return found?"grab":"crosshair"}#tip(found){if(!found)return"";if(found.part)return RING_TIPS[found.
-part];const{marks,model}=this.canvas;const mark=Number(found.mark);const name=["Pin",mark+1,model.get(
-"names")[mark]].join(" ").trim();const tip=found.reached?IMAGE_TIP:TARGET_TIP;return`${name}: ${tip}${marks.
-hidden.includes(mark)?COVERED:""}`}};async function copied(text){try{await navigator.clipboard.writeText(text);return true}catch{return copiedBySelection(
+this.actions={"?":canvas.help.toggle,contextmenu:()=>canvas.openMenu(),k:()=>void canvas.box.dispatchEvent(
+new CustomEvent("glid:key",{bubbles:true})),p:()=>canvas.room?.alone(),w:()=>canvas.room?.fullScreen()}}get painting(){
+return this.canvas.painting}changed(){this.canvas.followHand();this.canvas.redraw()}menu(place,found){
+this.canvas.openMenu(place,found)}pressedAt(){return this.canvas.pressedAt()}tapped(){this.canvas.box.
+dispatchEvent(new CustomEvent("glid:play",{bubbles:true}))}find(point,reach){const{view,marks,shapes,
+painting}=this.canvas;if(shapes.motion||painting)return null;const mark=markAt(marks,point,reach);return mark??
+ringAt(view,marks,view.toScreen(point),reach/view.unit/2)}encloses(found,e){if(found)return null;if(e.
+shiftKey)return"box";return e.ctrlKey||e.metaKey?"lasso":null}held({mark}){const{selected,targets}=this.
+canvas.marks;const pressed=Number(mark);const moved=selected.includes(pressed)?selected:[pressed];return new Map(
+moved.map(i=>[i,targets[i]]))}cursor(found){this.canvas.box.title=this.#tip(found);return found?"gra\
+b":"crosshair"}#tip(found){if(!found)return"";if(found.part)return RING_TIPS[found.part];const{marks,
+model}=this.canvas;const mark=Number(found.mark);const name=["Pin",mark+1,model.get("names")[mark]].
+join(" ").trim();const tip=found.reached?IMAGE_TIP:TARGET_TIP;return`${name}: ${tip}${marks.hidden.includes(
+mark)?COVERED:""}`}};async function copied(text){try{await navigator.clipboard.writeText(text);return true}catch{return copiedBySelection(
 text)}}function copiedBySelection(text){const focused=document.activeElement;const area=document.createElement(
 "textarea");area.value=text;area.setAttribute("readonly","");Object.assign(area.style,{position:"fix\
 ed",top:"0",left:"0",opacity:"0"});document.body.append(area);area.select();try{return document.execCommand(
@@ -363,9 +369,9 @@ const own=control.getAttribute("title");if(own)return own;if(control.matches(".g
 ts *"))return"Plots of the solve";const widget=control.closest(".jupyter-widgets");const label=widget?.
 querySelector(".widget-label")?.textContent?.trim();return label||widget?.getAttribute("title")||labelBefore(
 widget??control)}function labelBefore(one){let before=one.previousElementSibling;while(before&&!before.
-matches(".widget-label"))before=before.previousElementSibling;return before?.textContent?.trim()??""}var PAGE=120;var PARTS=330;var LEAST=480;var GAP=16;var SLACK=20;var SETTLE=80;var NARROW=600;var Room=class{#root=null;#last={
-width:0,height:0,alone:0};#decides=false;#told="";#room=null;#timer;constructor(pad,model,signal){this.
-pad=pad;this.model=model;this.signal=signal;this.observer=new ResizeObserver(()=>this.#measureSoon());
+matches(".widget-label"))before=before.previousElementSibling;return before?.textContent?.trim()??""}var PAGE=124;var PARTS=44+110+28+2;var LEAST=280;var BESIDE=400;var PLOTS=477;var SLACK=20;var SETTLE=80;
+var NARROW=600;var Room=class{#root=null;#last={width:0,height:0,alone:0};#decides=false;#told="";#room=null;#timer;constructor(pad,model,signal){
+this.pad=pad;this.model=model;this.signal=signal;this.observer=new ResizeObserver(()=>this.#measureSoon());
 this.observer.observe(pad);window.addEventListener("resize",()=>this.#measureSoon(),{signal});window.
 addEventListener("keydown",e=>this.#escape(e),{signal,capture:true});model.on("change:room",()=>{if(String(
 model.get("room"))!==this.#told)this.#decides=false});const left=()=>{if(!document.fullscreenElement)
@@ -378,24 +384,27 @@ fullscreenElement){document.exitFullscreen();return}this.#root?.requestFullscree
 this.model,{notice:`Full screen is not possible here: ${error.message}`})})}#escape(e){if(e.key!=="E\
 scape"||!this.#last.alone)return;if(this.pad.matches(":active, :has(.glid-menu, :popover-open)"))return;
 e.stopPropagation();this.alone(false)}#measureSoon(){clearTimeout(this.#timer);this.#timer=setTimeout(
-()=>this.#measure(),SETTLE)}#measure(){const root=this.pad.closest(".glid-editor");const column=this.
-pad.closest(".glid-column");const around=column?.parentElement;if(!root||!around||!column.clientWidth)
-return;root.classList.toggle("glid-narrow",root.clientWidth<NARROW);const room=this.#roomIn(root,column,
-around);if(!this.#root)this.#begin(root,around,room);this.#room=room;this.shrink();if(!this.#decides)
-return;const last=this.#last;const wider=room.width-last.width;const same=room.height===last.height&&
-room.alone===last.alone;if(same&&wider>=0&&wider<SLACK)return;this.#last=room;const numbers=[room.width,
-room.height,room.alone].map(Math.floor);this.#told=String(numbers);save(this.model,{room:numbers})}#begin(root,around,room){
-this.#root=root;this.observer.observe(around);nameControls(root,this.signal);const[width=0]=this.model.
-get("room");this.#decides=room.width>width;root.addEventListener("pointerup",()=>this.#decide(),{signal:this.
-signal})}#decide(){if(this.#decides)return;this.#decides=true;this.#last={width:0,height:0,alone:0};
-this.#measureSoon()}shrink(){const whole=this.pad.closest(".glid-deform");if(!whole||!this.#room)return;
-const panes=whole.querySelectorAll(".glid-pane");const widths=[...panes].map(pane=>Number.parseFloat(
-pane.style.width)||0);const share=this.#room.width/widths.reduce((sum,width)=>sum+width,0);whole.style.
-zoom=share<1&&!this.#decides?String(share):""}#roomIn(root,column,around){const page=document.fullscreenElement===
-root?0:PAGE;const below=window.innerHeight-page;if(root.classList.contains("glid-alone")){return{width:root.
-clientWidth,height:below,alone:1}}const plots=column.nextElementSibling;const beside=around.clientWidth-
-(plots?.offsetWidth??0)-GAP;const width=beside>=LEAST?beside:around.clientWidth;return{width,height:Math.
-max(LEAST,below-PARTS),alone:0}}};var LN2_HIGH=.6931471803691238;var LN2_LOW=19082149292705877e-26;var TWO_TO_54=0x40000000000000;var L1=.6666666666666735;
+()=>this.#measure(),SETTLE)}#measure(){const root=this.pad.closest(".glid-editor");const shell=this.
+pad.closest(".glid-shell");if(!root||!shell?.clientWidth)return;root.classList.toggle("glid-narrow",
+root.clientWidth<NARROW);const room=this.#roomIn(root,shell);if(!this.#root)this.#begin(root,shell,room);
+this.#room=room;this.shrink();if(!this.#decides)return;const last=this.#last;const wider=room.width-
+last.width;const same=room.height===last.height&&room.alone===last.alone;if(same&&wider>=0&&wider<SLACK)
+return;this.#last=room;const numbers=[room.width,room.height,room.alone].map(Math.floor);this.#told=
+String(numbers);save(this.model,{room:numbers})}#begin(root,shell,room){this.#root=root;this.observer.
+observe(root);this.observer.observe(shell);const plots=shell.querySelector(".glid-plots-box");if(plots)
+this.observer.observe(plots);nameControls(root,this.signal);const[width=0]=this.model.get("room");this.#decides=
+room.width>width;root.addEventListener("pointerup",()=>this.#decide(),{signal:this.signal})}#decide(){
+if(this.#decides)return;this.#decides=true;this.#last={width:0,height:0,alone:0};this.#measureSoon()}shrink(){
+const whole=this.pad.closest(".glid-deform");if(!whole||!this.#room)return;const panes=whole.querySelectorAll(
+".glid-pane");const widths=[...panes].map(pane=>Number.parseFloat(pane.style.width)||0);const share=this.#room.
+width/widths.reduce((sum,width)=>sum+width,0);whole.style.zoom=share<1&&!this.#decides?String(share):
+""}#roomIn(root,shell){const page=document.fullscreenElement===root?0:PAGE;const below=window.innerHeight-
+page;if(root.classList.contains("glid-alone")){return{width:root.clientWidth,height:below,alone:1}}const narrow=root.
+classList.contains("glid-narrow");const side=shell.querySelector(".glid-side");const plots=shell.querySelector(
+".glid-plots-box");const beside=shell.clientWidth-(narrow?0:side?.offsetWidth??0);const plotted=Boolean(
+plots?.offsetWidth)&&!narrow&&beside-PLOTS>=BESIDE;shell.classList.toggle("glid-beside",plotted);const width=plotted?
+beside-PLOTS:beside;const above=shell.getBoundingClientRect().top-root.getBoundingClientRect().top;return{
+width,height:Math.max(LEAST,below-above/scaleOf(root).down-PARTS),alone:0}}};var LN2_HIGH=.6931471803691238;var LN2_LOW=19082149292705877e-26;var TWO_TO_54=0x40000000000000;var L1=.6666666666666735;
 var L2=.3999999999940942;var L3=.2857142874366239;var L4=.22222198432149784;var L5=.1818357216161805;
 var L6=.15313837699209373;var L7=.14798198605116586;var A0=.3333333333333293;var A1=-.19999999999876483;
 var A2=.14285714272503466;var A3=-.11111110405462356;var A4=.09090887133436507;var A5=-.0769187620504483;
@@ -486,7 +495,7 @@ new Float64Array(buffer,first,length):new Float64Array(length);first+=array.byte
 function reachable(size){if(!compiled.module){return null}try{const memory=new WebAssembly.Memory({initial:Math.
 ceil(size/PAGE2)});const{exports}=new WebAssembly.Instance(compiled.module,{page:{memory}});kernels.
 set(memory.buffer,exports);return memory.buffer}catch{return null}}function kernelOf(...arrays){const[
-{buffer}]=arrays;return arrays.every(array=>array.buffer===buffer)?kernels.get(buffer):void 0}var UNIT_ROUNDOFF=11102230246251565e-32;var UPWARD=1+9313225746154785e-25;var CUT=64*UNIT_ROUNDOFF;var BESIDE=64*
+{buffer}]=arrays;return arrays.every(array=>array.buffer===buffer)?kernels.get(buffer):void 0}var UNIT_ROUNDOFF=11102230246251565e-32;var UPWARD=1+9313225746154785e-25;var CUT=64*UNIT_ROUNDOFF;var BESIDE2=64*
 UNIT_ROUNDOFF;var LOGARITHM=16*UNIT_ROUNDOFF;var BERNSTEIN=16*UNIT_ROUNDOFF;var TAU=2*Math.PI;var LARGEST_NORM=1e20;var FEW=64;function emptyRows(count,columns){const width=evenly(
 columns);const lengths=[count*width,count*width,4*width,4*count];const[re,im,slopes,samples]=count<FEW?
 lengths.map(length=>new Float64Array(length)):arraysOf(...lengths);return{count,columns,re,im,slopes,
@@ -596,48 +605,49 @@ shapes.showLead(lead));this.redraw=painter(paper,this.view,signal,pen=>this.#dra
 model,this.box,signal,()=>this.#report());this.room=this.interactive?new Room(this.box,model,signal):
 null;this.pad=new Pad(this.box,this.view,this.#listener(signal),new PinBehaviour(this));this.clipboard=
 new PoseClipboard(this);this.corner=this.#makeCorner();if(this.interactive){this.box.append(shield(this.
-corner),this.help.table,resizeGrip(model));keysAround(this.box,e=>this.pad.keydown(e),signal)}this.#takeFirst()}close(){
-clearTimeout(this.#saving);this.ahead.close();this.shapes.close()}get marks(){return marksOf(this.model.
-get("marks"),this.shapes.lead)}prepareSolver(){if(this.interactive)void this.ahead.prepare()}rested(){
-if(!this.pad.grip)this.ahead.giveBack()}followHand(){if(this.pad.grip&&!this.shapes.motion)this.ahead.
-follow(this.pad.held)}#listener(signal){const put=event=>{const drags=event.type==="up"||this.pad.grip&&
-/^(down|move)$/.test(event.type);if(!drags)this.ahead.giveBack();return this.link.put(event)};return{
-put,signal}}get brush(){const brush=this.model.get("brush");return"radius"in brush?brush:null}get painting(){
-return this.brush!==null}say(notice){save(this.model,{notice})}openMenu(place,found={mark:this.marks.
-selected.at(-1)}){const{selected,targets}=this.marks;const mark=found?.mark===void 0?null:Number(found.
-mark);const centre=[this.view.x,this.view.y];const point=mark===null?this.model.get("cursor")??centre:
-targets[mark];const at=place??this.view.toScreen(point);const does={press:(key,shift=false)=>{return()=>this.
-pad.press(key,{shiftKey:shift})},pin:()=>void this.pad.send("pin",at),paste:()=>void this.clipboard.
-paste(),alone:()=>this.room?.alone(),fullScreen:()=>this.room?.fullScreen(),showKeys:this.help.toggle};
-const pinned=mark!==null&&selected.includes(mark)?selected.length:1;const covered=mark===null&&coveredNear(
-this.box,at);openMenu(this.box,at,menuRows(does,mark===null?null:{pinned},covered))}showMotion(motion=null,playing=STILL,heights=null){
-this.#playing=playing;this.shapes.motion=motion;this.shapes.lift(heights);this.showLegend();this.shapes.
-refresh();this.redraw()}showLegend(){this.legend.show(this.model,Boolean(this.shapes.motion))}showNotice(){
-const first=this.interactive&&!this.marks.targets.length;this.notices.tell(this.model.get("notice"),
-this.painting,first)}fit(){const{model,view,box}=this;view.width=model.get("width");view.height=model.
-get("height");[view.x,view.y,view.unit]=model.get("view");box.style.width=`${view.width}px`;box.style.
-height=`${view.height}px`;this.room?.shrink();this.#see()}reveal(){const{selected,targets,images}=this.
-marks;const now=selected.length===1?selected[0]:void 0;if(now===this.#chosen)return;this.#chosen=now;
-if(now===void 0||this.pad.mode)return;if(inSight(this.view,targets[now])||inSight(this.view,images[now]))
-return;this.view.centreOn(targets[now])}pressedAt(){if(!this.shapes.motion)return void 0;this.#presses=
-true;return this.#playing.pause()}#takeFirst(){const goBack=e=>{if(!this.shapes.motion)return;e.stopImmediatePropagation();
-e.preventDefault();this.#playing.release()};const capture=true;this.box.addEventListener("pointerdow\
-n",e=>e.button===2&&goBack(e),{capture});const ours=e=>!e.ctrlKey&&!e.metaKey&&KEYS.test(keyOf(e));this.
-box.addEventListener("keydown",e=>ours(e)&&goBack(e),{capture});const followArrow=e=>{const target=arrowAt(
-this.view,this.marks,this.pad.place(e));if(!target||e.target!==this.box)return;this.view.centreOn(target);
-e.stopImmediatePropagation()};this.box.addEventListener("pointerdown",followArrow,{capture})}#makeCorner(){
-const look="glid-help-button";return make("div",{className:"glid-corner"},this.help.button,iconButton(
-"fit","Full screen (W)",()=>this.room?.fullScreen(),look),iconButton("rectangle","The picture alone \
-(P)",()=>this.room?.alone(),look))}#report(){const{busy,refusal}=this.link;if(this.#presses&&this.link.
-idle&&this.pad.mode===null){this.#presses=false;this.#playing.release()}if(!busy&&refusal&&refusal!==
-this.model.get("notice"))this.say(refusal)}#viewMoved(){this.#see();clearTimeout(this.#saving);this.#saving=
-setTimeout(()=>{const{x,y,unit}=this.view;save(this.model,{view:[x,y,unit]})},SAVE_VIEW_AFTER)}#see(){
-this.shapes.see();this.redraw()}#draw(pen){const{model,view,pad,marks,brush}=this;const{motion}=this.
-shapes;const through=!motion&&knobInCorner(view,marks,pad.held);this.corner.classList.toggle("glid-t\
-hrough",through);if(motion)return;drawOnion(pen,view,model.get("onion"));drawStiff(pen,view,model.get(
-"stiff"),this.painting);const cursor=pad.focused?model.get("cursor"):null;drawMarks(pen,view,marks,{
-hovered:pad.found?.mark,held:pad.held,cursor});if(brush)drawBrush(pen,view,brush,pad);if(pad.encloses&&
-pad.path.length>2)drawLasso(pen,view,pad.path)}};function render(context){const{model,signal}=context;const canvas=new Canvas(context);follow(model,{
+corner),this.help.table,resizeGrip(model));keysAround(this.box,e=>this.pad.keydown(e),signal);this.box.
+addEventListener("glid:press",e=>this.#pressed(e))}this.#takeFirst()}close(){clearTimeout(this.#saving);
+this.ahead.close();this.shapes.close()}get marks(){return marksOf(this.model.get("marks"),this.shapes.
+lead)}prepareSolver(){if(this.interactive)void this.ahead.prepare()}rested(){if(!this.pad.grip)this.
+ahead.giveBack()}followHand(){if(this.pad.grip&&!this.shapes.motion)this.ahead.follow(this.pad.held)}#listener(signal){
+const put=event=>{const drags=event.type==="up"||this.pad.grip&&/^(down|move)$/.test(event.type);if(!drags)
+this.ahead.giveBack();return this.link.put(event)};return{put,signal}}get brush(){const brush=this.model.
+get("brush");return"radius"in brush?brush:null}get painting(){return this.brush!==null}say(notice){save(
+this.model,{notice})}openMenu(place,found={mark:this.marks.selected.at(-1)}){const{selected,targets}=this.
+marks;const mark=found?.mark===void 0?null:Number(found.mark);const centre=[this.view.x,this.view.y];
+const point=mark===null?this.model.get("cursor")??centre:targets[mark];const at=place??this.view.toScreen(
+point);const does={press:(key,shift=false)=>{return()=>this.pad.press(key,{shiftKey:shift})},pin:()=>void this.
+pad.send("pin",at),paste:()=>void this.clipboard.paste(),alone:()=>this.room?.alone(),fullScreen:()=>this.
+room?.fullScreen(),showKeys:this.help.toggle};const pinned=mark!==null&&selected.includes(mark)?selected.
+length:1;const covered=mark===null&&coveredNear(this.box,at);openMenu(this.box,at,menuRows(does,mark===
+null?null:{pinned},covered))}showMotion(motion=null,playing=STILL,heights=null){this.#playing=playing;
+this.shapes.motion=motion;this.shapes.lift(heights);this.showLegend();this.shapes.refresh();this.redraw()}showLegend(){
+this.legend.show(this.model,Boolean(this.shapes.motion))}showNotice(){const first=this.interactive&&
+!this.marks.targets.length;this.notices.tell(this.model.get("notice"),this.painting,first)}fit(){const{
+model,view,box}=this;view.width=model.get("width");view.height=model.get("height");[view.x,view.y,view.
+unit]=model.get("view");box.style.width=`${view.width}px`;box.style.height=`${view.height}px`;this.room?.
+shrink();this.#see()}reveal(){const{selected,targets,images}=this.marks;const now=selected.length===
+1?selected[0]:void 0;if(now===this.#chosen)return;this.#chosen=now;if(now===void 0||this.pad.mode)return;
+if(inSight(this.view,targets[now])||inSight(this.view,images[now]))return;this.view.centreOn(targets[now])}pressedAt(){
+if(!this.shapes.motion)return void 0;this.#presses=true;return this.#playing.pause()}#pressed(e){const{
+detail}=e;const act=this.pad.behaviour.actions?.[detail];if(act)act();else this.pad.press(detail,{})}#takeFirst(){
+const goBack=e=>{if(!this.shapes.motion)return;e.stopImmediatePropagation();e.preventDefault();this.#playing.
+release()};const capture=true;this.box.addEventListener("pointerdown",e=>e.button===2&&goBack(e),{capture});
+const ours=e=>!e.ctrlKey&&!e.metaKey&&KEYS.test(keyOf(e));this.box.addEventListener("keydown",e=>ours(
+e)&&goBack(e),{capture});const followArrow=e=>{const target=arrowAt(this.view,this.marks,this.pad.place(
+e));if(!target||e.target!==this.box)return;this.view.centreOn(target);e.stopImmediatePropagation()};
+this.box.addEventListener("pointerdown",followArrow,{capture})}#makeCorner(){const look="glid-help-b\
+utton";return make("div",{className:"glid-corner"},this.help.button,iconButton("screen","Full screen\
+ (W)",()=>this.room?.fullScreen(),look),iconButton("rectangle","The picture alone (P)",()=>this.room?.
+alone(),look))}#report(){const{busy,refusal}=this.link;if(this.#presses&&this.link.idle&&this.pad.mode===
+null){this.#presses=false;this.#playing.release()}if(!busy&&refusal&&refusal!==this.model.get("notic\
+e"))this.say(refusal)}#viewMoved(){this.#see();clearTimeout(this.#saving);this.#saving=setTimeout(()=>{
+const{x,y,unit}=this.view;save(this.model,{view:[x,y,unit]})},SAVE_VIEW_AFTER)}#see(){this.shapes.see();
+this.redraw()}#draw(pen){const{model,view,pad,marks,brush}=this;const{motion}=this.shapes;const through=!motion&&
+knobInCorner(view,marks,pad.held);this.corner.classList.toggle("glid-through",through);if(motion)return;
+drawOnion(pen,view,model.get("onion"));drawStiff(pen,view,model.get("stiff"),this.painting);const cursor=pad.
+focused?model.get("cursor"):null;drawMarks(pen,view,marks,{hovered:pad.found?.mark,held:pad.held,cursor});
+if(brush)drawBrush(pen,view,brush,pad);if(pad.encloses&&pad.path.length>2)drawLasso(pen,view,pad.path)}};function render(context){const{model,signal}=context;const canvas=new Canvas(context);follow(model,{
 "change:width change:height change:view":()=>canvas.fit(),"change:coefficients":()=>canvas.shapes.lead||
 canvas.shapes.refresh(),"change:solver_script change:solver change:outline":()=>canvas.prepareSolver(),
 "change:rest":()=>canvas.rested(),"change:drawing_time":()=>model.get("drawn")&&!model.get("drawing_\

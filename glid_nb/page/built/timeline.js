@@ -42,50 +42,52 @@ if(!connect||Object.hasOwn(status,"connect"))return;status.connect=(slot,receive
 "_cleanSubshells")&&connect.call(status,slot,receiver)}var PATHS={edit:"M3 2l9.5 5.2-4 1.2 2.4 4.3-1.8 1-2.4-4.3L3 12z",foreground:"M13.5 2.5l-6 6 M6.7 9.2\
 c-1.6-.5-3 .6-3.1 2.1-.1 1-.7 1.7-1.6 2 2.2.9 5.6.4 5.9-2.2 .1-.8-.4-1.6-1.2-1.9z M9.5 12.5h5 M12 10\
 v5",background:"M13.5 2.5l-6 6 M6.7 9.2c-1.6-.5-3 .6-3.1 2.1-.1 1-.7 1.7-1.6 2 2.2.9 5.6.4 5.9-2.2 .\
-1-.8-.4-1.6-1.2-1.9z M9.5 12.5h5",color:"M9 4l3 3 M10 3.2l1-1a1.6 1.6 0 0 1 2.8 2.2l-1.1 1.1 M9.6 5.\
-2L3.4 11.4 2.5 13.5l2.1-.9 6.2-6.2",component:"M8 1.5v3 M8 11.5v3 M1.5 8h3 M11.5 8h3 M8 5.2a2.8 2.8 \
-0 1 0 0 5.6 2.8 2.8 0 0 0 0-5.6z",polygon:"M8 2l5.5 4-2 7h-7l-2-7z",rectangle:"M2.5 4h11v8h-11z",undo:"\
-M5.5 3L2.5 6l3 3 M3 6h6.2a3.6 3.6 0 0 1 0 7.2H6",redo:"M10.5 3l3 3-3 3 M13 6H6.8a3.6 3.6 0 0 0 0 7.2\
-H10",fit:"M2 5.5V2h3.5 M10.5 2H14v3.5 M14 10.5V14h-3.5 M5.5 14H2v-3.5",plus:"M8 3v10 M3 8h10",minus:"\
-M3 8h10",open:"M2 12.5v-9h4l1.5 2H14v7z",play:"M5 3l8 5-8 5z",pause:"M5.5 3v10 M10.5 3v10",record:"M\
-8 4.2a3.8 3.8 0 1 0 0 7.6 3.8 3.8 0 0 0 0-7.6z",onion:"M6.2 4a4 4 0 1 0 0 8 4 4 0 0 0 0-8z M9.8 4a4 \
-4 0 1 1 0 8",copy:"M5.5 5.5h8v8h-8z M3 10.5v-8h8",export:"M8 2v8 M4.8 6.8L8 10l3.2-3.2 M3 13.5h10",trash:"\
-M3 4.5h10 M6.5 4.5v-2h3v2 M4.5 4.5l.6 9h5.8l.6-9"};function icon(name){return`<svg viewBox="0 0 16 1\
-6" aria-hidden="true"><path d="${PATHS[name]}"/></svg>`}function iconButton(name,title,onclick,className="\
-glid-icon"){return make("button",{title,"aria-label":title,className,onclick,innerHTML:icon(name)})}var KERNEL="Played by the kernel (too large for shaders). ";function seconds(time){return`${time.toFixed(
+1-.8-.4-1.6-1.2-1.9z M9.5 12.5h5",brush:"M13.5 2.5l-6 6 M6.7 9.2c-1.6-.5-3 .6-3.1 2.1-.1 1-.7 1.7-1.\
+6 2 2.2.9 5.6.4 5.9-2.2 .1-.8-.4-1.6-1.2-1.9z",eraser:"M9.2 2.8l4 4-6.4 6.4H4.4L2.2 11z M5.5 6.6l4 4\
+ M7 13.2h6.5",color:"M9 4l3 3 M10 3.2l1-1a1.6 1.6 0 0 1 2.8 2.2l-1.1 1.1 M9.6 5.2L3.4 11.4 2.5 13.5l\
+2.1-.9 6.2-6.2",component:"M8 1.5v3 M8 11.5v3 M1.5 8h3 M11.5 8h3 M8 5.2a2.8 2.8 0 1 0 0 5.6 2.8 2.8 \
+0 0 0 0-5.6z",polygon:"M8 2l5.5 4-2 7h-7l-2-7z",rectangle:"M2.5 4h11v8h-11z",undo:"M5.5 3L2.5 6l3 3 \
+M3 6h6.2a3.6 3.6 0 0 1 0 7.2H6",redo:"M10.5 3l3 3-3 3 M13 6H6.8a3.6 3.6 0 0 0 0 7.2H10",fit:"M2 5.5V\
+2h3.5 M10.5 2H14v3.5 M14 10.5V14h-3.5 M5.5 14H2v-3.5",screen:"M10 2h4v4 M14 2L9.5 6.5 M6 14H2v-4 M2 \
+14l4.5-4.5",eye:"M1.5 8S4 3.8 8 3.8 14.5 8 14.5 8 12 12.2 8 12.2 1.5 8 1.5 8z M8 6.2a1.8 1.8 0 1 0 0\
+ 3.6 1.8 1.8 0 0 0 0-3.6z",plus:"M8 3v10 M3 8h10",minus:"M3 8h10",open:"M2 12.5v-9h4l1.5 2H14v7z",play:"\
+M5 3l8 5-8 5z",pause:"M5.5 3v10 M10.5 3v10",record:"M8 4.2a3.8 3.8 0 1 0 0 7.6 3.8 3.8 0 0 0 0-7.6z",
+onion:"M6.2 4a4 4 0 1 0 0 8 4 4 0 0 0 0-8z M9.8 4a4 4 0 1 1 0 8",copy:"M5.5 5.5h8v8h-8z M3 10.5v-8h8",
+export:"M8 2v8 M4.8 6.8L8 10l3.2-3.2 M3 13.5h10",trash:"M3 4.5h10 M6.5 4.5v-2h3v2 M4.5 4.5l.6 9h5.8l\
+.6-9"};function icon(name){return`<svg viewBox="0 0 16 16" aria-hidden="true"><path d="${PATHS[name]}\
+"/></svg>`}function iconButton(name,title,onclick,className="glid-icon"){return make("button",{title,
+"aria-label":title,className,onclick,innerHTML:icon(name)})}var KERNEL="Played by the kernel (too large for shaders). ";function seconds(time){return`${time.toFixed(
 2)} s`}function noteOn({keyframes,recording,kernel},spans){const bad=spans.find(({reason})=>reason);
 const note=state(keyframes.length,recording,bad?.reason,spans);return kernel&&spans.length&&!bad?KERNEL+
 note:note}function state(count,recording,reason,spans){if(recording)return"Recording: drag a pin; it\
 s movement becomes keyframes.";if(reason)return reason;if(spans.some(({status})=>status==="computing"))
-return"Proving the motion between poses…";const last=spans.at(-1);if(!last)return count<2?"Keep a \
-second pose to see the motion between them.":"";const least=Math.min(...spans.flatMap(({sigma2})=>sigma2));
+return"Proving the motion between poses…";const last=spans.at(-1);if(!last)return count<2?"Key (K)\
+ a second pose to see the motion between them.":"";const least=Math.min(...spans.flatMap(({sigma2})=>sigma2));
 const lasts=seconds(last.end-spans[0].start);return`Proved at every instant of ${lasts}: σ₂ ≥ ${least.
-toFixed(3)}.`}var EASINGS=[["linear","Even"],["in","Ease in"],["out","Ease out"],["in-out","Ease in, out"]];var REPEATS=[
-["once","Once"],["loop","Loop"],["ping-pong","Ping-pong"]];var ONION="Onion skin: outlines of the po\
-ses before (blue) and after (orange) the edited pose";var KEEP="Keep this pose and continue with a c\
-opy; between poses, keep the shown shape";var Bar=class{recording=false;onionOn=false;constructor({play,
-keep,act,edit}){this.play=iconButton("play","Play, pause (Space)",play);this.repeat=menu("Play once,\
- in a loop, or there and back",REPEATS,repeat=>act("set_repeat",{repeat}));this.clock=make("span",{className:"\
-glid-time",role:"timer"});this.record=iconButton("record","Record: keep the next drag as keyframes",
-()=>act("record",{on:!this.recording}));this.onion=iconButton("onion",ONION,()=>act("onion",{on:!this.
-onionOn}));this.keep=make("button",{className:"glid-keep",title:KEEP,onclick:keep});const copy=iconButton(
-"copy","Duplicate this pose",()=>edit("duplicate_pose"));this.remove=iconButton("trash","Delete this\
- pose (Delete)",()=>edit("delete_pose"));this.name=make("input",{type:"text","aria-label":"Name of t\
-he pose",title:"Name of the pose",maxLength:200,onchange:()=>edit("rename_pose",{name:this.name.value})});
-this.easing=menu("How the motion leaves this pose",EASINGS,easing=>edit("set_easing",{easing}));this.
-save=iconButton("export","Export the motion",()=>act("export"));this.element=make("div",{className:"\
-glid-bar",role:"toolbar","aria-label":"Motion"},...[this.play,this.repeat,this.clock,gap()],...[this.
-record,this.onion,gap()],...[this.keep,copy,this.remove,this.name,this.easing,this.save])}update({keyframes,
-active,repeat,recording,onion,exports},moved){const{name,easing}=keyframes[active];const alone=keyframes.
-length<2;this.repeat.value=repeat;this.easing.value=easing;if(document.activeElement!==this.name||moved)
-this.name.value=name;this.remove.disabled=alone;for(const control of[this.play,this.save,this.repeat,
-this.easing]){control.disabled=alone}this.save.hidden=!exports;this.recording=recording;this.onionOn=
-onion;this.record.ariaPressed=String(recording);this.onion.ariaPressed=String(onion)}showTime(place,end,playing,between){
+toFixed(3)}.`}var REPEATS=[["once","Once"],["loop","Loop"],["ping-pong","Ping-pong"]];var ONION="Onion skin: outli\
+nes of the poses before (blue) and after (orange) the edited pose";var KEY="Key this pose and contin\
+ue with a copy (K); at another time, key the shape that is shown there";var LEGEND=[["proved","prove\
+d"],["computing","not yet"],["refused","not proved"]];var Bar=class{recording=false;onionOn=false;constructor({
+play,keep,act,edit}){this.play=iconButton("play","Play, pause (Space)",play);this.repeat=menu("Play \
+once, in a loop, or there and back",REPEATS,repeat=>act("set_repeat",{repeat}));this.clock=make("spa\
+n",{className:"glid-time",role:"timer"});this.record=iconButton("record","Record: keep the next drag\
+ as keyframes",()=>act("record",{on:!this.recording}));this.onion=iconButton("onion",ONION,()=>act("\
+onion",{on:!this.onionOn}));this.keep=make("button",{className:"glid-keep",title:KEY,onclick:keep},"\
+Key");const copy=iconButton("copy","Duplicate this pose",()=>edit("duplicate_pose"));this.remove=iconButton(
+"trash","Delete this pose (Delete)",()=>edit("delete_pose"));this.save=iconButton("export","Export t\
+he motion",()=>act("export"));this.element=make("div",{className:"glid-bar",role:"toolbar","aria-lab\
+el":"Motion"},...[this.play,this.repeat,this.clock,gap()],...[this.record,this.onion,gap()],...[this.
+keep,copy,this.remove,gap(),this.save])}update({keyframes,repeat,recording,onion,exports}){const alone=keyframes.
+length<2;this.repeat.value=repeat;this.remove.disabled=alone;for(const control of[this.play,this.save,
+this.repeat]){control.disabled=alone}this.save.hidden=!exports;this.recording=recording;this.onionOn=
+onion;this.record.ariaPressed=String(recording);this.onion.ariaPressed=String(onion)}showTime(place,end,playing){
 const does=playing?"pause":"play";if(this.play.dataset.does!==does)this.play.innerHTML=icon(does);this.
-play.dataset.does=does;this.clock.textContent=`${place.toFixed(2)} / ${seconds(end)}`;this.keep.textContent=
-between?"Keep it":"Keep"}};function gap(){return make("span",{className:"glid-gap"})}function menu(label,choices,act){
-const options=choices.map(([value,text])=>new Option(text,value));const select=make("select",{"aria-\
-label":label,title:label},...options);select.addEventListener("change",()=>act(select.value));return select}var Player=class{clock=null;time=0;seen=false;#intervals=[];#frame=0;constructor(show,moved,ended=()=>{}){
+play.dataset.does=does;this.clock.textContent=`${place.toFixed(2)} / ${seconds(end)}`}};function legend(){
+const parts=LEGEND.map(([kind,label])=>{return make("span",{},make("i",{className:`glid-piece glid-${kind}`}),
+label)});return make("div",{className:"glid-proof-legend","aria-hidden":true},...parts)}function gap(){
+return make("span",{className:"glid-gap"})}function menu(label,choices,act){const options=choices.map(
+([value,text])=>new Option(text,value));const select=make("select",{"aria-label":label,title:label},
+...options);select.addEventListener("change",()=>act(select.value));return select}var Player=class{clock=null;time=0;seen=false;#intervals=[];#frame=0;constructor(show,moved,ended=()=>{}){
 this.show=show;this.moved=moved;this.ended=ended}set(intervals,repeat){this.#intervals=intervals.map(
 ({end,times:times2,floats})=>({end,motion:floats.length?new Motion({times:times2,repeat:"once"},floats):
 null}));const first=intervals[0];const last=intervals.at(-1);const times=first&&last?[first.start,last.
@@ -127,98 +129,99 @@ id-track"},...parts);new ResizeObserver(()=>this.#label()).observe(this.ruler);t
 element.addEventListener("lostpointercapture",e=>this.#up(e))}focus(){this.ruler.focus({preventScroll:true})}drop(){
 this.#drag=null;this.#scrubbing=null;this.hand.hover("");this.hand.dropped()}landing(index,time){const least=SLIM/
 this.#inside().width*this.span;return landing(this.#shown?.keyframes??[],index,time,least)}showHead(place,seen){
-this.head.style.left=this.#at(place);this.head.classList.toggle("glid-seen",seen);this.element.dataset.
-time=String(place);this.element.dataset.span=String(this.span);this.ruler.setAttribute("aria-valueno\
-w",place.toFixed(2));this.ruler.setAttribute("aria-valuetext",seconds(place))}showKeys(shown,thumbnails){
-this.#shown=shown;if(this.#drag||this.#scrubbing!==null)return;const all=withReturn(shown);this.span=
-spanOf(all);this.ruler.setAttribute("aria-valuemax",this.span.toFixed(2));const root=this.keys.getRootNode();
-const active=root.activeElement;const focused=[...this.keys.children].indexOf(active);this.keys.replaceChildren(
-...all.map(({name,time,thumbnail},i)=>{const title=`${name} at ${seconds(time)}`;const width=`${this.#wide(
-roomAt(all,i,this.span))} - 2px`;const own=i<shown.keyframes.length;const picture=thumbnail===void 0?
-void 0:thumbnails[thumbnail];return make("button",{className:own?"glid-key":"glid-key glid-return",title:`${title}\
-; drag it to another time`,"aria-label":title,"aria-pressed":i===shown.active,style:`left: ${this.#at(
-time)}; width: clamp(${SLIM}px, ${width}, ${WIDE}px)`,onpointerdown:e=>this.#grab(e,i,time),onclick:e=>{
-if(!e.detail)this.hand.select(i%shown.keyframes.length)}},...picture?[make("img",{src:picture,alt:"",
-draggable:false})]:[])}));const key=this.keys.children[focused];if(key instanceof HTMLElement)key.focus()}showSpans(spans,label){
-this.strip.replaceChildren(...spans.flatMap(span=>this.#pieces(span)));this.strip.setAttribute("aria\
--label",label);this.#label()}#label(){const{ruler,span}=this;const labels=labelledTimes(span,Math.max(
-ruler.clientWidth-2*INSET,0)).map(time=>make("span",{style:`left: ${this.#at(time)}`},`${Number(time.
-toFixed(1))}`));ruler.replaceChildren(...labels)}#pieces({start,end,status,reason,times,sigma2}){const proved=sigma2.
-map((bound,i)=>{const when=`from ${seconds(times[i])} to ${seconds(times[i+1])}`;const height=heightOf(
-bound);const text2=`σ₂ ≥ ${bound.toFixed(3)} ${when}`;return this.#piece(times[i],times[i+1],"p\
-roved",text2,height)});if(status==="proved")return proved;const from=status==="fails"?times.at(-1)??
-start:start;const text=reason||`Not proved yet from ${seconds(start)} to ${seconds(end)}`;return[...proved,
-this.#piece(from,end,status,text,1)]}#piece(start,end,kind,text,height){const width=`calc(${this.#wide(
-end-start)})`;return make("div",{className:`glid-piece glid-${kind}`,title:text,onpointerenter:()=>this.
-hand.hover(text),style:`left: ${this.#at(start)}; width: ${width}; --glid-height: ${height}`})}#wide(time){
-return`${time/this.span} * (100% - 2 * var(--glid-inset))`}#at(time){return`calc(var(--glid-inset) +\
- ${this.#wide(time)})`}#inside(){const{left,width}=this.element.getBoundingClientRect();const length=getComputedStyle(
-this.element).getPropertyValue("--glid-inset");const inset=Number.parseFloat(length)*scaleOf(this.element).
-across;return{left:left+inset,width:width-2*inset}}#grab(e,index,time){if(e.button!==0)return;e.stopPropagation();
-const button=e.currentTarget;this.#drag={index,from:time,x:e.clientX,time:null};button.setPointerCapture(
-e.pointerId);button.focus({preventScroll:true});button.onpointermove=move=>this.#dragged(move,button);
-button.onlostpointercapture=()=>this.#letGo()}#dragged(e,button){const drag=this.#drag;if(!drag)return;
-const moved=e.clientX-drag.x;if(drag.time===null&&Math.abs(moved)<=STILL)return;const time=drag.from+
-moved/this.#inside().width*this.span;drag.time=this.landing(drag.index,time);button.style.left=this.#at(
-drag.time);this.head.style.left=this.#at(drag.time);this.hand.hover(`to ${seconds(drag.time)}`)}#letGo(){
-if(!this.#drag)return;const{index,time}=this.#drag;this.drop();if(time!==null){this.focus();this.hand.
-move(index,time)}else if(index<(this.#shown?.keyframes.length??0)){this.hand.select(index)}}#down(e){
-if(e.button!==0||!this.hand.scrubs())return;this.#scrubbing=e.pointerId;this.element.setPointerCapture(
-e.pointerId);this.#scrub(e)}#scrub(e){if(this.#scrubbing!==e.pointerId)return;const{left,width}=this.#inside();
-const time=(e.clientX-left)/width*this.span;const near=SNAP/width*this.span;const key=this.#shown?.keyframes.
-find(one=>Math.abs(one.time-time)<near);this.hand.scrub(key?.time??time)}#up(e){if(this.#scrubbing!==
-e.pointerId)return;this.drop();this.hand.scrubbed()}};var STEP=1/30;var NUDGE=.1;var Timeline=class{note=make("div",{className:"glid-timeline-note",role:"\
+this.head.style.left=this.#at(place);this.head.classList.toggle("glid-seen",seen);this.head.dataset.
+label=place.toFixed(2);this.element.dataset.time=String(place);this.element.dataset.span=String(this.
+span);this.ruler.setAttribute("aria-valuenow",place.toFixed(2));this.ruler.setAttribute("aria-valuet\
+ext",seconds(place))}showKeys(shown,thumbnails){this.#shown=shown;if(this.#drag||this.#scrubbing!==null)
+return;const all=withReturn(shown);this.span=spanOf(all);this.ruler.setAttribute("aria-valuemax",this.
+span.toFixed(2));const root=this.keys.getRootNode();const active=root.activeElement;const focused=[...this.
+keys.children].indexOf(active);this.keys.replaceChildren(...all.map(({name,time,thumbnail},i)=>{const title=`${name}\
+ at ${seconds(time)}`;const width=`${this.#wide(roomAt(all,i,this.span))} - 2px`;const own=i<shown.keyframes.
+length;const picture=thumbnail===void 0?void 0:thumbnails[thumbnail];return make("button",{className:own?
+"glid-key":"glid-key glid-return",title:`${title}; drag it to another time`,"aria-label":title,"aria\
+-pressed":i===shown.active,style:`left: ${this.#at(time)}; width: clamp(${SLIM}px, ${width}, ${WIDE}\
+px)`,onpointerdown:e=>this.#grab(e,i,time),onclick:e=>{if(!e.detail)this.hand.select(i%shown.keyframes.
+length)}},...picture?[make("img",{src:picture,alt:"",draggable:false})]:[])}));const key=this.keys.children[focused];
+if(key instanceof HTMLElement)key.focus()}showSpans(spans,label){this.strip.replaceChildren(...spans.
+flatMap(span=>this.#pieces(span)));this.strip.setAttribute("aria-label",label);this.#label()}#label(){
+const{ruler,span}=this;const labels=labelledTimes(span,Math.max(ruler.clientWidth-2*INSET,0)).map(time=>make(
+"span",{style:`left: ${this.#at(time)}`},`${Number(time.toFixed(1))}`));ruler.replaceChildren(...labels)}#pieces({
+start,end,status,reason,times,sigma2}){const proved=sigma2.map((bound,i)=>{const when=`from ${seconds(
+times[i])} to ${seconds(times[i+1])}`;const height=heightOf(bound);const text2=`σ₂ ≥ ${bound.toFixed(
+3)} ${when}`;return this.#piece(times[i],times[i+1],"proved",text2,height)});if(status==="proved")return proved;
+const from=status==="fails"?times.at(-1)??start:start;const text=reason||`Not proved yet from ${seconds(
+start)} to ${seconds(end)}`;return[...proved,this.#piece(from,end,status,text,1)]}#piece(start,end,kind,text,height){
+const width=`calc(${this.#wide(end-start)})`;return make("div",{className:`glid-piece glid-${kind}`,
+title:text,onpointerenter:()=>this.hand.hover(text),style:`left: ${this.#at(start)}; width: ${width}\
+; --glid-height: ${height}`})}#wide(time){return`${time/this.span} * (100% - 2 * var(--glid-inset))`}#at(time){
+return`calc(var(--glid-inset) + ${this.#wide(time)})`}#inside(){const{left,width}=this.element.getBoundingClientRect();
+const length=getComputedStyle(this.element).getPropertyValue("--glid-inset");const inset=Number.parseFloat(
+length)*scaleOf(this.element).across;return{left:left+inset,width:width-2*inset}}#grab(e,index,time){
+if(e.button!==0)return;e.stopPropagation();const button=e.currentTarget;this.#drag={index,from:time,
+x:e.clientX,time:null};button.setPointerCapture(e.pointerId);button.focus({preventScroll:true});button.
+onpointermove=move=>this.#dragged(move,button);button.onlostpointercapture=()=>this.#letGo()}#dragged(e,button){
+const drag=this.#drag;if(!drag)return;const moved=e.clientX-drag.x;if(drag.time===null&&Math.abs(moved)<=
+STILL)return;const time=drag.from+moved/this.#inside().width*this.span;drag.time=this.landing(drag.index,
+time);button.style.left=this.#at(drag.time);this.head.style.left=this.#at(drag.time);this.hand.hover(
+`to ${seconds(drag.time)}`)}#letGo(){if(!this.#drag)return;const{index,time}=this.#drag;this.drop();
+if(time!==null){this.focus();this.hand.move(index,time)}else if(index<(this.#shown?.keyframes.length??
+0)){this.hand.select(index)}}#down(e){if(e.button!==0||!this.hand.scrubs())return;this.#scrubbing=e.
+pointerId;this.element.setPointerCapture(e.pointerId);this.#scrub(e)}#scrub(e){if(this.#scrubbing!==
+e.pointerId)return;const{left,width}=this.#inside();const time=(e.clientX-left)/width*this.span;const near=SNAP/
+width*this.span;const key=this.#shown?.keyframes.find(one=>Math.abs(one.time-time)<near);this.hand.scrub(
+key?.time??time)}#up(e){if(this.#scrubbing!==e.pointerId)return;this.drop();this.hand.scrubbed()}};var STEP=1/30;var NUDGE=.1;var Timeline=class{note=make("div",{className:"glid-timeline-note",role:"\
 status","aria-live":"polite"});stage=null;#layers=null;#hovered="";#playing={release:()=>this.release(),
 pause:()=>{this.player.pause();return this.player.place}};constructor({model,el,signal}){this.model=
 model;this.root=make("div",{className:"glid-skin glid-timeline",role:"group","aria-label":"Timeline"});
 this.root.dataset.lmSuppressShortcuts="true";this.link=new Link(model,this.root,signal,()=>this.tell());
 this.player=new Player((floats,time)=>this.#show(floats,time),()=>this.showHead(),()=>this.#selectHere());
-this.bar=new Bar({play:()=>this.player.play(),keep:()=>this.#keep(),act:(type,content)=>void this.act(
+this.bar=new Bar({play:()=>this.player.play(),keep:()=>this.keep(),act:(type,content)=>void this.act(
 type,content),edit:(type,content)=>void this.edit(type,content)});this.track=new Track({scrubs:()=>this.
 player.clock!==null,scrub:time=>this.player.scrub(time),scrubbed:()=>this.#selectHere(),select:index=>this.
 select(index),move:(index,time)=>void this.act("move_pose",{index,time}),hover:text=>{this.#hovered=
 text;this.tell()},dropped:()=>{this.showKeys();this.showHead()}});this.root.append(this.bar.element,
-this.track.element,this.note);this.root.addEventListener("keydown",e=>this.#keydown(e));this.root.addEventListener(
-"keyup",e=>{if(e.key===" "&&!this.#typing(e))e.preventDefault()});this.bar.element.addEventListener(
-"click",e=>{const target=e.target;if(e.detail&&target.closest("button"))this.track.focus()});el.classList.
-add("glid-host");el.append(this.root)}get shown(){return this.model.get("shown")}get spans(){return this.
-model.get("motion").spans}get active(){return this.shown.keyframes[this.shown.active]}act(type,content={}){
-return this.link.put({type,...content})}edit(type,content={}){return this.act(type,{index:this.shown.
-active,...content})}release=()=>{this.player.release(this.active.time)};select(index){if(index===this.
-shown.active)this.release();else this.act("go_to_pose",{index})}tell(){const{refusal}=this.link;const bad=this.
-spans.some(({reason})=>reason);const text=refusal||this.#hovered||noteOn(this.shown,this.spans);this.
-note.textContent=text;this.note.title=text;this.note.dataset.tone=refusal||bad&&!this.#hovered?"bad":
-""}showHead(){const{keyframes}=this.shown;if(!keyframes)return;const{place,seen,playing}=this.player;
-const end=this.spans.at(-1)?.end??keyframes[keyframes.length-1].time;this.track.showHead(place,seen);
-this.bar.showTime(place,end,playing,seen&&keyAt(keyframes,place)<0)}showKeys(){this.track.showKeys(this.
-shown,this.model.get("thumbnails"))}showState(){const{keyframes,active}=this.shown;const now=`${active}\
-/${keyframes.length}`;const moved=this.root.dataset.active!==now;this.root.dataset.active=now;this.bar.
-update(this.shown,moved);this.showKeys();this.showMotion();if(moved||!this.player.seen)this.release()}showMotion(){
-const{player,shown,spans}=this;const intervals=spans.map(span=>({...span,floats:toFloats(span.floats)}));
-player.set(intervals,shown.repeat);const computing=spans.some(({status})=>status==="computing");if(shown.
-kernel&&!player.playing&&player.seen&&computing)this.release();this.tell();this.track.showSpans(spans,
-this.note.textContent??"");this.showHead()}showHeights(){const{times,floats}=this.model.get("heights");
-this.#layers=times.length?new Motion({times,repeat:"once"},toFloats(floats)):null}#show(floats,time){
-const{stage}=this;if(!stage)return;const moving=time!==void 0;const heights=moving?this.#layers?.at(
-time)??null:null;stage.trigger("glid:motion",moving?floats??true:null,this.#playing,heights);if(this.
-shown.kernel)return this.act("frame",{time:time??null,replaces:"frame"})}#keep(){const{player}=this;
-this.act("keep",{time:player.seen?player.place:this.active.time})}#selectHere(){const index=keyAt(this.
-shown.keyframes,this.player.place);if(index>=0)this.select(index)}#typing(e){return this.bar.element.
-contains(e.target)}#keydown(e){const history=e.target===this.bar.name?null:undoOrRedo(e);if(!history&&
-(e.ctrlKey||e.metaKey))return;e.stopPropagation();const does=this.#typing(e)?null:this.#keyDoes(e);if(!history&&
-!does)return;e.preventDefault();if(history)this.act(history);else does?.()}#keyDoes(e){const{keyframes}=this.
-shown;switch(e.key){case" ":return()=>void(e.repeat||this.player.play());case"ArrowLeft":return()=>this.#step(
-e,-1);case"ArrowRight":return()=>this.#step(e,1);case"Delete":case"Backspace":return()=>void this.edit(
-"delete_pose");case"Home":return()=>this.select(0);case"End":return()=>this.select(keyframes.length-
-1);case"Escape":return()=>{this.track.drop();this.release()};default:return null}}#step(e,sign){const{
-player,track}=this;const{keyframes,active}=this.shown;if(e.altKey){const time=track.landing(active,this.
-active.time+sign*NUDGE);this.edit("move_pose",{time})}else if(e.shiftKey){this.select(nextKey(keyframes,
-player.place,sign)??active)}else{player.scrub(player.place+sign*STEP)}}};function render(context){const{model,el,signal}=context;const timeline=new Timeline(context);const{player}=timeline;
+this.note,legend(),this.track.element);this.root.addEventListener("keydown",e=>this.#keydown(e));this.
+root.addEventListener("keyup",e=>{if(e.key===" "&&!this.#typing(e))e.preventDefault()});this.bar.element.
+addEventListener("click",e=>{const target=e.target;if(e.detail&&target.closest("button"))this.track.
+focus()});el.classList.add("glid-host");el.append(this.root)}get shown(){return this.model.get("show\
+n")}get spans(){return this.model.get("motion").spans}get active(){return this.shown.keyframes[this.
+shown.active]}act(type,content={}){return this.link.put({type,...content})}edit(type,content={}){return this.
+act(type,{index:this.shown.active,...content})}release=()=>{this.player.release(this.active.time)};select(index){
+if(index===this.shown.active)this.release();else this.act("go_to_pose",{index})}tell(){const{refusal}=this.
+link;const bad=this.spans.some(({reason})=>reason);const text=refusal||this.#hovered||noteOn(this.shown,
+this.spans);this.note.textContent=text;this.note.title=text;this.note.dataset.tone=refusal||bad&&!this.#hovered?
+"bad":""}showHead(){const{keyframes}=this.shown;if(!keyframes)return;const{place,seen,playing}=this.
+player;const end=this.spans.at(-1)?.end??keyframes[keyframes.length-1].time;this.track.showHead(place,
+seen);this.bar.showTime(place,end,playing)}showKeys(){this.track.showKeys(this.shown,this.model.get(
+"thumbnails"))}showState(){const{keyframes,active}=this.shown;const now=`${active}/${keyframes.length}`;
+const moved=this.root.dataset.active!==now;this.root.dataset.active=now;this.bar.update(this.shown);
+this.showKeys();this.showMotion();if(moved||!this.player.seen)this.release()}showMotion(){const{player,
+shown,spans}=this;const intervals=spans.map(span=>({...span,floats:toFloats(span.floats)}));player.set(
+intervals,shown.repeat);const computing=spans.some(({status})=>status==="computing");if(shown.kernel&&
+!player.playing&&player.seen&&computing)this.release();this.tell();this.track.showSpans(spans,this.note.
+textContent??"");this.showHead()}showHeights(){const{times,floats}=this.model.get("heights");this.#layers=
+times.length?new Motion({times,repeat:"once"},toFloats(floats)):null}#show(floats,time){const{stage}=this;
+if(!stage)return;const moving=time!==void 0;const heights=moving?this.#layers?.at(time)??null:null;stage.
+trigger("glid:motion",moving?floats??true:null,this.#playing,heights);if(this.shown.kernel)return this.
+act("frame",{time:time??null,replaces:"frame"})}keep(){const{player}=this;this.act("keep",{time:player.
+seen?player.place:this.active.time})}#selectHere(){const index=keyAt(this.shown.keyframes,this.player.
+place);if(index>=0)this.select(index)}#typing(e){return this.bar.element.contains(e.target)}#keydown(e){
+const history=undoOrRedo(e);if(!history&&(e.ctrlKey||e.metaKey))return;e.stopPropagation();const does=this.#typing(
+e)?null:this.#keyDoes(e);if(!history&&!does)return;e.preventDefault();if(history)this.act(history);else
+does?.()}#keyDoes(e){const{keyframes}=this.shown;switch(e.key){case" ":return()=>void(e.repeat||this.
+player.play());case"ArrowLeft":return()=>this.#step(e,-1);case"ArrowRight":return()=>this.#step(e,1);case"\
+Delete":case"Backspace":return()=>void this.edit("delete_pose");case"Home":return()=>this.select(0);case"\
+End":return()=>this.select(keyframes.length-1);case"Escape":return()=>{this.track.drop();this.release()};default:
+return null}}#step(e,sign){const{player,track}=this;const{keyframes,active}=this.shown;if(e.altKey){
+const time=track.landing(active,this.active.time+sign*NUDGE);this.edit("move_pose",{time})}else if(e.
+shiftKey){this.select(nextKey(keyframes,player.place,sign)??active)}else{player.scrub(player.place+sign*
+STEP)}}};function render(context){const{model,el,signal}=context;const timeline=new Timeline(context);const{player}=timeline;
 const tapped=e=>{const target=e.target;if(target.closest(".glid-editor")===el.closest(".glid-editor"))
-player.play()};window.addEventListener("glid:play",tapped,{signal});follow(model,{"change:shown":()=>timeline.
-showState(),"change:motion":()=>timeline.showMotion(),"change:heights":()=>timeline.showHeights(),"c\
-hange:thumbnails":()=>timeline.showKeys()});const edited=()=>{if(player.seen)timeline.release()};findStage(
-context,timeline).then(()=>timeline.stage?.on("change:coefficients",edited));return()=>{player.pause();
-timeline.stage?.off("change:coefficients",edited)}}async function findStage({model,signal},timeline){
-const found=await model.widget_manager.get_model(model.get("stage"));if(!signal.aborted)timeline.stage=
-found}var main_default={render};export{main_default as default};
+player.play()};window.addEventListener("glid:play",tapped,{signal});const keyed=e=>{const target=e.target;
+if(target.closest(".glid-editor")===el.closest(".glid-editor"))timeline.keep()};window.addEventListener(
+"glid:key",keyed,{signal});follow(model,{"change:shown":()=>timeline.showState(),"change:motion":()=>timeline.
+showMotion(),"change:heights":()=>timeline.showHeights(),"change:thumbnails":()=>timeline.showKeys()});
+const edited=()=>{if(player.seen)timeline.release()};findStage(context,timeline).then(()=>timeline.stage?.
+on("change:coefficients",edited));return()=>{player.pause();timeline.stage?.off("change:coefficients",
+edited)}}async function findStage({model,signal},timeline){const found=await model.widget_manager.get_model(
+model.get("stage"));if(!signal.aborted)timeline.stage=found}var main_default={render};export{main_default as default};

@@ -87,6 +87,7 @@ export class Canvas {
     if (this.interactive) {
       this.box.append(shield(this.corner), this.help.table, resizeGrip(model));
       keysAround(this.box, (e) => this.pad.keydown(e), signal);
+      this.box.addEventListener("glid:press", (e) => this.#pressed(e)); // from the bar
     }
     this.#takeFirst();
   }
@@ -228,6 +229,14 @@ export class Canvas {
     return this.#playing.pause();
   }
 
+  /** @param {Event} e */
+  #pressed(e) {
+    const { detail } = /** @type {CustomEvent<string>} */ (e);
+    const act = this.pad.behaviour.actions?.[detail];
+    if (act) act();
+    else this.pad.press(detail, {});
+  }
+
   // Handles two kinds of input before the pad does. While a motion is seen, keys and the right button
   // go back to the pose that is edited, and so does a click; a drag edits the pose that is seen. A
   // click on an arrow at the edge brings its pin into view.
@@ -258,7 +267,7 @@ export class Canvas {
       "div",
       { className: "glid-corner" },
       this.help.button,
-      iconButton("fit", "Full screen (W)", () => this.room?.fullScreen(), look),
+      iconButton("screen", "Full screen (W)", () => this.room?.fullScreen(), look),
       iconButton("rectangle", "The picture alone (P)", () => this.room?.alone(), look),
     );
   }

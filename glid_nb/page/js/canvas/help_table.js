@@ -54,6 +54,7 @@ export const HELP = [
   [
     "Timeline",
     [
+      ["K", "make a keyframe of what is shown"],
       ["Space", "play the motion through the poses, pause; on the canvas too"],
       ["Arrow keys, Home, End", "step in time, with Shift to the next pose; first, last pose"],
       ["Alt and arrow keys", "move the pose in time; Delete removes it"],

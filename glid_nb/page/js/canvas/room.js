@@ -4,16 +4,18 @@
 // with more room; the others are shown smaller where they have less room.
 
 import { save } from "../pad/dom.js";
+import { scaleOf } from "../pad/place.js";
 import { nameControls } from "./names.js";
 
 /** @import { Model } from "../types.js" */
 /** @import { CanvasTraits } from "./traits.js" */
 
 // CSS pixels.
-const PAGE = 120; // what a notebook's page needs above and below
-const PARTS = 330; // what an editor's parts need
-const LEAST = 480; // of the height, and of the width beside the plots
-const GAP = 16; // between canvas and plots
+const PAGE = 124; // what a notebook's page needs above and below
+const PARTS = 44 + 110 + 28 + 2; // bar, timeline, line of the state, frame
+const LEAST = 280; // of the height
+const BESIDE = 400; // least width beside the plots
+const PLOTS = 477; // of the plots
 const SLACK = 20; // a scroll bar that comes and goes changes nothing
 const SETTLE = 80; // ms
 const NARROW = 600; // an editor with less width, as on a phone, has its canvas first
@@ -101,12 +103,12 @@ export class Room {
   #measure() {
     /** @type {HTMLElement | null} */
     const root = this.pad.closest(".glid-editor");
-    const column = this.pad.closest(".glid-column");
-    const around = column?.parentElement;
-    if (!root || !around || !column.clientWidth) return;
+    /** @type {HTMLElement | null} */
+    const shell = this.pad.closest(".glid-shell");
+    if (!root || !shell?.clientWidth) return;
     root.classList.toggle("glid-narrow", root.clientWidth < NARROW);
-    const room = this.#roomIn(root, column, around);
-    if (!this.#root) this.#begin(root, around, room);
+    const room = this.#roomIn(root, shell);
+    if (!this.#root) this.#begin(root, shell, room);
     this.#room = room;
     this.shrink();
     if (!this.#decides) return;
@@ -122,12 +124,15 @@ export class Room {
 
   /**
    * @param {HTMLElement} root
-   * @param {HTMLElement} around
+   * @param {HTMLElement} shell
    * @param {{ width: number }} room
    */
-  #begin(root, around, room) {
+  #begin(root, shell, room) {
     this.#root = root;
-    this.observer.observe(around);
+    this.observer.observe(root); // an offer of kept work above the tabs comes and goes
+    this.observer.observe(shell);
+    const plots = shell.querySelector(".glid-plots-box");
+    if (plots) this.observer.observe(plots);
     nameControls(root, this.signal);
     const [width = 0] = this.model.get("room");
     this.#decides = room.width > width;
@@ -155,18 +160,22 @@ export class Room {
 
   /**
    * @param {HTMLElement} root
-   * @param {Element} column with the canvas
-   * @param {HTMLElement} around the column and the plots
+   * @param {HTMLElement} shell the tab with the canvas
    */
-  #roomIn(root, column, around) {
+  #roomIn(root, shell) {
     const page = document.fullscreenElement === root ? 0 : PAGE;
     const below = window.innerHeight - page;
     if (root.classList.contains("glid-alone")) {
       return { width: root.clientWidth, height: below, alone: 1 };
     }
-    const plots = /** @type {HTMLElement | null} */ (column.nextElementSibling);
-    const beside = around.clientWidth - (plots?.offsetWidth ?? 0) - GAP;
-    const width = beside >= LEAST ? beside : around.clientWidth;
-    return { width, height: Math.max(LEAST, below - PARTS), alone: 0 };
+    const narrow = root.classList.contains("glid-narrow");
+    const side = /** @type {HTMLElement | null} */ (shell.querySelector(".glid-side"));
+    const plots = /** @type {HTMLElement | null} */ (shell.querySelector(".glid-plots-box"));
+    const beside = shell.clientWidth - (narrow ? 0 : (side?.offsetWidth ?? 0));
+    const plotted = Boolean(plots?.offsetWidth) && !narrow && beside - PLOTS >= BESIDE;
+    shell.classList.toggle("glid-beside", plotted);
+    const width = plotted ? beside - PLOTS : beside;
+    const above = shell.getBoundingClientRect().top - root.getBoundingClientRect().top;
+    return { width, height: Math.max(LEAST, below - above / scaleOf(root).down - PARTS), alone: 0 };
   }
 }

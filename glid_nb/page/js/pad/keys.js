@@ -97,6 +97,7 @@ export function keysAround(element, act, signal, whole = element) {
 function isForThePad(e, target) {
   if (undoOrRedo(e)) return !e.altKey;
   if (e.ctrlKey || e.metaKey || target.matches("select")) return false;
+  if (keyOf(e) === "Escape" && target.closest(":popover-open")) return false; // it closes the menu
   const free = target.closest(".glid-timeline") ? /^[^ ]$/ : /^([^ ]|Escape|Delete)$/;
   return free.test(keyOf(e));
 }

@@ -19,20 +19,20 @@ import { seconds } from "./words.js";
 /** @typedef {[value: string, label: string]} Choice */
 
 /** @type {Choice[]} */
-const EASINGS = [
-  ["linear", "Even"],
-  ["in", "Ease in"],
-  ["out", "Ease out"],
-  ["in-out", "Ease in, out"],
-];
-/** @type {Choice[]} */
 const REPEATS = [
   ["once", "Once"],
   ["loop", "Loop"],
   ["ping-pong", "Ping-pong"],
 ];
 const ONION = "Onion skin: outlines of the poses before (blue) and after (orange) the edited pose";
-const KEEP = "Keep this pose and continue with a copy; between poses, keep the shown shape";
+const KEY =
+  "Key this pose and continue with a copy (K); at another time, key the shape that is shown there";
+/** @type {[kind: string, label: string][]} */
+const LEGEND = [
+  ["proved", "proved"],
+  ["computing", "not yet"],
+  ["refused", "not proved"],
+];
 
 export class Bar {
   recording = false;
@@ -49,41 +49,27 @@ export class Bar {
       act("record", { on: !this.recording }),
     );
     this.onion = iconButton("onion", ONION, () => act("onion", { on: !this.onionOn }));
-    this.keep = make("button", { className: "glid-keep", title: KEEP, onclick: keep });
+    this.keep = make("button", { className: "glid-keep", title: KEY, onclick: keep }, "Key");
     const copy = iconButton("copy", "Duplicate this pose", () => edit("duplicate_pose"));
     this.remove = iconButton("trash", "Delete this pose (Delete)", () => edit("delete_pose"));
-    this.name = make("input", {
-      type: "text",
-      "aria-label": "Name of the pose",
-      title: "Name of the pose",
-      maxLength: 200,
-      onchange: () => edit("rename_pose", { name: this.name.value }),
-    });
-    this.easing = menu("How the motion leaves this pose", EASINGS, (easing) =>
-      edit("set_easing", { easing }),
-    );
     this.save = iconButton("export", "Export the motion", () => act("export"));
     this.element = make(
       "div",
       { className: "glid-bar", role: "toolbar", "aria-label": "Motion" },
       ...[this.play, this.repeat, this.clock, gap()],
       ...[this.record, this.onion, gap()],
-      ...[this.keep, copy, this.remove, this.name, this.easing, this.save],
+      ...[this.keep, copy, this.remove, gap(), this.save],
     );
   }
 
   /**
    * @param {Shown} shown
-   * @param {boolean} moved whether another pose is edited now
    */
-  update({ keyframes, active, repeat, recording, onion, exports }, moved) {
-    const { name, easing } = keyframes[active];
+  update({ keyframes, repeat, recording, onion, exports }) {
     const alone = keyframes.length < 2;
     this.repeat.value = repeat;
-    this.easing.value = easing;
-    if (document.activeElement !== this.name || moved) this.name.value = name;
     this.remove.disabled = alone;
-    for (const control of [this.play, this.save, this.repeat, this.easing]) {
+    for (const control of [this.play, this.save, this.repeat]) {
       control.disabled = alone;
     }
     this.save.hidden = !exports;
@@ -97,15 +83,21 @@ export class Bar {
    * @param {number} place of the playhead
    * @param {number} end
    * @param {boolean} playing
-   * @param {boolean} between whether a time between the poses is seen
    */
-  showTime(place, end, playing, between) {
+  showTime(place, end, playing) {
     const does = playing ? "pause" : "play";
     if (this.play.dataset.does !== does) this.play.innerHTML = icon(does);
     this.play.dataset.does = does;
     this.clock.textContent = `${place.toFixed(2)} / ${seconds(end)}`;
-    this.keep.textContent = between ? "Keep it" : "Keep";
   }
+}
+
+/** What the colours of the strip mean. */
+export function legend() {
+  const parts = LEGEND.map(([kind, label]) => {
+    return make("span", {}, make("i", { className: `glid-piece glid-${kind}` }), label);
+  });
+  return make("div", { className: "glid-proof-legend", "aria-hidden": true }, ...parts);
 }
 
 function gap() {

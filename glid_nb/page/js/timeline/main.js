@@ -18,6 +18,11 @@ function render(context) {
     if (target.closest(".glid-editor") === el.closest(".glid-editor")) player.play();
   };
   window.addEventListener("glid:play", tapped, { signal });
+  const keyed = (/** @type {Event} */ e) => {
+    const target = /** @type {Element} */ (e.target);
+    if (target.closest(".glid-editor") === el.closest(".glid-editor")) timeline.keep();
+  };
+  window.addEventListener("glid:key", keyed, { signal });
 
   follow(model, {
     "change:shown": () => timeline.showState(),

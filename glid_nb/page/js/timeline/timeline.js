@@ -4,7 +4,7 @@ import { Motion } from "../motion/motion.js";
 import { make, toFloats } from "../pad/dom.js";
 import { undoOrRedo } from "../pad/keys.js";
 import { Link } from "../pad/link.js";
-import { Bar } from "./bar.js";
+import { Bar, legend } from "./bar.js";
 import { Player } from "./player.js";
 import { keyAt, nextKey } from "./scale.js";
 import { Track } from "./track.js";
@@ -49,7 +49,7 @@ export class Timeline {
     );
     this.bar = new Bar({
       play: () => this.player.play(),
-      keep: () => this.#keep(),
+      keep: () => this.keep(),
       act: (type, content) => void this.act(type, content),
       edit: (type, content) => void this.edit(type, content),
     });
@@ -68,7 +68,7 @@ export class Timeline {
         this.showHead();
       },
     });
-    this.root.append(this.bar.element, this.track.element, this.note);
+    this.root.append(this.bar.element, this.note, legend(), this.track.element);
     this.root.addEventListener("keydown", (e) => this.#keydown(e));
     this.root.addEventListener("keyup", (e) => {
       if (e.key === " " && !this.#typing(e)) e.preventDefault();
@@ -140,7 +140,7 @@ export class Timeline {
     const { place, seen, playing } = this.player;
     const end = this.spans.at(-1)?.end ?? keyframes[keyframes.length - 1].time;
     this.track.showHead(place, seen);
-    this.bar.showTime(place, end, playing, seen && keyAt(keyframes, place) < 0);
+    this.bar.showTime(place, end, playing);
   }
 
   showKeys() {
@@ -152,7 +152,7 @@ export class Timeline {
     const now = `${active}/${keyframes.length}`;
     const moved = this.root.dataset.active !== now;
     this.root.dataset.active = now;
-    this.bar.update(this.shown, moved);
+    this.bar.update(this.shown);
     this.showKeys();
     this.showMotion();
     if (moved || !this.player.seen) this.release();
@@ -190,7 +190,8 @@ export class Timeline {
     if (this.shown.kernel) return this.act("frame", { time: time ?? null, replaces: "frame" });
   }
 
-  #keep() {
+  /** Makes a keyframe of what is shown. */
+  keep() {
     const { player } = this;
     this.act("keep", { time: player.seen ? player.place : this.active.time });
   }
@@ -208,7 +209,7 @@ export class Timeline {
 
   /** @param {KeyboardEvent} e */
   #keydown(e) {
-    const history = e.target === this.bar.name ? null : undoOrRedo(e);
+    const history = undoOrRedo(e);
     if (!history && (e.ctrlKey || e.metaKey)) return;
     e.stopPropagation();
     const does = this.#typing(e) ? null : this.#keyDoes(e);

@@ -97,6 +97,7 @@ export class Track {
   showHead(place, seen) {
     this.head.style.left = this.#at(place);
     this.head.classList.toggle("glid-seen", seen);
+    this.head.dataset.label = place.toFixed(2);
     this.element.dataset.time = String(place);
     this.element.dataset.span = String(this.span);
     this.ruler.setAttribute("aria-valuenow", place.toFixed(2));

@@ -31,7 +31,7 @@ function state(count, recording, reason, spans) {
   if (spans.some(({ status }) => status === "computing"))
     return "Proving the motion between poses…";
   const last = spans.at(-1);
-  if (!last) return count < 2 ? "Keep a second pose to see the motion between them." : "";
+  if (!last) return count < 2 ? "Key (K) a second pose to see the motion between them." : "";
   const least = Math.min(...spans.flatMap(({ sigma2 }) => sigma2));
   const lasts = seconds(last.end - spans[0].start);
   return `Proved at every instant of ${lasts}: σ₂ ≥ ${least.toFixed(3)}.`;
