@@ -116,7 +116,8 @@ class KeptOffer(Asking, ipywidgets.HBox):
 
     def __init__(self, model: EditorModel) -> None:
         self.model = model
-        super().__init__(layout={"display": "none", "align_items": "center"})
+        look = {"display": "none", "align_items": "center", "flex_flow": "row wrap"}
+        super().__init__(layout=look)
         if (path := model.kept) is None:
             return
         try:
@@ -129,7 +130,7 @@ class KeptOffer(Asking, ipywidgets.HBox):
             act()
             self.layout.display = "none"
 
-        self.message = ipywidgets.HTML()
+        self.message = ipywidgets.HTML(layout={"flex": "1 1 240px"})
         self._say(_KEPT.format(changed))
         look = "Restore it", "history", "Continue with it"
         back = self._button(*look, lambda sure: end(model.recover, sure))
