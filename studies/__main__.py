@@ -3,8 +3,8 @@
 ``bench`` times the solver on this machine: the paper's settings and ours, drag steps, first solves,
 growth with size, batches. ``compare`` measures the other methods on the same problems and
 reproduces the paper's figures; SLIM and the bounded distortion maps need the extra ``compare``.
-``motion`` measures the numbers of docs/motion.md. ``gpu`` measures the solver on a GPU and on the
-CPU of the same machine, within ``--seconds``.
+``motion`` measures the numbers of docs/motion.md, ``live`` those of docs/howto/live.md. ``gpu``
+measures the solver on a GPU and on the CPU of the same machine, within ``--seconds``.
 
 Tables (CSV) and figures go into the folder OUT, the raw measurements into OUT/data. The tables of
 the page OUT.md are replaced; its text stays unchanged. An interrupted run continues where it
@@ -31,7 +31,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     add = parser.add_argument
-    add("what", choices=("compare", "bench", "motion", "gpu"))
+    add("what", choices=("compare", "bench", "motion", "live", "gpu"))
     add("--out", type=Path, metavar="OUT", help="default: glid-nb-WHAT")
     shapes = "folder of problems with the paper's shapes (default: the bundled samples)"
     add("--reference", type=Path, metavar="DIR", help=shapes)

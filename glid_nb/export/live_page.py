@@ -204,7 +204,7 @@ def _motion(motion: Motion) -> dict[str, Any]:
 
 
 def _deflated(data: dict[str, Any], code: Sequence[str]) -> bytes:
-    """For `DecompressionStream` of the page. Texts between zeros are shorter than JSON strings."""
+    """For `DecompressionStream` of the page. Strings of JSON would take more bytes."""
     text = json.dumps(data, allow_nan=False, ensure_ascii=False, separators=(",", ":"))
     return zlib.compress("\0".join([text, *code]).encode(), 9)
 
