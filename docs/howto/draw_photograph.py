@@ -1,5 +1,7 @@
 """Draws docs/howto/photograph.png: strokes where colours do not tell the shape from its background.
 
+Also draws docs/howto/cut-out.png: what is drawn of a photograph when its shape moves.
+
 ``python docs/howto/draw_photograph.py``
 """
 
@@ -11,11 +13,14 @@ import numpy as np
 from matplotlib.figure import Figure
 from PIL import Image
 from scipy.ndimage import gaussian_filter
+from skimage.data import astronaut
 
 import glid_nb as glid
 from glid_nb.figures.style import ORANGE, SKY, VERMILION
 
 OUT = Path(__file__).with_name("photograph.png")
+CUT_OUT = Path(__file__).with_name("cut-out.png")
+GREEN = (60, 180, 90)
 
 # Pixels (x, y) of a picture of 700 by 700.
 OVER_THE_SHAPE = [
@@ -39,6 +44,23 @@ OVER_THE_BACKGROUND = [
     [[620, 560], [500, 590]],
 ]
 
+# Pixels of scikit-image's photograph of Eileen Collins (NASA), 512 by 512.
+OVER_THE_ASTRONAUT = [
+    [[220, 60], [200, 110], [225, 170]],
+    [[180, 60], [225, 25], [265, 55], [270, 110]],
+    [[240, 200], [120, 320], [60, 480]],
+    [[240, 200], [330, 330], [380, 490]],
+    [[200, 220], [220, 480]],
+    [[300, 280], [320, 490]],
+]
+BEHIND_THE_ASTRONAUT = [
+    [[10, 10], [10, 200], [30, 300]],
+    [[20, 10], [130, 10], [140, 150], [90, 210]],
+    [[330, 20], [330, 150]],
+    [[420, 20], [480, 250]],
+    [[300, 10], [500, 10], [505, 400]],
+]
+
 
 def photograph(seed: int = 3) -> np.ndarray:
     """The gecko before blotches of its own colours, with the grain of a camera."""
@@ -53,7 +75,32 @@ def photograph(seed: int = 3) -> np.ndarray:
     return np.clip(mixed + grain, 0, 255).astype(np.uint8)
 
 
+def draw_cut_out() -> None:
+    picture = astronaut()
+    strokes = glid.Scribbles(OVER_THE_ASTRONAUT, BEHIND_THE_ASTRONAUT)
+    tracing = glid.trace(picture, scribbles=strokes)
+    domain = glid.Domain.from_cage(tracing.cage)
+    frame = tracing.frame
+    pins = frame.to_world([[225, 90], [240, 190], [120, 430], [380, 430]])
+    targets = pins + np.array([[3.2, -0.5], [1.0, 0.0], [0.0, 0.0], [0.0, 0.0]])
+    map = glid.solve(domain, glid.Pose(pins, targets)).map
+    cut, behind = glid.cut_out(picture, tracing), glid.filled_in(picture, tracing)
+    figure = Figure(figsize=(9, 3.25), layout="constrained")
+    shown = {
+        "all inside the cage": glid.render(picture, map, background=GREEN),
+        "cut out": glid.render(cut, map, background=GREEN),
+        "before the old picture, filled in": glid.render(cut, map, background=behind),
+    }
+    for ax, (title, drawn) in zip(figure.subplots(1, 3), shown.items(), strict=True):
+        ax.imshow(drawn)
+        ax.set_title(title, fontsize=10)
+        ax.set_axis_off()
+    figure.savefig(CUT_OUT, dpi=100)
+    Image.open(CUT_OUT).convert("RGB").quantize(256).save(CUT_OUT, optimize=True)
+
+
 def main() -> None:
+    draw_cut_out()
     picture = photograph()
     strokes = glid.Scribbles(OVER_THE_SHAPE, OVER_THE_BACKGROUND)
     figure = Figure(figsize=(9, 3.25), layout="constrained")

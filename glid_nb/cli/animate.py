@@ -20,7 +20,9 @@ import glid_nb
 from glid_nb._errors import InputError, InputFileError
 from glid_nb.cli.many import refuse_standard_output
 from glid_nb.cli.output import check_files, check_folder, step
+from glid_nb.imaging.backdrop import WHITE, Background
 from glid_nb.session.timeline import Timeline
+from glid_nb.session.tracing import layers_of
 from glid_nb.session.unsolved import solved_document
 
 
@@ -36,8 +38,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("--seconds", type=float, metavar="S", help=seconds)
     loop = "after the last pose: go to the first one, go back, or stop (default: as saved)"
     add("--loop", choices=("loop", "ping-pong", "once"), help=loop)
-    color = "a name, #rrggbb, or `transparent`, but not for .gif and .mp4 (default: white)"
-    add("--background", type=_color, default="white", metavar="COLOR", help=color)
+    color = "a name, #rrggbb, or `transparent`, but not for .gif and .mp4 (default: that of the "
+    color += "session, or white)"
+    add("--background", type=_color, default=argparse.SUPPRESS, metavar="COLOR", help=color)
 
 
 def run(chosen: argparse.Namespace) -> None:
@@ -49,17 +52,23 @@ def run(chosen: argparse.Namespace) -> None:
         files = map(out.with_name, glid_nb.export.file_names(out.name))
         check_files(list(files), [chosen.source, chosen.picture])
     glid_nb.enable_compilation_cache()
-    image, motion, poses = _read(chosen)
+    image, motion, poses, behind = _read(chosen)
     with step("proving and drawing (Ctrl-C stops, and nothing is written)") as detail:
         how: Any = {"size": chosen.size, "frames_per_second": chosen.fps}
-        how |= {"background": chosen.background, "loop": motion.repeat != "once"}
+        how |= {
+            "background": getattr(chosen, "background", behind),
+            "loop": motion.repeat != "once",
+        }
         how |= {"progress": lambda done, total: detail(f"frame {done} of {total}")}
         files = glid_nb.export.animate(out, image, motion, poses, **how)
     written = ", ".join(map(str, files)) if out.suffix else f"{out}: {len(files)} files"
     print(f"{written}; {motion.duration:g} s. {motion.certificate.reason}")
 
 
-def _read(chosen: argparse.Namespace) -> tuple[Any, glid_nb.Motion, list[glid_nb.Pose] | None]:
+def _read(
+    chosen: argparse.Namespace,
+) -> tuple[Any, glid_nb.Motion, list[glid_nb.Pose] | None, Background]:
+    """The picture, its motion, the poses, and what lies behind the shape."""
     if chosen.source.suffix.lower() != ".json":
         document = glid_nb.io.load_document(chosen.source)
         if (count := len(document.poses)) < 2:
@@ -75,7 +84,9 @@ def _read(chosen: argparse.Namespace) -> tuple[Any, glid_nb.Motion, list[glid_nb
             there = 2 if timeline.repeat == "ping-pong" else 1
             timeline = timeline.lasting(_seconds(chosen) / there)
         motion = timeline.motion([pose.map for pose in document.poses])
-        return document.image, motion, [pose.pose for pose in document.poses]
+        layers, poses = layers_of(document), [pose.pose for pose in document.poses]
+        behind = WHITE if layers.background is None else layers.background
+        return layers.image, motion, poses, behind
     motion = glid_nb.Motion.load(chosen.source)
     if chosen.picture is None or chosen.loop not in (None, motion.repeat):
         advice = "name its picture with --picture, and leave out --loop: it has its own setting"
@@ -87,7 +98,7 @@ def _read(chosen: argparse.Namespace) -> tuple[Any, glid_nb.Motion, list[glid_nb
     if chosen.seconds is not None:
         times = [_seconds(chosen) / motion.duration * time for time in motion.times]
         motion = glid_nb.Motion(motion.keyframes, times, **motion.settings)
-    return glid_nb.read_image(chosen.picture), motion, None
+    return glid_nb.read_image(chosen.picture), motion, None, WHITE
 
 
 def _seconds(chosen: argparse.Namespace) -> float:

@@ -53,6 +53,7 @@ def run(chosen: argparse.Namespace) -> None:
     with about(source), step(f"tracing {source.name}"):
         tracing = glid_nb.trace(image, tracing_options)
         domain = glid_nb.Domain.from_cage(tracing.cage)
+        image = glid_nb.cut_out(image, tracing)
     pose, origin = _pose(chosen.pose, sample, domain)
 
     result, report = run_solver(domain, pose, energy, options)

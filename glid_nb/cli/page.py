@@ -37,7 +37,9 @@ def run(chosen: argparse.Namespace) -> None:
     pose = None if path is None else glid_nb.io.load_pose(path)
     image = glid_nb.read_image(chosen.image)
     with about(chosen.image), step(f"tracing {chosen.image.name}"):
-        domain = glid_nb.Domain.from_cage(glid_nb.trace(image, options).cage)
+        tracing = glid_nb.trace(image, options)
+        domain = glid_nb.Domain.from_cage(tracing.cage)
+        image = glid_nb.cut_out(image, tracing)
     if path is not None and pose is not None:
         with about(path):
             pose.check_inside(domain)

@@ -9,11 +9,15 @@ import importlib.util
 import io
 import json
 import math
+import os
 import subprocess
 import tempfile
-from collections.abc import Iterator
+from collections import deque
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import Future, ThreadPoolExecutor
+from dataclasses import dataclass
 from pathlib import Path
-from typing import IO, Any, NamedTuple
+from typing import IO, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,18 +27,46 @@ from glid_nb._errors import InputError
 from glid_nb._files import zipped
 from glid_nb.imaging.backdrop import RGB, WHITE, Backdrop, check_background
 from glid_nb.imaging.bleed import bled
+from glid_nb.imaging.rasterise import tiles
 from glid_nb.imaging.read import png, srgb_chunk
 from glid_nb.motion.settings import checked
 
 
-class Frames(NamedTuple):
-    """Frames that are drawn one by one, on demand."""
+@dataclass(frozen=True)
+class Frames:
+    """Frames that are drawn on demand, on all cores."""
 
     size: tuple[int, int]  # width and height, pixels
     count: int
-    pictures: Iterator[NDArray[np.uint8]]
+    draw: Callable[[int], NDArray[np.uint8]]  # draws the frame of a number, in any thread
+
+    @property
+    def pictures(self) -> Iterator[NDArray[np.uint8]]:
+        """All frames in their order."""
+        return self.drawn(range(self.count))
+
+    def drawn(self, numbers: Sequence[int]) -> Iterator[NDArray[np.uint8]]:
+        """The frames of some numbers, in this order. Some frames ahead are drawn meanwhile."""
+        n_threads = min(os.cpu_count() or 1, _MOST_THREADS, len(numbers))
+        if n_threads < 2 or len(tiles(self.size)) >= _MANY_TILES:  # a large frame uses all cores
+            yield from map(self.draw, numbers)
+            return
+        pool = ThreadPoolExecutor(n_threads, thread_name_prefix="glid-nb-frames")
+        ahead: deque[Future[NDArray[np.uint8]]] = deque()
+        try:
+            for number in numbers:
+                ahead.append(pool.submit(self.draw, number))
+                if len(ahead) > 2 * n_threads:
+                    yield ahead.popleft().result()
+            while ahead:
+                yield ahead.popleft().result()
+        finally:  # cancel frames that have not begun, also after Ctrl-C
+            pool.shutdown(cancel_futures=True)
 
 
+_MOST_THREADS = 4  # that draw frames; each needs some 50 MB
+_MANY_TILES = 8  # with so many tiles, one frame is drawn by several threads
+_PALETTE_FRAMES = 8  # a GIF's colours are chosen from so many frames at most
 _LARGEST = 8192  # pixels of a frame's side
 _LARGEST_SHEET = 16384  # pixels of a sprite sheet's side
 _MOST_PIXELS = 2**30  # of all frames together, for formats that need all frames at once
@@ -93,8 +125,7 @@ def _animation(frames: Frames, suffix: str, fps: float, background: Backdrop, lo
     if suffix == ".apng":
         pictures = [Image.fromarray(frame) for frame in frames.pictures]
     else:
-        pictures = [Image.fromarray(frame[..., :3]) for frame in frames.pictures]
-        pictures = _with_palette(pictures, background if isinstance(background, tuple) else WHITE)
+        pictures = _with_palette(frames, background if isinstance(background, tuple) else WHITE)
         ends = np.round(np.arange(frames.count + 1) * 100 / fps)
         settings = {"duration": (10 * np.diff(ends)).astype(int).tolist()}
         settings |= {"loop": 0} if loop else {}
@@ -179,22 +210,36 @@ def names(count: int) -> list[str]:
     return [f"frame-{i:0{max(3, len(str(count - 1)))}}.png" for i in range(count)]
 
 
-def _with_palette(pictures: list[Image.Image], background: RGB) -> list[Image.Image]:
-    """Convert the pictures to one common palette, from at most eight of them.
+def _with_palette(frames: Frames, background: RGB) -> list[Image.Image]:
+    """All frames in one common palette, chosen from at most eight of them.
 
     With a palette for each picture, flat areas would flicker. The exact background is the first
-    colour, because an averaged one would show a dither pattern.
+    colour, because an averaged one would show a dither pattern. The frames for the palette are
+    drawn first. Each of the others gets its palette while the next ones are drawn.
     """
-    chosen = pictures[:: math.ceil(len(pictures) / 8)]
-    montage = Image.fromarray(np.concatenate([np.asarray(picture) for picture in chosen]))
+    chosen = range(0, frames.count, math.ceil(frames.count / _PALETTE_FRAMES))
+    first = dict(
+        zip(
+            chosen,
+            (np.ascontiguousarray(frame[..., :3]) for frame in frames.drawn(chosen)),
+            strict=True,
+        )
+    )
+    montage = Image.fromarray(np.concatenate(list(first.values())))
     colors = [*background, *(montage.quantize(255).getpalette() or [])]
     palette = Image.new("P", (1, 1))
     palette.putpalette(colors)
-    result = []
-    for picture in pictures:
-        indices = np.array(picture.quantize(palette=palette))
+
+    def converted(pixels: NDArray[np.uint8]) -> Image.Image:
+        indices = np.array(Image.fromarray(pixels).quantize(palette=palette))
         # Pillow looks up colours in bins of four levels, so it can miss the background.
-        indices[(np.asarray(picture) == background).all(axis=2)] = 0
-        result.append(Image.fromarray(indices))
-        result[-1].putpalette(colors)
-    return result
+        indices[(pixels == background).all(axis=2)] = 0
+        picture = Image.fromarray(indices)
+        picture.putpalette(colors)
+        return picture
+
+    result = {number: converted(first.pop(number)) for number in chosen}
+    others = [number for number in range(frames.count) if number not in result]
+    for number, pixels in zip(others, frames.drawn(others), strict=True):
+        result[number] = converted(np.ascontiguousarray(pixels[..., :3]))
+    return [result[number] for number in range(frames.count)]

@@ -1,12 +1,16 @@
 """A motion on one mesh: its shape and picture at any time."""
 
 import functools
-from collections.abc import Iterator, Sequence
+import itertools
+import math
+import threading
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Self
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+from PIL import Image
 
 from glid_nb._arguments import check_type
 from glid_nb._arrays import Array
@@ -18,10 +22,12 @@ from glid_nb.imaging import DeformedMesh, PixelFrame, as_rgba8, fine_mesh, order
 from glid_nb.imaging.backdrop import Backdrop, drawn_backdrop, over
 from glid_nb.imaging.progress import Progress, report
 from glid_nb.imaging.render import TOLERANCE_PX, check_fits, draw_mesh
-from glid_nb.imaging.texture import Texture
+from glid_nb.imaging.texture import Texture, texels_per_pixel
 from glid_nb.motion import Motion
 from glid_nb.pose import Pose
 
+_MEASURED = 8  # of the motion's knots at most, to find how large the picture appears
+_LEAST_SCALE = 1.25  # of a picture that is scaled down before frames are drawn
 _VERTICES = 1500  # evenly spread vertices before refinement
 
 
@@ -131,11 +137,30 @@ def frames(
     mesh = MovingMesh.of(motion, poses, _VERTICES, tolerance)
     frame = frame_around(mesh.images.reshape(-1, 2), size, background)
     behind = drawn_backdrop(background, frame)
-    texture = Texture.from_image(as_rgba8(image))
+    texture = _scaled(as_rgba8(image), mesh, frame)
+    done, one_at_a_time = itertools.count(1), threading.Lock()
 
-    def pictures() -> Iterator[NDArray[np.uint8]]:
-        for i, time in enumerate(times):
-            yield over(draw_mesh(texture, mesh.at(float(time)), frame), behind)
-            report(progress, i + 1, len(times))
+    def draw(number: int) -> NDArray[np.uint8]:
+        drawn = over(draw_mesh(texture, mesh.at(float(times[number])), frame), behind)
+        with one_at_a_time:
+            report(progress, next(done), len(times))
+        return drawn
 
-    return Frames((frame.width, frame.height), len(times), pictures())
+    return Frames((frame.width, frame.height), len(times), draw)
+
+
+def _scaled(image: NDArray[np.uint8], mesh: MovingMesh, frame: PixelFrame) -> Texture:
+    """The picture as a texture with about a texel for each pixel of the frames.
+
+    `Sampler` averages several texels for each pixel, for every frame. It is quicker to scale the
+    picture down once, as far as no frame shows it magnified.
+    """
+    source = PixelFrame(*image.shape[1::-1])
+    places, scales = source.to_pixel(mesh.vertices)[mesh.triangles], []
+    for images in mesh.images[:: math.ceil(len(mesh.images) / _MEASURED)]:
+        scales.append(texels_per_pixel(frame.to_pixel(images)[mesh.triangles], places))
+    if (scale := min(scales)) < _LEAST_SCALE:
+        return Texture.from_image(image)
+    size = round(source.width / scale), round(source.height / scale)
+    small = Image.fromarray(image).convert("RGBa").resize(size, Image.Resampling.HAMMING)
+    return Texture.from_image(np.asarray(small.convert("RGBA")))

@@ -115,14 +115,14 @@ def behind_canvas(background: Background) -> str:
     if picture is None:
         return ""
     if isinstance(picture, tuple):
-        return f"\nmain canvas {{ background: rgb({' '.join(map(str, picture))}); }}\n"
+        return f"\nmain canvas:first-child {{ background: rgb({' '.join(map(str, picture))}); }}\n"
     if (picture[..., 3] < 255).any():
         kind, data = "png", png(picture)
     else:  # a photograph
         Image.fromarray(picture[..., :3].copy()).save(file, "JPEG", quality=_QUALITY)
         kind, data = "jpeg", file.getvalue()
     address = f"data:image/{kind};base64,{_base64(data)}"
-    return f"\nmain canvas {{ background: url({address}) no-repeat; }}\n"
+    return f"\nmain canvas:first-child {{ background: url({address}) no-repeat; }}\n"
 
 
 def _shape(mesh: MovingMesh, step: float) -> dict[str, Any]:

@@ -99,7 +99,7 @@ def animation_bytes(
         frames.append(np.asarray(picture.convert("RGBA" if ground is None else "RGB")))
     if there_and_back:
         frames += frames[-2:0:-1]
-    drawn = Frames((frame.width, frame.height), len(frames), iter(frames))
+    drawn = Frames((frame.width, frame.height), len(frames), frames.__getitem__)
     return encoded(drawn, "", f".{format}", frames_per_second, ground)[0]
 
 

@@ -21,7 +21,7 @@ from glid_nb._arguments import check_type
 from glid_nb._arrays import Array, read_only
 from glid_nb.geometry import Cage
 from glid_nb.imaging.frame import PixelFrame, TraceError
-from glid_nb.imaging.read import ImageSource, as_rgba8, read_image
+from glid_nb.imaging.read import RGBA, ImageSource, as_rgba8, read_image
 from glid_nb.imaging.scribbles import WALKED_PIXELS
 from glid_nb.imaging.trace import Tracing
 
@@ -40,7 +40,7 @@ _SURE = 0.02  # alpha this close to 0 or 1 is rounded
 Mask = NDArray[np.bool_]
 
 
-def cut_out(image: ImageSource, tracing: Tracing, cage: Cage | None = None) -> NDArray[np.uint8]:
+def cut_out(image: ImageSource, tracing: Tracing, cage: Cage | None = None) -> RGBA:
     """The traced shape of an opaque picture, (h, w, 4) RGBA with straight alpha and soft edges.
 
     Alpha is 1 inside the shape and 0 outside. On its border, alpha follows the picture, so hair
@@ -60,7 +60,8 @@ def cut_out(image: ImageSource, tracing: Tracing, cage: Cage | None = None) -> N
     ([200, 30, 30, 255], [0, 0, 0, 0])
     """
     check_type("tracing", tracing, Tracing, "for example glid.trace(image)", TraceError)
-    pixels = as_rgba8(read_image(image))
+    given = read_image(image)
+    pixels = as_rgba8(given)
     if pixels.shape[:2] != tracing.mask.shape:
         height, width = tracing.mask.shape
         here = f"{pixels.shape[1]} x {pixels.shape[0]}"
@@ -69,7 +70,7 @@ def cut_out(image: ImageSource, tracing: Tracing, cage: Cage | None = None) -> N
             "take the picture that was traced"
         )
     if (pixels[..., 3] < 255).any():
-        return pixels
+        return given
     mask = tracing.mask
     half = _half_band(tracing, mask)
     ys, xs = _box(mask, math.ceil(3 * half))

@@ -73,6 +73,23 @@ def gradients(corners: Floats, values: Floats) -> Floats:
     return np.nan_to_num(slopes, nan=0.0, posinf=0.0, neginf=0.0)
 
 
+def texels_per_pixel(positions: Floats, places: Floats) -> float:
+    """By how much a picture may be scaled down before it is drawn on triangles.
+
+    Their corners (t, 3, 2) are ``positions`` in the output and ``places`` in the picture. With this
+    scale, the picture is magnified nearly nowhere.
+    """
+    radii = np.linalg.svd(gradients(positions, places).clip(-1e6, 1e6), compute_uv=False)
+    return _scale_for(radii, np.ptp(places.reshape(-1, 2), axis=0).max())
+
+
+def _scale_for(radii: Floats, largest: float) -> float:
+    """The scale for radii (t, 2), the longer first, of a pixel's ellipses in the picture."""
+    shorter = np.append(radii[:, 1][radii[:, 1] > 0], largest)
+    stretched, typical = np.quantile(shorter, [0.05, 0.5])
+    return float(min(_MOST_BLUR * stretched, typical))
+
+
 class Sampler:
     """Samples a texture through triangles with corners (t, 3, 2) in the output and in the picture.
 
@@ -84,9 +101,7 @@ class Sampler:
     def __init__(self, texture: Texture, positions: Floats, places: Floats) -> None:
         jacobian = gradients(positions, places).clip(-1e6, 1e6)
         axes, radii, _ = np.linalg.svd(jacobian)
-        shorter = np.append(radii[:, 1][radii[:, 1] > 0], max(texture.size))
-        stretched, typical = np.quantile(shorter, [0.05, 0.5])
-        scale = max(1, int(min(_MOST_BLUR * stretched, typical)))
+        scale = max(1, int(_scale_for(radii, max(texture.size))))
         self._pixels = texture.reduced(scale)
         self._size = np.array(self._pixels.shape[1::-1])
         self._affine = affine(positions, places / scale, jacobian / scale)

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from glid_nb._arguments import plain, unmet
 from glid_nb._errors import InputError
 from glid_nb.geometry import Cage
-from glid_nb.imaging import PixelFrame, Tracing
+from glid_nb.imaging import PixelFrame, Tracing, as_rgba8
 from glid_nb.imaging.backdrop import RGB, Backdrop, filled
 from glid_nb.imaging.matte import cut_out, filled_loops
 
@@ -66,7 +66,7 @@ class Layers:
         """The picture that the map deforms."""
         if not self.look.cut_out or self.tracing is None or not self.opaque:
             return self.picture
-        return cut_out(self.picture, self.tracing, self.cage)
+        return as_rgba8(cut_out(self.picture, self.tracing, self.cage))
 
     def seen_as(self, look: Look) -> "Layers":
         """The same picture drawn in another way."""

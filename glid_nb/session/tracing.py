@@ -20,6 +20,7 @@ from glid_nb.imaging.read import ImageSource, as_rgba8, read_image
 from glid_nb.imaging.trace import with_changes
 from glid_nb.session import loop_edits
 from glid_nb.session.document import Document
+from glid_nb.session.look import Layers
 from glid_nb.session.loop_edits import AnyLoops
 from glid_nb.session.model import History, Undoable
 from glid_nb.session.worker import weakly
@@ -387,6 +388,12 @@ class TracingModel(Undoable[TracingState]):
         if (frame := self.frame) is None:
             raise TraceError("there is no picture yet; open one first")
         return frame
+
+
+def layers_of(document: Document) -> Layers:
+    """What is drawn of a document, as in an editor that opens it."""
+    tracing = TracingModel.from_document(document).outcome.tracing
+    return Layers(document.image, tracing, document.cage, document.look)
 
 
 def _cage_of(loops: AnyLoops) -> Cage:

@@ -68,12 +68,14 @@ def test_frames_show_the_rectangle_of_the_background() -> None:
 def test_pages_have_the_background_behind_their_canvas() -> None:
     pages = (page_html, live_page_html)
     for made in pages:
-        assert "main canvas {" not in made(picture(), bent())
-        assert "main canvas { background: rgb(1 2 3); }" in made(
+        assert "main canvas:first-child {" not in made(picture(), bent())
+        assert "main canvas:first-child { background: rgb(1 2 3); }" in made(
             picture(), bent(), background=(1, 2, 3)
         )
         page = made(picture(), bent(), background=WALL)
-        found = re.search(r"main canvas \{ background: url\(data:image/jpeg;base64,(.*?)\)", page)
+        found = re.search(
+            r"main canvas:first-child \{ background: url\(data:image/jpeg;base64,(.*?)\)", page
+        )
         assert found is not None
         behind = opened(base64.b64decode(found[1]))
         assert np.abs(behind[..., :3] - WALL)[:, 20:120].max() < 12
@@ -82,6 +84,6 @@ def test_pages_have_the_background_behind_their_canvas() -> None:
 def test_the_page_of_a_motion_has_a_ground_of_its_own_instead_of_white() -> None:
     motion = Motion([HarmonicMap.identity(domain()), bent()])
     page = motion_files("walk.html", picture(), motion)["walk.html"].decode()
-    assert "main canvas {" not in page
+    assert "main canvas:first-child {" not in page
     page = motion_files("walk.html", picture(), motion, background=WALL)["walk.html"].decode()
-    assert "main canvas { background: url(" in page
+    assert "main canvas:first-child { background: url(" in page

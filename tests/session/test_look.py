@@ -18,6 +18,7 @@ from glid_nb import io as glid_io
 from glid_nb.session.document import DocumentError
 from glid_nb.session.editor_model import EditorModel
 from glid_nb.session.look import WHOLE_CAGE, Look
+from glid_nb.session.tracing import layers_of
 
 
 def photograph() -> np.ndarray:
@@ -113,6 +114,13 @@ def test_a_session_keeps_the_look(model: EditorModel, tmp_path: Path, look: Look
     assert model.look == look
 
 
+def test_a_document_is_drawn_as_in_its_editor(model: EditorModel) -> None:
+    model.set_look(Look(background="filled"))
+    layers = layers_of(model.document)
+    np.testing.assert_array_equal(layers.image, model.layers.image)
+    np.testing.assert_array_equal(np.asarray(layers.background), model.layers.background)
+
+
 def test_older_sessions_are_drawn_as_before(model: EditorModel, tmp_path: Path) -> None:
     model.save(tmp_path / "old.glid")
     old = changed(tmp_path / "old.glid", version=5, look=None)
@@ -159,4 +167,4 @@ def test_exports_show_what_the_canvas_shows(model: EditorModel) -> None:
     placed = np.asarray(Image.open(io.BytesIO(written("placed.png"))))
     np.testing.assert_array_equal(placed[0], behind[0])
     for name in ("placed.html", "placed.live.html"):
-        assert b"main canvas { background: url(" in written(name)
+        assert b"main canvas:first-child { background: url(" in written(name)
