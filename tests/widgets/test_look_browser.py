@@ -22,6 +22,7 @@ strokes = glid.Scribbles([[[110, 100], [190, 100]]], [[[20, 20], [280, 20], [280
 editor = glid.Editor(picture, n_vertices=600, width=560, height=400)
 editor.model.tracing.paint("foreground", strokes.foreground[0])
 editor.model.tracing.paint("background", strokes.background[0])
+editor.model.apply_tracing()
 editor.tabs.selected_index = 1
 editor.background = "filled"
 canvas, model = editor.canvas, editor.deformation
