@@ -388,29 +388,32 @@ for(let i=0;i<=N_TIMED;i++){shapes.redraw();await new Promise(go=>requestAnimati
 pad);const gl=canvas?.getContext("webgl")||canvas?.getContext("webgl2");if(!gl)continue;const start=performance.
 now();gl.readPixels(0,0,1,1,gl.RGBA,gl.UNSIGNED_BYTE,new Uint8Array(4));times.push(performance.now()-
 start)}return times.length>1?Math.min(...times.slice(1)):0}var SAVE_VIEW_AFTER=250;var STILL={release(){},pause:()=>void 0};var Canvas=class{legend=new Legend;notices=new Notices;help=help(
-HELP);#chosen;#saving;#playing=STILL;#presses=false;constructor({model,el,signal}){this.model=model;
-this.interactive=model.get("interactive");const paper=make("canvas",{className:"glid-paper"});this.box=
-make("div",{className:"glid-pad",role:"application","aria-label":"Deformation canvas: arrow keys mov\
-e, Enter pins a point",inert:!this.interactive},paper,this.legend.element,this.notices.notice,this.notices.
-prepared);this.box.dataset.lmSuppressShortcuts="true";el.classList.add("glid-host","glid-pad-host");
-el.append(this.box);this.view=new View(()=>this.#viewMoved(),{nearest:1e-4,farthest:1});this.shapes=
-new Shapes(model,this.view);this.redraw=painter(paper,this.view,signal,pen=>this.#draw(pen));this.link=
-new Link(model,this.box,signal,()=>this.#report());this.room=this.interactive?new Room(this.box,model,
-signal):null;this.pad=new Pad(this.box,this.view,this.link,new PinBehaviour(this));this.clipboard=new PoseClipboard(
-this);this.corner=this.#makeCorner();if(this.interactive){this.box.append(shield(this.corner),this.help.
-table,resizeGrip(model));keysAround(this.box,e=>this.pad.keydown(e),signal);this.box.addEventListener(
-"glid:press",e=>this.#pressed(e))}this.#takeFirst()}close(){clearTimeout(this.#saving);this.shapes.close()}get marks(){
-return this.model.get("marks")}get brush(){const brush=this.model.get("brush");return"radius"in brush?
-brush:null}get painting(){return this.brush!==null}say(notice){save(this.model,{notice})}openMenu(place,found={
-mark:this.marks.selected.at(-1)}){const{selected,targets}=this.marks;const mark=found?.mark===void 0?
-null:Number(found.mark);const centre=[this.view.x,this.view.y];const point=mark===null?this.model.get(
-"cursor")??centre:targets[mark];const at=place??this.view.toScreen(point);const does={press:(key,shift=false)=>{
-return()=>this.pad.press(key,{shiftKey:shift})},pin:()=>void this.pad.send("pin",at),paste:()=>void this.
-clipboard.paste(),alone:()=>this.room?.alone(),fullScreen:()=>this.room?.fullScreen(),showKeys:this.
-help.toggle};const pinned=mark!==null&&selected.includes(mark)?selected.length:1;const covered=mark===
-null&&coveredNear(this.box,at);openMenu(this.box,at,menuRows(does,mark===null?null:{pinned},covered))}showMotion(motion=null,playing=STILL,heights=null){
-this.#playing=playing;this.shapes.motion=motion;this.shapes.lift(heights);this.showLegend();this.shapes.
-refresh();this.redraw()}showLegend(){this.legend.show(this.model,Boolean(this.shapes.motion))}showNotice(){
+HELP);#chosen;#saving;#playing=STILL;#painted=false;#presses=false;constructor({model,el,signal}){this.
+model=model;this.interactive=model.get("interactive");const paper=make("canvas",{className:"glid-pap\
+er"});this.box=make("div",{className:"glid-pad",role:"application","aria-label":"Deformation canvas:\
+ arrow keys move, Enter pins a point",inert:!this.interactive},paper,this.legend.element,this.notices.
+notice,this.notices.prepared);this.box.dataset.lmSuppressShortcuts="true";el.classList.add("glid-hos\
+t","glid-pad-host");el.append(this.box);this.view=new View(()=>this.#viewMoved(),{nearest:1e-4,farthest:1});
+this.shapes=new Shapes(model,this.view);this.redraw=painter(paper,this.view,signal,pen=>this.#draw(pen));
+this.link=new Link(model,this.box,signal,()=>this.#report());this.room=this.interactive?new Room(this.
+box,model,signal):null;this.pad=new Pad(this.box,this.view,this.link,new PinBehaviour(this));this.clipboard=
+new PoseClipboard(this);this.corner=this.#makeCorner();if(this.interactive){this.box.append(shield(this.
+corner),this.help.table,resizeGrip(model));keysAround(this.box,e=>this.pad.keydown(e),signal);this.box.
+addEventListener("glid:press",e=>this.#pressed(e))}this.#takeFirst()}close(){clearTimeout(this.#saving);
+this.shapes.close()}get marks(){return this.model.get("marks")}get brush(){const brush=this.model.get(
+"brush");return"radius"in brush?brush:null}get painting(){return this.brush!==null}say(notice){save(
+this.model,{notice})}openMenu(place,found={mark:this.marks.selected.at(-1)}){const{selected,targets}=this.
+marks;const mark=found?.mark===void 0?null:Number(found.mark);const centre=[this.view.x,this.view.y];
+const point=mark===null?this.model.get("cursor")??centre:targets[mark];const at=place??this.view.toScreen(
+point);const does={press:(key,shift=false)=>{return()=>this.pad.press(key,{shiftKey:shift})},pin:()=>void this.
+pad.send("pin",at),paste:()=>void this.clipboard.paste(),alone:()=>this.room?.alone(),fullScreen:()=>this.
+room?.fullScreen(),showKeys:this.help.toggle};const pinned=mark!==null&&selected.includes(mark)?selected.
+length:1;const covered=mark===null&&coveredNear(this.box,at);openMenu(this.box,at,menuRows(does,mark===
+null?null:{pinned},covered))}showMotion(motion=null,playing=STILL,heights=null){this.#playing=playing;
+this.shapes.motion=motion;this.shapes.lift(heights);this.showLegend();this.shapes.refresh();this.redraw()}showLegend(){
+this.legend.show(this.model,Boolean(this.shapes.motion))}takeFocus(){const{painting}=this;const chosen=painting&&
+!this.#painted;this.#painted=painting;const side=this.box.closest(".glid-editor")?.querySelector(".g\
+lid-side");if(chosen&&side?.contains(document.activeElement))this.box.focus({preventScroll:true})}showNotice(){
 const first=this.interactive&&!this.marks.targets.length;this.notices.tell(this.model.get("notice"),
 this.painting,first)}fit(){const{model,view,box}=this;view.width=model.get("width");view.height=model.
 get("height");[view.x,view.y,view.unit]=model.get("view");box.style.width=`${view.width}px`;box.style.
@@ -441,7 +444,8 @@ encloses&&pad.path.length>2)drawLasso(pen,view,pad.path)}};function render(conte
 "change:marks change:cursor change:onion change:stiff change:brush":()=>canvas.redraw(),"glid:motion":(...shown)=>canvas.
 showMotion(...shown),"change:legend change:panel_legend change:legend_corner":()=>canvas.showLegend(),
 "change:notice change:marks change:brush":()=>canvas.showNotice(),"change:marks":()=>canvas.reveal(),
-"change:prepared":()=>canvas.notices.prepare(model.get("prepared"))});measure(canvas,signal);if(model.
-get("uniform_vectors")===0){save(model,{uniform_vectors:uniformVectors()||-1})}return()=>canvas.close()}
-async function measure({box,model,shapes},signal){await shapes.load();const time=await drawingTime(box,
-shapes);if(!signal.aborted)save(model,{drawn:true,drawing_time:time})}var main_default={render};export{main_default as default};
+"change:brush":()=>canvas.takeFocus(),"change:prepared":()=>canvas.notices.prepare(model.get("prepar\
+ed"))});measure(canvas,signal);if(model.get("uniform_vectors")===0){save(model,{uniform_vectors:uniformVectors()||
+-1})}return()=>canvas.close()}async function measure({box,model,shapes},signal){await shapes.load();
+const time=await drawingTime(box,shapes);if(!signal.aborted)save(model,{drawn:true,drawing_time:time})}
+var main_default={render};export{main_default as default};
