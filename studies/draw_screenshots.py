@@ -24,7 +24,7 @@ DOCS = Path(__file__).parent.parent / "docs"
 DENSITY = 1.5  # pixels of the screenshot per CSS pixel
 CELL = """
 import glid_nb as glid
-editor = glid.Editor(glid.samples.image({sample!r}), width=640, height=480)
+editor = glid.Editor(glid.samples.image({sample!r}), plots={plots})
 canvas, model = editor.canvas, editor.deformation
 editor
 """
@@ -72,7 +72,7 @@ def deform_tab(browser: Browser, server: JupyterServer) -> bytes:
         book.value("None", "canvas.overlay, canvas.show_panels = 'sigma2', True")
         dragged(hand, 0.75)
 
-    return pictured(browser, server, "frog", use)
+    return pictured(browser, server, "frog", use, plots=True)
 
 
 def deform_tab_dark(browser: Browser, server: JupyterServer) -> bytes:
@@ -104,12 +104,16 @@ PICTURES: dict[str, Callable[[Browser, JupyterServer], bytes]] = {
 
 
 def pictured(
-    browser: Browser, server: JupyterServer, sample: str, use: Callable[[LabNotebook], None]
+    browser: Browser,
+    server: JupyterServer,
+    sample: str,
+    use: Callable[[LabNotebook], None],
+    plots: bool = False,
 ) -> bytes:
     """A PNG of the editor with a bundled sample, after ``use`` acted on it."""
-    settings = {"viewport": {"width": 1360, "height": 1080}, "device_scale_factor": DENSITY}
+    settings = {"viewport": {"width": 1360, "height": 860}, "device_scale_factor": DENSITY}
     with watched_page(browser, **settings) as page:
-        book = LabNotebook(page, server, [CELL.format(sample=sample)])
+        book = LabNotebook(page, server, [CELL.format(sample=sample, plots=plots)])
         try:
             editor = page.locator(".glid-editor")
             editor.wait_for()

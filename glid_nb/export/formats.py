@@ -22,7 +22,7 @@ FORMATS = {
     ".obj": Format("Mesh and texture (OBJ)", (".mtl", "-texture.png")),
     ".glb": Format("Mesh and texture (glTF)"),
     ".svg": Format("Cage (SVG)"),
-    ".live.html": Format("Live page, to drag in any browser (HTML)"),
+    ".live.html": Format("Live page, to be dragged (HTML)"),
     ".html": Format("Page with the shape (HTML)"),
     ".py": Format("Python script", ("-source.png",)),
     ".proof.json": Format("Proof for glid-check (JSON)", (".map.json",)),
@@ -30,12 +30,12 @@ FORMATS = {
 }
 MOTION_FORMATS = {  # a motion's name without one of these is a folder of frames
     ".gif": Format("Animation (GIF)"),
-    ".apng": Format("Animation with transparency (PNG)"),
+    ".apng": Format("Transparent animation (PNG)"),
     ".mp4": Format("Video (MP4)"),
     ".webm": Format("Video (WebM)"),
     ".html": Format("Page with a player (HTML)"),
     ".glb": Format("Moving mesh (glTF)"),
-    ".sheet.png": Format("Sprite sheet (PNG and JSON)", (".sheet.json",)),
+    ".sheet.png": Format("Sprite sheet (PNG, JSON)", (".sheet.json",)),
     ".zip": Format("Frames (PNG in a zip)"),
     ".motion.json": Format("Proof for glid-check (JSON)", (".motion.proof.json",)),
 }

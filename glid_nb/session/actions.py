@@ -272,6 +272,13 @@ def keep_between(state: EditState, time: float, map: HarmonicMap) -> EditState:
     return _with_inserted(state, index, pose, time)
 
 
+def keep_after(state: EditState, time: float) -> EditState:
+    """Save the last pose again at a later time."""
+    if not time - state.timeline.times[-1] >= LEAST_GAP:
+        raise EditError(f"there is already a pose at {time:g} s, or a later one")
+    return _with_inserted(state, len(state.poses), state.poses[-1], time)
+
+
 def record(
     state: EditState, first: NamedPose, poses: Sequence[NamedPose], offsets: Sequence[float]
 ) -> EditState:

@@ -87,6 +87,15 @@ class Animation(Observed):
         piece = next((p for p in span.pieces if time <= p.end), span.pieces[-1])
         return piece.at(min(time, piece.end))
 
+    def seen(self, time: float) -> tuple[HarmonicMap, Order] | None:
+        """Map and order of the parts at a time, after the last keyframe those of its pose. None
+        before the first keyframe, and without a motion."""
+        state = self.deformation.state
+        if self.is_later(time):
+            return state.poses[-1].map, state.orders[-1]
+        map_ = self.at(time)
+        return None if map_ is None else (map_, self.order(time))
+
     def order(self, time: float) -> Order:
         """The order of the shape's parts at a time, interpolated between two keyframes."""
         state = self.deformation.state
@@ -96,9 +105,12 @@ class Animation(Observed):
         return first.towards(last, (time - times[i]) / (times[i + 1] - times[i]))
 
     def keep(self, time: float) -> None:
-        """Save the map at a time as a pose. Between poses, the map must be proved."""
+        """Save the map at a time as a pose. Between poses, the map must be proved. After the last
+        keyframe it is that of the last pose."""
         times = self.deformation.state.timeline.times
         time = time if time in times else round(time, 2)
+        if self.is_later(time):
+            return self.deformation.keep_after(time)
         if time in times or not self.spans:
             return self.deformation.save_pose()
         pieces = (piece for span in self.spans for piece in span.pieces)
@@ -106,6 +118,12 @@ class Animation(Observed):
         if piece is None:
             raise EditError(f"nothing is proved at {time:.2f} s, so there is no shape to keep")
         return self.deformation.keep_between(time, piece.at(time))
+
+    def is_later(self, time: float) -> bool:
+        """Whether a time is after the last keyframe, where nothing is played."""
+        state = self.deformation.state
+        loops = state.timeline.repeat == "loop" and len(state.poses) > 1
+        return not loops and round(time, 2) - state.timeline.times[-1] >= LEAST_GAP
 
     def go_to(self, time: float) -> None:
         """Edit the pose at a time: that of a keyframe, or else a new one, as `keep` makes it."""

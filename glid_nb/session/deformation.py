@@ -189,6 +189,7 @@ class Deformation(Undoable[EditState], AbstractContextManager["Deformation"]):
     set_easing = _step(actions.set_easing)
     set_repeat = _step(actions.set_repeat)
     keep_between = _step(actions.keep_between)
+    keep_after = _step(actions.keep_after)
 
     def add_handle(self, point: ArrayLike, to: ArrayLike | None = None) -> int:
         """Add a handle at a point of the undeformed shape. Returns its index."""

@@ -130,7 +130,9 @@ class DeformCanvas(ClosingWidget, ipywidgets.HBox):
         self.observe(lambda _: self._draw("state"), ["show_cage", "show_offset_cage", "show_onion"])
         self.observe(lambda _: self._draw("legend"), ["overlay", "show_panels"])
         self.observe(self._show_source, ["show_source"])
-        self.brush.observe(lambda _: self._draw("state"))
+        # By name, so that the page hears of a tool before the editor shows the brush's section.
+        names = list(self.brush.trait_names())
+        self.brush.observe(lambda _: self._draw("state"), names)
 
     @property
     def drawn(self) -> bool:

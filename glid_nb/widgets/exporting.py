@@ -252,9 +252,10 @@ class MotionExport(ClosingWidget, ipywidgets.HBox):
         self.cancel = button("Cancel", "stop", "Stop drawing", self.worker.cancel)
         self._running = (self.progress, self.cancel)
         self._show(False)
-        px, fps = (ipywidgets.Label(text, layout={"flex": "0 0 auto"}) for text in ("px", "fps"))
+        names = "Size", "px", "fps"
+        name, px, fps = (ipywidgets.Label(text, layout={"flex": "0 0 auto"}) for text in names)
         layout = {"flex": "1 1 auto", "min_width": "0", "flex_flow": "row wrap"}
-        super().__init__([self.size, px, self.rate, fps, *self._running], layout=layout)
+        super().__init__([name, self.size, px, self.rate, fps, *self._running], layout=layout)
         self._endings = (self.worker.close,)
 
     def start(self, name: str, deliver: Callable[[dict[str, bytes]], str]) -> str:

@@ -207,7 +207,7 @@ class FilePanel(Asking, ipywidgets.VBox):
         self.height = ipywidgets.Label(layout={"flex": "0 0 auto"})
         self.view = ipywidgets.Dropdown(options=_VIEWS, tooltip="What it shows", layout=_WIDE)
         """The view of an exported picture, as in `glid_nb.render`."""
-        self.picture = _row(self.width, self.height, self.view)
+        self.picture = _row(_label("Width"), self.width, self.height, self.view)
         self.look = exporting.LookChoice(model, layout=_WIDE)
         """What lies behind the shape, on the canvas and in exports."""
         self.code = ipywidgets.Textarea(rows=9, layout={"width": "auto", "display": "none"})
@@ -363,6 +363,10 @@ class FilePanel(Asking, ipywidgets.VBox):
         path = self.model.autosave_path
         text = _NO_AUTOSAVE if path is None else f"Saved automatically to {path.absolute()}"
         self.autosave.value = paragraph(text, "color:var(--jp-ui-font-color2,inherit)")
+
+
+def _label(text: str) -> ipywidgets.Label:
+    return ipywidgets.Label(text, layout={"flex": "0 0 auto"})
 
 
 def _row(*controls: ipywidgets.Widget) -> ipywidgets.HBox:

@@ -105,20 +105,17 @@ class TimelinePanel(Pad):
     def _show_between(self, time: float | None) -> None:
         """Let the canvas draw the motion at a time. Without a time, or without a motion at that
         time, it draws the edited pose."""
-        if time is None or (map_ := self.animation.at(time)) is None:
-            self.canvas.show_between(None)
-        else:
-            self.canvas.show_between(map_, self.animation.order(time))
+        seen = None if time is None else self.animation.seen(time)
+        map_, order = seen or (None, None)
+        self.canvas.show_between(map_, order)
 
     def _go_to(self, time: float, point: Array) -> bool:
         """Edit the pose at a time, if it is drawn at a point (2,). Returns whether it is."""
-        animation = self.animation
-        if (map_ := animation.at(time)) is None:
+        if (seen := self.animation.seen(time)) is None:
             return True
-        drawn = Sheets(map_, animation.order(time), self.canvas.image)
-        if drawn.source(point) is None:
+        if Sheets(*seen, self.canvas.image).source(point) is None:
             return False  # a press beside the shape makes no keyframe
-        animation.go_to(time)
+        self.animation.go_to(time)
         return True
 
     def _show(self, what: str) -> None:

@@ -107,3 +107,43 @@ test("going back shows the pose that is edited, once", () => {
   assert.deepEqual(shown.slice(1), [[null, undefined]]);
   assert.equal(player.time, 1);
 });
+
+test("after the last keyframe its pose stays, and playing begins in the motion", () => {
+  const { player, shown } = playing("once");
+  player.scrub(2.5);
+  assert.equal(player.place, 2.5);
+  assert.deepEqual(shown.at(-1), [[20], 2.5]);
+  player.scrub(1);
+  assert.equal(player.place, 1);
+  player.scrub(3);
+  player.play();
+  assert.equal(player.place, 0);
+  player.release(0);
+  player.scrub(4);
+  player.release(1);
+  assert.equal(player.place, 1);
+  assert.deepEqual(shown.at(-1), [null, undefined]);
+});
+
+test("a time after a loop's return shows the return", () => {
+  const { player } = playing("loop");
+  player.scrub(5);
+  assert.equal(player.place, 2);
+});
+
+test("a single keyframe has times after it, and none before", () => {
+  /** @type {[unknown, number | undefined][]} */
+  const shown = [];
+  const player = new Player(
+    (floats, time) => void shown.push([floats, time]),
+    () => {},
+  );
+  player.set([], "once");
+  player.only = 0.5;
+  player.scrub(1.5);
+  assert.equal(player.place, 1.5);
+  assert.deepEqual(shown, [[null, 1.5]]);
+  player.scrub(0.2);
+  assert.equal(player.place, 0.5);
+  assert.ok(!player.seen);
+});

@@ -208,6 +208,21 @@ def test_what_lies_between_is_kept_where_it_is_proved(
     model.cancel_drag()
 
 
+def test_after_the_last_pose_there_can_be_another(model: Deformation, animation: Animation) -> None:
+    assert animation.is_later(0.5)
+    assert animation.at(0.5) is None
+    seen = animation.seen(0.5)
+    assert seen is not None
+    assert seen[0] is model.map
+    animation.go_to(0.5)
+    assert (model.state.timeline.times, model.state.active) == ((0, 0.5), 1)
+    model.go_to_pose(0)
+    animation.keep(2.0)
+    assert (model.state.timeline.times, model.state.active) == ((0, 0.5, 2), 2)
+    model.set_repeat("loop")
+    assert not animation.is_later(9.0)
+
+
 def test_poses_that_wind_otherwise_are_not_joined_and_the_others_are() -> None:
     """The ring turned inside out; no motion of locally injective maps leads there."""
     d = domain("ring")

@@ -32,6 +32,7 @@ steps = st.one_of(
     st.tuples(st.just("set_easing"), index, easing),
     st.tuples(st.just("set_repeat"), st.sampled_from(["once", "loop", "ping-pong"])),
     st.tuples(st.just("keep_between"), time),
+    st.tuples(st.just("keep_after"), time),
     st.tuples(st.just("record"), st.lists(st.floats(0.01, 2), min_size=1, max_size=4)),
 )
 
@@ -124,6 +125,15 @@ def test_what_lies_between_can_be_kept() -> None:
     folded = HarmonicMap(two.domain, two.map.psi.conj(), two.map.phi.conj())
     with pytest.raises(EditError, match=r"cannot be kept\. The map is not locally injective"):
         actions.keep_between(two, 0.25, folded)
+
+
+def test_the_last_pose_can_be_kept_at_a_later_time() -> None:
+    state = actions.keep_after(state_of(1), 2.5)
+    assert (state.timeline.times, state.active) == ((0.0, 2.5), 1)
+    assert state.map is state.poses[0].map
+    for taken in (2.5, 1.0, np.nan):
+        with pytest.raises(EditError, match="already a pose"):
+            actions.keep_after(state, taken)
 
 
 def test_settings_that_are_not_valid_are_refused() -> None:

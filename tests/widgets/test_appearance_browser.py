@@ -123,6 +123,7 @@ def test_nothing_is_cut_off_covered_or_askew(open_notebook: OpenNotebook) -> Non
     book.screenshot("editor-help")
     page.keyboard.press("Escape")
     # A notice and a refused number are both read.
+    page.get_by_role("tab", name="Pin").click()
     book.value("None", setup="canvas.pane.stage.notice = 'So it is.'; model.tell('hand')")
     scale = page.get_by_label("Scale")
     scale.fill("-1")

@@ -204,7 +204,7 @@ def test_controls_and_overlays(open_notebook: OpenNotebook) -> None:
     choose_view(page, "Source")
     book.wait_for("canvas.source is None")
     # The status line.
-    page.locator(".glid-editor").get_by_text("Converged").first.wait_for()
+    page.locator(".glid-foot").get_by_text("Converged").first.wait_for()
 
 
 def test_by_keyboard_alone(open_notebook: OpenNotebook) -> None:

@@ -27,9 +27,7 @@ LIVING_CONTEXTS = "[...window.drawnOn].filter((context) => !context.isContextLos
 
 FILLED = """
 def filled(editor):
-    left, right = editor.tabs.children[1].children[0].children
-    boxes = editor.tabs.children[0], left.children[1], *right.children[0].children[1:]
-    return all(box.children for box in boxes)
+    return all(box.children for box in editor._boxes.values())
 """
 SOLVERS = """
 import threading

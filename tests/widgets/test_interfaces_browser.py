@@ -38,7 +38,7 @@ def test_a_handle_is_dragged(open_notebook: OpenNotebook, name: str) -> None:
     for (x, _), image in zip(points, book.value(f"model.map({points}).tolist()"), strict=True):
         wanted = np.array([100 + 10 * x, 155 - 10 * x])
         hand.wait_for_color(image, lambda seen, w=wanted: bool(abs(seen[1:3] - w).max() < 6))
-    book.page.locator(".glid-editor").get_by_text("Converged").first.wait_for()
+    book.page.locator(".glid-foot").get_by_text("Converged").first.wait_for()
     book.screenshot(f"editor-{name}")
 
 

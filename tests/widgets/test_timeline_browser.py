@@ -288,3 +288,39 @@ def test_a_walk_cycle_made_by_hand(open_notebook: OpenNotebook) -> None:
     book.wait_for(near.replace("(t)", f"({second.time!r})"))
     page.keyboard.press("Escape")
     book.wait_for("other.pane.scene.map is model.map")
+
+
+def test_moving_a_pin_at_a_later_time_makes_a_keyframe_there(open_notebook: OpenNotebook) -> None:
+    book = open_notebook([EDITOR, BOX])
+    hand = Hand(book)
+    timeline, page = Timeline(hand), book.page
+    for pin in PINS:
+        hand.click(pin)
+    book.wait_for(f"len(model.pose) == {len(PINS)}")
+    hand.settle()
+    start = hand.targets[-1]
+
+    def drag_at(time: float, end: list[float]) -> None:
+        count = book.value("len(editor.poses)")
+        timeline.scrub([time])
+        assert timeline.time == pytest.approx(time, abs=0.02)
+        label = timeline.root.locator(".glid-playhead").get_attribute("data-label")
+        assert float(label or "nan") == pytest.approx(time, abs=0.02)
+        hand.drag(line(hand.targets[-1], end, 8))
+        book.wait_for(f"len(editor.poses) == {count + 1}")
+        hand.wait_for_target(len(PINS) - 1, end)
+
+    drag_at(0.8, [start[0] - 0.5, start[1] + 0.5])
+    timeline.settle()
+    drag_at(1.5, [start[0], start[1] - 0.5])
+    timeline.settle()
+    np.testing.assert_allclose(timeline.times, [0, 0.8, 1.5], atol=0.03)
+    np.testing.assert_allclose(book.value("model.state.poses[0].pose.targets[-1].tolist()"), start)
+    book.screenshot("timeline-autokey")
+
+    # K makes a keyframe of what is shown, from the canvas too.
+    timeline.scrub([0.4])
+    hand.pad.focus()
+    page.keyboard.press("k")
+    book.wait_for("len(editor.poses) == 4")
+    np.testing.assert_allclose(timeline.times, [0, 0.4, 0.8, 1.5], atol=0.03)

@@ -594,68 +594,71 @@ now();shapes.refresh();const moved=performance.now()-moving;await new Promise(go
 go));const canvas=drawnBelow(pad);const gl=canvas?.getContext("webgl")||canvas?.getContext("webgl2");
 if(!gl)continue;const start=performance.now();gl.readPixels(0,0,1,1,gl.RGBA,gl.UNSIGNED_BYTE,new Uint8Array(
 4));times.push(moved+performance.now()-start)}return times.length>1?Math.min(...times.slice(1)):0}var SAVE_VIEW_AFTER=250;var STILL={release(){},pause:()=>void 0};var Canvas=class{legend=new Legend;notices=new Notices;help=help(
-HELP);#chosen;#saving;#playing=STILL;#presses=false;constructor({model,el,signal}){this.model=model;
-this.interactive=model.get("interactive");const paper=make("canvas",{className:"glid-paper"});this.box=
-make("div",{className:"glid-pad",role:"application","aria-label":"Deformation canvas: arrow keys mov\
-e, Enter pins a point",inert:!this.interactive},paper,this.legend.element,this.notices.notice,this.notices.
-prepared);this.box.dataset.lmSuppressShortcuts="true";el.classList.add("glid-host","glid-pad-host");
-el.append(this.box);this.view=new View(()=>this.#viewMoved(),{nearest:1e-4,farthest:1});this.shapes=
-new Shapes(model,this.view);this.shapes.led=()=>this.redraw();this.ahead=new Ahead(model,lead=>this.
-shapes.showLead(lead));this.redraw=painter(paper,this.view,signal,pen=>this.#draw(pen));this.link=new Link(
-model,this.box,signal,()=>this.#report());this.room=this.interactive?new Room(this.box,model,signal):
-null;this.pad=new Pad(this.box,this.view,this.#listener(signal),new PinBehaviour(this));this.clipboard=
-new PoseClipboard(this);this.corner=this.#makeCorner();if(this.interactive){this.box.append(shield(this.
-corner),this.help.table,resizeGrip(model));keysAround(this.box,e=>this.pad.keydown(e),signal);this.box.
-addEventListener("glid:press",e=>this.#pressed(e))}this.#takeFirst()}close(){clearTimeout(this.#saving);
-this.ahead.close();this.shapes.close()}get marks(){return marksOf(this.model.get("marks"),this.shapes.
-lead)}prepareSolver(){if(this.interactive)void this.ahead.prepare()}rested(){if(!this.pad.grip)this.
-ahead.giveBack()}followHand(){if(this.pad.grip&&!this.shapes.motion)this.ahead.follow(this.pad.held)}#listener(signal){
-const put=event=>{const drags=event.type==="up"||this.pad.grip&&/^(down|move)$/.test(event.type);if(!drags)
-this.ahead.giveBack();return this.link.put(event)};return{put,signal}}get brush(){const brush=this.model.
-get("brush");return"radius"in brush?brush:null}get painting(){return this.brush!==null}say(notice){save(
-this.model,{notice})}openMenu(place,found={mark:this.marks.selected.at(-1)}){const{selected,targets}=this.
-marks;const mark=found?.mark===void 0?null:Number(found.mark);const centre=[this.view.x,this.view.y];
-const point=mark===null?this.model.get("cursor")??centre:targets[mark];const at=place??this.view.toScreen(
-point);const does={press:(key,shift=false)=>{return()=>this.pad.press(key,{shiftKey:shift})},pin:()=>void this.
-pad.send("pin",at),paste:()=>void this.clipboard.paste(),alone:()=>this.room?.alone(),fullScreen:()=>this.
-room?.fullScreen(),showKeys:this.help.toggle};const pinned=mark!==null&&selected.includes(mark)?selected.
-length:1;const covered=mark===null&&coveredNear(this.box,at);openMenu(this.box,at,menuRows(does,mark===
-null?null:{pinned},covered))}showMotion(motion=null,playing=STILL,heights=null){this.#playing=playing;
-this.shapes.motion=motion;this.shapes.lift(heights);this.showLegend();this.shapes.refresh();this.redraw()}showLegend(){
-this.legend.show(this.model,Boolean(this.shapes.motion))}showNotice(){const first=this.interactive&&
-!this.marks.targets.length;this.notices.tell(this.model.get("notice"),this.painting,first)}fit(){const{
-model,view,box}=this;view.width=model.get("width");view.height=model.get("height");[view.x,view.y,view.
-unit]=model.get("view");box.style.width=`${view.width}px`;box.style.height=`${view.height}px`;this.room?.
-shrink();this.#see()}reveal(){const{selected,targets,images}=this.marks;const now=selected.length===
-1?selected[0]:void 0;if(now===this.#chosen)return;this.#chosen=now;if(now===void 0||this.pad.mode)return;
-if(inSight(this.view,targets[now])||inSight(this.view,images[now]))return;this.view.centreOn(targets[now])}pressedAt(){
-if(!this.shapes.motion)return void 0;this.#presses=true;return this.#playing.pause()}#pressed(e){const{
-detail}=e;const act=this.pad.behaviour.actions?.[detail];if(act)act();else this.pad.press(detail,{})}#takeFirst(){
-const goBack=e=>{if(!this.shapes.motion)return;e.stopImmediatePropagation();e.preventDefault();this.#playing.
-release()};const capture=true;this.box.addEventListener("pointerdown",e=>e.button===2&&goBack(e),{capture});
-const ours=e=>!e.ctrlKey&&!e.metaKey&&KEYS.test(keyOf(e));this.box.addEventListener("keydown",e=>ours(
-e)&&goBack(e),{capture});const followArrow=e=>{const target=arrowAt(this.view,this.marks,this.pad.place(
-e));if(!target||e.target!==this.box)return;this.view.centreOn(target);e.stopImmediatePropagation()};
-this.box.addEventListener("pointerdown",followArrow,{capture})}#makeCorner(){const look="glid-help-b\
-utton";return make("div",{className:"glid-corner"},this.help.button,iconButton("screen","Full screen\
- (W)",()=>this.room?.fullScreen(),look),iconButton("rectangle","The picture alone (P)",()=>this.room?.
-alone(),look))}#report(){const{busy,refusal}=this.link;if(this.#presses&&this.link.idle&&this.pad.mode===
-null){this.#presses=false;this.#playing.release()}if(!busy&&refusal&&refusal!==this.model.get("notic\
-e"))this.say(refusal)}#viewMoved(){this.#see();clearTimeout(this.#saving);this.#saving=setTimeout(()=>{
-const{x,y,unit}=this.view;save(this.model,{view:[x,y,unit]})},SAVE_VIEW_AFTER)}#see(){this.shapes.see();
-this.redraw()}#draw(pen){const{model,view,pad,marks,brush}=this;const{motion}=this.shapes;const through=!motion&&
-knobInCorner(view,marks,pad.held);this.corner.classList.toggle("glid-through",through);if(motion)return;
-drawOnion(pen,view,model.get("onion"));drawStiff(pen,view,model.get("stiff"),this.painting);const cursor=pad.
-focused?model.get("cursor"):null;drawMarks(pen,view,marks,{hovered:pad.found?.mark,held:pad.held,cursor});
-if(brush)drawBrush(pen,view,brush,pad);if(pad.encloses&&pad.path.length>2)drawLasso(pen,view,pad.path)}};function render(context){const{model,signal}=context;const canvas=new Canvas(context);follow(model,{
+HELP);#chosen;#saving;#playing=STILL;#painted=false;#presses=false;constructor({model,el,signal}){this.
+model=model;this.interactive=model.get("interactive");const paper=make("canvas",{className:"glid-pap\
+er"});this.box=make("div",{className:"glid-pad",role:"application","aria-label":"Deformation canvas:\
+ arrow keys move, Enter pins a point",inert:!this.interactive},paper,this.legend.element,this.notices.
+notice,this.notices.prepared);this.box.dataset.lmSuppressShortcuts="true";el.classList.add("glid-hos\
+t","glid-pad-host");el.append(this.box);this.view=new View(()=>this.#viewMoved(),{nearest:1e-4,farthest:1});
+this.shapes=new Shapes(model,this.view);this.shapes.led=()=>this.redraw();this.ahead=new Ahead(model,
+lead=>this.shapes.showLead(lead));this.redraw=painter(paper,this.view,signal,pen=>this.#draw(pen));this.
+link=new Link(model,this.box,signal,()=>this.#report());this.room=this.interactive?new Room(this.box,
+model,signal):null;this.pad=new Pad(this.box,this.view,this.#listener(signal),new PinBehaviour(this));
+this.clipboard=new PoseClipboard(this);this.corner=this.#makeCorner();if(this.interactive){this.box.
+append(shield(this.corner),this.help.table,resizeGrip(model));keysAround(this.box,e=>this.pad.keydown(
+e),signal);this.box.addEventListener("glid:press",e=>this.#pressed(e))}this.#takeFirst()}close(){clearTimeout(
+this.#saving);this.ahead.close();this.shapes.close()}get marks(){return marksOf(this.model.get("mark\
+s"),this.shapes.lead)}prepareSolver(){if(this.interactive)void this.ahead.prepare()}rested(){if(!this.
+pad.grip)this.ahead.giveBack()}followHand(){if(this.pad.grip&&!this.shapes.motion)this.ahead.follow(
+this.pad.held)}#listener(signal){const put=event=>{const drags=event.type==="up"||this.pad.grip&&/^(down|move)$/.
+test(event.type);if(!drags)this.ahead.giveBack();return this.link.put(event)};return{put,signal}}get brush(){
+const brush=this.model.get("brush");return"radius"in brush?brush:null}get painting(){return this.brush!==
+null}say(notice){save(this.model,{notice})}openMenu(place,found={mark:this.marks.selected.at(-1)}){const{
+selected,targets}=this.marks;const mark=found?.mark===void 0?null:Number(found.mark);const centre=[this.
+view.x,this.view.y];const point=mark===null?this.model.get("cursor")??centre:targets[mark];const at=place??
+this.view.toScreen(point);const does={press:(key,shift=false)=>{return()=>this.pad.press(key,{shiftKey:shift})},
+pin:()=>void this.pad.send("pin",at),paste:()=>void this.clipboard.paste(),alone:()=>this.room?.alone(),
+fullScreen:()=>this.room?.fullScreen(),showKeys:this.help.toggle};const pinned=mark!==null&&selected.
+includes(mark)?selected.length:1;const covered=mark===null&&coveredNear(this.box,at);openMenu(this.box,
+at,menuRows(does,mark===null?null:{pinned},covered))}showMotion(motion=null,playing=STILL,heights=null){
+this.#playing=playing;this.shapes.motion=motion;this.shapes.lift(heights);this.showLegend();this.shapes.
+refresh();this.redraw()}showLegend(){this.legend.show(this.model,Boolean(this.shapes.motion))}takeFocus(){
+const{painting}=this;const chosen=painting&&!this.#painted;this.#painted=painting;const side=this.box.
+closest(".glid-editor")?.querySelector(".glid-side");if(chosen&&side?.contains(document.activeElement))
+this.box.focus({preventScroll:true})}showNotice(){const first=this.interactive&&!this.marks.targets.
+length;this.notices.tell(this.model.get("notice"),this.painting,first)}fit(){const{model,view,box}=this;
+view.width=model.get("width");view.height=model.get("height");[view.x,view.y,view.unit]=model.get("v\
+iew");box.style.width=`${view.width}px`;box.style.height=`${view.height}px`;this.room?.shrink();this.#see()}reveal(){
+const{selected,targets,images}=this.marks;const now=selected.length===1?selected[0]:void 0;if(now===
+this.#chosen)return;this.#chosen=now;if(now===void 0||this.pad.mode)return;if(inSight(this.view,targets[now])||
+inSight(this.view,images[now]))return;this.view.centreOn(targets[now])}pressedAt(){if(!this.shapes.motion)
+return void 0;this.#presses=true;return this.#playing.pause()}#pressed(e){const{detail}=e;const act=this.
+pad.behaviour.actions?.[detail];if(act)act();else this.pad.press(detail,{})}#takeFirst(){const goBack=e=>{
+if(!this.shapes.motion)return;e.stopImmediatePropagation();e.preventDefault();this.#playing.release()};
+const capture=true;this.box.addEventListener("pointerdown",e=>e.button===2&&goBack(e),{capture});const ours=e=>!e.
+ctrlKey&&!e.metaKey&&KEYS.test(keyOf(e));this.box.addEventListener("keydown",e=>ours(e)&&goBack(e),{
+capture});const followArrow=e=>{const target=arrowAt(this.view,this.marks,this.pad.place(e));if(!target||
+e.target!==this.box)return;this.view.centreOn(target);e.stopImmediatePropagation()};this.box.addEventListener(
+"pointerdown",followArrow,{capture})}#makeCorner(){const look="glid-help-button";return make("div",{
+className:"glid-corner"},this.help.button,iconButton("screen","Full screen (W)",()=>this.room?.fullScreen(),
+look),iconButton("rectangle","The picture alone (P)",()=>this.room?.alone(),look))}#report(){const{busy,
+refusal}=this.link;if(this.#presses&&this.link.idle&&this.pad.mode===null){this.#presses=false;this.#playing.
+release()}if(!busy&&refusal&&refusal!==this.model.get("notice"))this.say(refusal)}#viewMoved(){this.#see();
+clearTimeout(this.#saving);this.#saving=setTimeout(()=>{const{x,y,unit}=this.view;save(this.model,{view:[
+x,y,unit]})},SAVE_VIEW_AFTER)}#see(){this.shapes.see();this.redraw()}#draw(pen){const{model,view,pad,
+marks,brush}=this;const{motion}=this.shapes;const through=!motion&&knobInCorner(view,marks,pad.held);
+this.corner.classList.toggle("glid-through",through);if(motion)return;drawOnion(pen,view,model.get("\
+onion"));drawStiff(pen,view,model.get("stiff"),this.painting);const cursor=pad.focused?model.get("cu\
+rsor"):null;drawMarks(pen,view,marks,{hovered:pad.found?.mark,held:pad.held,cursor});if(brush)drawBrush(
+pen,view,brush,pad);if(pad.encloses&&pad.path.length>2)drawLasso(pen,view,pad.path)}};function render(context){const{model,signal}=context;const canvas=new Canvas(context);follow(model,{
 "change:width change:height change:view":()=>canvas.fit(),"change:coefficients":()=>canvas.shapes.lead||
 canvas.shapes.refresh(),"change:solver_script change:solver change:outline":()=>canvas.prepareSolver(),
 "change:rest":()=>canvas.rested(),"change:drawing_time":()=>model.get("drawn")&&!model.get("drawing_\
 time")&&measure(canvas,signal),"change:marks change:cursor change:onion change:stiff change:brush":()=>canvas.
 redraw(),"glid:motion":(...shown)=>canvas.showMotion(...shown),"change:legend change:panel_legend ch\
 ange:legend_corner":()=>canvas.showLegend(),"change:notice change:marks change:brush":()=>canvas.showNotice(),
-"change:marks":()=>canvas.reveal(),"change:prepared":()=>canvas.notices.prepare(model.get("prepared"))});
-measure(canvas,signal);if(model.get("uniform_vectors")===0){save(model,{uniform_vectors:uniformVectors()||
--1})}return()=>canvas.close()}async function measure({box,model,shapes},signal){await shapes.load();
-const time=await drawingTime(box,shapes);if(!signal.aborted)save(model,{drawn:true,drawing_time:time})}
-var main_default={render};export{main_default as default};
+"change:marks":()=>canvas.reveal(),"change:brush":()=>canvas.takeFocus(),"change:prepared":()=>canvas.
+notices.prepare(model.get("prepared"))});measure(canvas,signal);if(model.get("uniform_vectors")===0){
+save(model,{uniform_vectors:uniformVectors()||-1})}return()=>canvas.close()}async function measure({
+box,model,shapes},signal){await shapes.load();const time=await drawingTime(box,shapes);if(!signal.aborted)
+save(model,{drawn:true,drawing_time:time})}var main_default={render};export{main_default as default};

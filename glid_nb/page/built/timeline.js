@@ -83,42 +83,46 @@ this.repeat]){control.disabled=alone}this.save.hidden=!exports;this.recording=re
 onion;this.record.ariaPressed=String(recording);this.onion.ariaPressed=String(onion)}showTime(place,end,playing){
 const does=playing?"pause":"play";if(this.play.dataset.does!==does)this.play.innerHTML=icon(does);this.
 play.dataset.does=does;this.clock.textContent=`${place.toFixed(2)} / ${seconds(end)}`}};function legend(){
-const parts=LEGEND.map(([kind,label])=>{return make("span",{},make("i",{className:`glid-piece glid-${kind}`}),
-label)});return make("div",{className:"glid-proof-legend","aria-hidden":true},...parts)}function gap(){
-return make("span",{className:"glid-gap"})}function menu(label,choices,act){const options=choices.map(
-([value,text])=>new Option(text,value));const select=make("select",{"aria-label":label,title:label},
-...options);select.addEventListener("change",()=>act(select.value));return select}var Player=class{clock=null;time=0;seen=false;#intervals=[];#frame=0;constructor(show,moved,ended=()=>{}){
+const parts=LEGEND.map(([kind,label])=>{return make("span",{},make("i",{className:"glid-swatch","dat\
+a-kind":kind}),label)});return make("div",{className:"glid-proof-legend","aria-hidden":true},...parts)}
+function gap(){return make("span",{className:"glid-gap"})}function menu(label,choices,act){const options=choices.
+map(([value,text])=>new Option(text,value));const select=make("select",{"aria-label":label,title:label},
+...options);select.addEventListener("change",()=>act(select.value));return select}var Player=class{clock=null;time=0;seen=false;only=0;later=null;#intervals=[];#frame=0;constructor(show,moved,ended=()=>{}){
 this.show=show;this.moved=moved;this.ended=ended}set(intervals,repeat){this.#intervals=intervals.map(
 ({end,times:times2,floats})=>({end,motion:floats.length?new Motion({times:times2,repeat:"once"},floats):
 null}));const first=intervals[0];const last=intervals.at(-1);const times=first&&last?[first.start,last.
-end]:null;this.clock=times&&new Motion({times,repeat},new Float32Array(0));if(this.seen&&!this.playing)
-this.#seek(this.time)}get playing(){return this.#frame!==0}get place(){const last=this.clock?.last??
-Infinity;return this.time>last?2*last-this.time:this.time}scrub(time){this.pause();if(this.clock)this.#seek(
-Math.min(Math.max(time,this.clock.start),this.clock.last))}play(){const{clock}=this;if(this.playing||
-!clock){this.pause();return}const once=clock.repeat==="once";if(once&&this.time>=clock.end)this.time=
-clock.start;let last=null;const step=async now=>{const time=this.time+(last===null?0:(now-last)/1e3);
-last=now;await this.#seek(time);if(!this.playing)return;if(once&&time>=clock.end){this.pause();this.
-ended()}else this.#frame=requestAnimationFrame(step)};this.#frame=requestAnimationFrame(step);this.moved()}pause(){
-cancelAnimationFrame(this.#frame);this.#frame=0;this.moved()}release(time){this.pause();this.time=time;
-if(this.seen){this.seen=false;this.show(null)}this.moved()}#seek(time){const{clock}=this;if(!clock){
-this.release(0);return}this.time=time===clock.end?time:clock.within(time);this.seen=true;const{place}=this;
+end]:null;this.clock=times&&new Motion({times,repeat},new Float32Array(0));if(this.seen&&!this.playing){
+if(this.later===null)this.#seek(this.time);else this.scrub(this.later)}}get playing(){return this.#frame!==
+0}get place(){if(this.later!==null)return this.later;const last=this.clock?.last??Infinity;return this.
+time>last?2*last-this.time:this.time}scrub(time){this.pause();const{clock}=this;const last=clock?.last??
+this.only;if(time>last&&clock?.repeat!=="loop")this.#wait(time);else if(clock)this.#seek(Math.min(Math.
+max(time,clock.start),last));else this.release(last)}play(){const{clock}=this;if(this.playing||!clock){
+this.pause();return}this.later=null;const once=clock.repeat==="once";if(once&&this.time>=clock.end)this.
+time=clock.start;let last=null;const step=async now=>{const time=this.time+(last===null?0:(now-last)/
+1e3);last=now;await this.#seek(time);if(!this.playing)return;if(once&&time>=clock.end){this.pause();
+this.ended()}else this.#frame=requestAnimationFrame(step)};this.#frame=requestAnimationFrame(step);this.
+moved()}pause(){cancelAnimationFrame(this.#frame);this.#frame=0;this.moved()}release(time){this.pause();
+this.time=time;this.later=null;if(this.seen){this.seen=false;this.show(null)}this.moved()}#wait(time){
+this.later=time;this.time=this.clock?.last??this.only;this.seen=true;this.show(this.#intervals.at(-1)?.
+motion?.at(this.time)??null,time);this.moved()}#seek(time){const{clock}=this;if(!clock){this.release(
+0);return}this.later=null;this.time=time===clock.end?time:clock.within(time);this.seen=true;const{place}=this;
 const interval=this.#intervals.find(({end})=>place<=end)??this.#intervals.at(-1);const shown=this.show(
-interval?.motion?.at(place)??null,place);this.moved();return shown}};var LATER=1.15;var LEAST=1;var MOST_LABELS=12;var LABEL=38;var STEPS=[.1,.2,.5,1,2,5,10,30,60,300,600];
-var LONGEST_STEP=1800;var SAME=1e-9;var ROUNDING=.006;function withReturn({keyframes,repeat,back}){const last=keyframes.
-at(-1);if(repeat!=="loop"||keyframes.length<2||!last)return keyframes;const[first]=keyframes;return[
-...keyframes,{...first,time:last.time+back,name:`Back to ${first.name}`}]}function spanOf(keyframes){
-return Math.max(LEAST,keyframes.at(-1)?.time??0)*LATER}function roomAt(keyframes,index,span){const{time}=keyframes[index];
-const before=index>0?time-keyframes[index-1].time:span;const after=index+1<keyframes.length?keyframes[index+
-1].time-time:span;return Math.min(before,after)}function labelledTimes(span,width=0){const most=width?
-Math.min(width/LABEL,MOST_LABELS):MOST_LABELS;const step=STEPS.find(one=>span/one<=most)??LONGEST_STEP;
-return Array.from({length:Math.floor(span/step)+1},(_,i)=>i*step)}function keyAt(keyframes,time){return keyframes.
-findIndex(key=>Math.abs(key.time-time)<SAME)}function nextKey(keyframes,time,sign){const beyond=[...keyframes.
-keys()].filter(i=>sign*(keyframes[i].time-time)>SAME);return(sign>0?beyond[0]:beyond.at(-1))??null}function landing(keyframes,index,time,least){
-const gap2=Math.ceil(100*least)/100;const others=keyframes.filter((_,i)=>i!==index).map(key=>key.time);
-const earliest=index<keyframes.length?0:(others.at(-1)??0)+gap2;const free=at=>at>=earliest&&others.
-every(other=>Math.abs(at-other)>gap2-ROUNDING);const places=[Math.max(time,earliest),...others.flatMap(
-other=>[other-gap2,other+gap2])];const far=at=>Math.abs(at-time);return places.map(at=>Math.round(100*
-at)/100).filter(free).sort((a,b)=>far(a)-far(b))[0]}var LEAST_HEIGHT=.06;function heightOf(bound){return Math.min(Math.max(bound,LEAST_HEIGHT),1)}function scaleOf(element){const{width,height}=element.getBoundingClientRect();const across=width/element.
+interval?.motion?.at(place)??null,place);this.moved();return shown}};var LATER=.15;var LEAST=1.15;var MOST_LABELS=12;var LABEL=38;var STEPS=[.1,.2,.5,1,2,5,10,30,60,300,
+600];var LONGEST_STEP=1800;var SAME=1e-9;var ROUNDING=.006;function withReturn({keyframes,repeat,back}){
+const last=keyframes.at(-1);if(repeat!=="loop"||keyframes.length<2||!last)return keyframes;const[first]=keyframes;
+return[...keyframes,{...first,time:last.time+back,name:`Back to ${first.name}`}]}function spanOf(keyframes){
+const last=keyframes.at(-1)?.time??0;return last+Math.max(LEAST,LATER*last)}function roomAt(keyframes,index,span){
+const{time}=keyframes[index];const before=index>0?time-keyframes[index-1].time:span;const after=index+
+1<keyframes.length?keyframes[index+1].time-time:span;return Math.min(before,after)}function labelledTimes(span,width=0){
+const most=width?Math.min(width/LABEL,MOST_LABELS):MOST_LABELS;const step=STEPS.find(one=>span/one<=
+most)??LONGEST_STEP;return Array.from({length:Math.floor(span/step)+1},(_,i)=>i*step)}function keyAt(keyframes,time){
+return keyframes.findIndex(key=>Math.abs(key.time-time)<SAME)}function nextKey(keyframes,time,sign){
+const beyond=[...keyframes.keys()].filter(i=>sign*(keyframes[i].time-time)>SAME);return(sign>0?beyond[0]:
+beyond.at(-1))??null}function landing(keyframes,index,time,least){const gap2=Math.ceil(100*least)/100;
+const others=keyframes.filter((_,i)=>i!==index).map(key=>key.time);const earliest=index<keyframes.length?
+0:(others.at(-1)??0)+gap2;const free=at=>at>=earliest&&others.every(other=>Math.abs(at-other)>gap2-ROUNDING);
+const places=[Math.max(time,earliest),...others.flatMap(other=>[other-gap2,other+gap2])];const far=at=>Math.
+abs(at-time);return places.map(at=>Math.round(100*at)/100).filter(free).sort((a,b)=>far(a)-far(b))[0]}var LEAST_HEIGHT=.06;function heightOf(bound){return Math.min(Math.max(bound,LEAST_HEIGHT),1)}function scaleOf(element){const{width,height}=element.getBoundingClientRect();const across=width/element.
 offsetWidth||1;return{across,down:height/element.offsetHeight||across}}var SNAP=6;var STILL=4;var SLIM=8;var WIDE=60;var INSET=34;var Track=class{span=1;keys=make("div",{className:"\
 glid-keys"});head=make("div",{className:"glid-playhead"});ruler=make("div",{className:"glid-ruler",tabIndex:0,
 role:"slider","aria-label":"Time","aria-valuemin":0});#drag=null;#scrubbing=null;#shown=null;constructor(hand){
@@ -165,26 +169,26 @@ STILL)return;const time=drag.from+moved/this.#inside().width*this.span;drag.time
 time);button.style.left=this.#at(drag.time);this.head.style.left=this.#at(drag.time);this.hand.hover(
 `to ${seconds(drag.time)}`)}#letGo(){if(!this.#drag)return;const{index,time}=this.#drag;this.drop();
 if(time!==null){this.focus();this.hand.move(index,time)}else if(index<(this.#shown?.keyframes.length??
-0)){this.hand.select(index)}}#down(e){if(e.button!==0||!this.hand.scrubs())return;this.#scrubbing=e.
-pointerId;this.element.setPointerCapture(e.pointerId);this.#scrub(e)}#scrub(e){if(this.#scrubbing!==
-e.pointerId)return;const{left,width}=this.#inside();const time=(e.clientX-left)/width*this.span;const near=SNAP/
-width*this.span;const key=this.#shown?.keyframes.find(one=>Math.abs(one.time-time)<near);this.hand.scrub(
-key?.time??time)}#up(e){if(this.#scrubbing!==e.pointerId)return;this.drop();this.hand.scrubbed()}};var STEP=1/30;var NUDGE=.1;var Timeline=class{note=make("div",{className:"glid-timeline-note",role:"\
+0)){this.hand.select(index)}}#down(e){if(e.button!==0)return;this.#scrubbing=e.pointerId;this.element.
+setPointerCapture(e.pointerId);this.#scrub(e)}#scrub(e){if(this.#scrubbing!==e.pointerId)return;const{
+left,width}=this.#inside();const time=(e.clientX-left)/width*this.span;const near=SNAP/width*this.span;
+const key=this.#shown?.keyframes.find(one=>Math.abs(one.time-time)<near);this.hand.scrub(key?.time??
+time)}#up(e){if(this.#scrubbing!==e.pointerId)return;this.drop();this.hand.scrubbed()}};var STEP=1/30;var NUDGE=.1;var Timeline=class{note=make("div",{className:"glid-timeline-note",role:"\
 status","aria-live":"polite"});stage=null;#layers=null;#hovered="";#playing={release:()=>this.release(),
 pause:()=>{this.player.pause();return this.player.place}};constructor({model,el,signal}){this.model=
 model;this.root=make("div",{className:"glid-skin glid-timeline",role:"group","aria-label":"Timeline"});
 this.root.dataset.lmSuppressShortcuts="true";this.link=new Link(model,this.root,signal,()=>this.tell());
 this.player=new Player((floats,time)=>this.#show(floats,time),()=>this.showHead(),()=>this.#selectHere());
 this.bar=new Bar({play:()=>this.player.play(),keep:()=>this.keep(),act:(type,content)=>void this.act(
-type,content),edit:(type,content)=>void this.edit(type,content)});this.track=new Track({scrubs:()=>this.
-player.clock!==null,scrub:time=>this.player.scrub(time),scrubbed:()=>this.#selectHere(),select:index=>this.
-select(index),move:(index,time)=>void this.act("move_pose",{index,time}),hover:text=>{this.#hovered=
-text;this.tell()},dropped:()=>{this.showKeys();this.showHead()}});this.root.append(this.bar.element,
-this.note,legend(),this.track.element);this.root.addEventListener("keydown",e=>this.#keydown(e));this.
-root.addEventListener("keyup",e=>{if(e.key===" "&&!this.#typing(e))e.preventDefault()});this.bar.element.
-addEventListener("click",e=>{const target=e.target;if(e.detail&&target.closest("button"))this.track.
-focus()});el.classList.add("glid-host");el.append(this.root)}get shown(){return this.model.get("show\
-n")}get spans(){return this.model.get("motion").spans}get active(){return this.shown.keyframes[this.
+type,content),edit:(type,content)=>void this.edit(type,content)});this.track=new Track({scrub:time=>this.#scrub(
+time),scrubbed:()=>this.#selectHere(),select:index=>this.select(index),move:(index,time)=>void this.
+act("move_pose",{index,time}),hover:text=>{this.#hovered=text;this.tell()},dropped:()=>{this.showKeys();
+this.showHead()}});const parts=[this.bar.element,this.note,legend(),this.track.element];this.root.append(
+make("div",{className:"glid-timeline-parts"},...parts));this.root.addEventListener("keydown",e=>this.#keydown(
+e));this.root.addEventListener("keyup",e=>{if(e.key===" "&&!this.#typing(e))e.preventDefault()});this.
+bar.element.addEventListener("click",e=>{const target=e.target;if(e.detail&&target.closest("button"))
+this.track.focus()});el.classList.add("glid-host");el.append(this.root)}get shown(){return this.model.
+get("shown")}get spans(){return this.model.get("motion").spans}get active(){return this.shown.keyframes[this.
 shown.active]}act(type,content={}){return this.link.put({type,...content})}edit(type,content={}){return this.
 act(type,{index:this.shown.active,...content})}release=()=>{this.player.release(this.active.time)};select(index){
 if(index===this.shown.active)this.release();else this.act("go_to_pose",{index})}tell(){const{refusal}=this.
@@ -196,26 +200,26 @@ seen);this.bar.showTime(place,end,playing)}showKeys(){this.track.showKeys(this.s
 "thumbnails"))}showState(){const{keyframes,active}=this.shown;const now=`${active}/${keyframes.length}`;
 const moved=this.root.dataset.active!==now;this.root.dataset.active=now;this.bar.update(this.shown);
 this.showKeys();this.showMotion();if(moved||!this.player.seen)this.release()}showMotion(){const{player,
-shown,spans}=this;const intervals=spans.map(span=>({...span,floats:toFloats(span.floats)}));player.set(
-intervals,shown.repeat);const computing=spans.some(({status})=>status==="computing");if(shown.kernel&&
-!player.playing&&player.seen&&computing)this.release();this.tell();this.track.showSpans(spans,this.note.
-textContent??"");this.showHead()}showHeights(){const{times,floats}=this.model.get("heights");this.#layers=
-times.length?new Motion({times,repeat:"once"},toFloats(floats)):null}#show(floats,time){const{stage}=this;
-if(!stage)return;const moving=time!==void 0;const heights=moving?this.#layers?.at(time)??null:null;stage.
-trigger("glid:motion",moving?floats??true:null,this.#playing,heights);if(this.shown.kernel)return this.
-act("frame",{time:time??null,replaces:"frame"})}keep(){const{player}=this;this.act("keep",{time:player.
-seen?player.place:this.active.time})}#selectHere(){const index=keyAt(this.shown.keyframes,this.player.
-place);if(index>=0)this.select(index)}#typing(e){return this.bar.element.contains(e.target)}#keydown(e){
-const history=undoOrRedo(e);if(!history&&(e.ctrlKey||e.metaKey))return;e.stopPropagation();const does=this.#typing(
-e)?null:this.#keyDoes(e);if(!history&&!does)return;e.preventDefault();if(history)this.act(history);else
-does?.()}#keyDoes(e){const{keyframes}=this.shown;switch(e.key){case" ":return()=>void(e.repeat||this.
-player.play());case"ArrowLeft":return()=>this.#step(e,-1);case"ArrowRight":return()=>this.#step(e,1);case"\
-Delete":case"Backspace":return()=>void this.edit("delete_pose");case"Home":return()=>this.select(0);case"\
-End":return()=>this.select(keyframes.length-1);case"Escape":return()=>{this.track.drop();this.release()};default:
-return null}}#step(e,sign){const{player,track}=this;const{keyframes,active}=this.shown;if(e.altKey){
-const time=track.landing(active,this.active.time+sign*NUDGE);this.edit("move_pose",{time})}else if(e.
-shiftKey){this.select(nextKey(keyframes,player.place,sign)??active)}else{player.scrub(player.place+sign*
-STEP)}}};function render(context){const{model,el,signal}=context;const timeline=new Timeline(context);const{player}=timeline;
+shown,spans}=this;player.only=shown.keyframes?.[0].time??0;const intervals=spans.map(span=>({...span,
+floats:toFloats(span.floats)}));player.set(intervals,shown.repeat);const computing=spans.some(({status})=>status===
+"computing");if(shown.kernel&&!player.playing&&player.seen&&computing)this.release();this.tell();this.
+track.showSpans(spans,this.note.textContent??"");this.showHead()}showHeights(){const{times,floats}=this.
+model.get("heights");this.#layers=times.length?new Motion({times,repeat:"once"},toFloats(floats)):null}#show(floats,time){
+const{stage}=this;if(!stage)return;const moving=time!==void 0;const heights=moving?this.#layers?.at(
+time)??null:null;stage.trigger("glid:motion",moving?floats??true:null,this.#playing,heights);if(this.
+shown.kernel)return this.act("frame",{time:time??null,replaces:"frame"})}keep(){const{player}=this;this.
+act("keep",{time:player.seen?player.place:this.active.time})}#scrub(time){this.player.scrub(Math.min(
+time,this.track.span))}#selectHere(){const index=keyAt(this.shown.keyframes,this.player.place);if(index>=
+0)this.select(index)}#typing(e){return this.bar.element.contains(e.target)}#keydown(e){const history=undoOrRedo(
+e);if(!history&&(e.ctrlKey||e.metaKey))return;e.stopPropagation();const does=this.#typing(e)?null:this.#keyDoes(
+e);if(!history&&!does)return;e.preventDefault();if(history)this.act(history);else does?.()}#keyDoes(e){
+const{keyframes}=this.shown;switch(e.key){case" ":return()=>void(e.repeat||this.player.play());case"\
+ArrowLeft":return()=>this.#step(e,-1);case"ArrowRight":return()=>this.#step(e,1);case"Delete":case"B\
+ackspace":return()=>void this.edit("delete_pose");case"Home":return()=>this.select(0);case"End":return()=>this.
+select(keyframes.length-1);case"Escape":return()=>{this.track.drop();this.release()};default:return null}}#step(e,sign){
+const{player,track}=this;const{keyframes,active}=this.shown;if(e.altKey){const time=track.landing(active,
+this.active.time+sign*NUDGE);this.edit("move_pose",{time})}else if(e.shiftKey){this.select(nextKey(keyframes,
+player.place,sign)??active)}else{this.#scrub(player.place+sign*STEP)}}};function render(context){const{model,el,signal}=context;const timeline=new Timeline(context);const{player}=timeline;
 const tapped=e=>{const target=e.target;if(target.closest(".glid-editor")===el.closest(".glid-editor"))
 player.play()};window.addEventListener("glid:play",tapped,{signal});const keyed=e=>{const target=e.target;
 if(target.closest(".glid-editor")===el.closest(".glid-editor"))timeline.keep()};window.addEventListener(

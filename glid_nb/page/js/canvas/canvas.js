@@ -50,6 +50,7 @@ export class Canvas {
   #saving;
   /** @type {Playing} */
   #playing = STILL;
+  #painted = false; // whether there was a brush when it changed last
   #presses = false; // a press into a motion is on its way to the kernel
 
   /** @param {Context<CanvasTraits>} context */
@@ -192,6 +193,15 @@ export class Canvas {
 
   showLegend() {
     this.legend.show(this.model, Boolean(this.shapes.motion));
+  }
+
+  /** Takes the focus from the inspector, which shows another section when a brush is chosen. */
+  takeFocus() {
+    const { painting } = this;
+    const chosen = painting && !this.#painted;
+    this.#painted = painting;
+    const side = this.box.closest(".glid-editor")?.querySelector(".glid-side");
+    if (chosen && side?.contains(document.activeElement)) this.box.focus({ preventScroll: true });
   }
 
   showNotice() {

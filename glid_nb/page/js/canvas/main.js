@@ -23,6 +23,7 @@ function render(context) {
     "change:legend change:panel_legend change:legend_corner": () => canvas.showLegend(),
     "change:notice change:marks change:brush": () => canvas.showNotice(),
     "change:marks": () => canvas.reveal(),
+    "change:brush": () => canvas.takeFocus(),
     "change:prepared": () => canvas.notices.prepare(model.get("prepared")),
   });
   measure(canvas, signal);

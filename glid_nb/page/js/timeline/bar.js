@@ -95,7 +95,7 @@ export class Bar {
 /** What the colours of the strip mean. */
 export function legend() {
   const parts = LEGEND.map(([kind, label]) => {
-    return make("span", {}, make("i", { className: `glid-piece glid-${kind}` }), label);
+    return make("span", {}, make("i", { className: "glid-swatch", "data-kind": kind }), label);
   });
   return make("div", { className: "glid-proof-legend", "aria-hidden": true }, ...parts);
 }

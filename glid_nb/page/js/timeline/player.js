@@ -1,5 +1,6 @@
 // Shows a motion at a time and plays it. What is not proved is not shown: where an interval ends
-// early, its last proved instant stays.
+// early, its last proved instant stays. After the last keyframe its pose stays, until a keyframe is
+// made there.
 
 import { Motion } from "../motion/motion.js";
 
@@ -27,6 +28,9 @@ export class Player {
   clock = null;
   time = 0; // of a ping-pong, on the way back too
   seen = false; // whether the motion is shown, not the pose that is edited
+  only = 0; // s, of the keyframe, if there is only one
+  /** @type {number | null} a time after the last keyframe */
+  later = null;
 
   /** @type {{ end: number, motion: Motion | null }[]} */
   #intervals = [];
@@ -56,7 +60,10 @@ export class Player {
     const last = intervals.at(-1);
     const times = first && last ? [first.start, last.end] : null;
     this.clock = times && new Motion({ times, repeat }, new Float32Array(0));
-    if (this.seen && !this.playing) this.#seek(this.time);
+    if (this.seen && !this.playing) {
+      if (this.later === null) this.#seek(this.time);
+      else this.scrub(this.later);
+    }
   }
 
   get playing() {
@@ -65,18 +72,24 @@ export class Player {
 
   /** Where the playhead is, from the first keyframe to the last: a ping-pong runs back. */
   get place() {
+    if (this.later !== null) return this.later;
     const last = this.clock?.last ?? Infinity;
     return this.time > last ? 2 * last - this.time : this.time;
   }
 
   /**
-   * Goes to a time from the first keyframe to the last, and stays there.
+   * Goes to a time, and stays there. The times before the first keyframe, and after the return of a
+   * loop, are not those of a pose.
    *
    * @param {number} time
    */
   scrub(time) {
     this.pause();
-    if (this.clock) this.#seek(Math.min(Math.max(time, this.clock.start), this.clock.last));
+    const { clock } = this;
+    const last = clock?.last ?? this.only;
+    if (time > last && clock?.repeat !== "loop") this.#wait(time);
+    else if (clock) this.#seek(Math.min(Math.max(time, clock.start), last));
+    else this.release(last);
   }
 
   /** Plays, or pauses. */
@@ -86,6 +99,7 @@ export class Player {
       this.pause();
       return;
     }
+    this.later = null;
     const once = clock.repeat === "once";
     if (once && this.time >= clock.end) this.time = clock.start;
     /** @type {number | null} */
@@ -118,10 +132,20 @@ export class Player {
   release(time) {
     this.pause();
     this.time = time;
+    this.later = null;
     if (this.seen) {
       this.seen = false;
       this.show(null);
     }
+    this.moved();
+  }
+
+  /** @param {number} time after the last keyframe */
+  #wait(time) {
+    this.later = time;
+    this.time = this.clock?.last ?? this.only;
+    this.seen = true;
+    this.show(this.#intervals.at(-1)?.motion?.at(this.time) ?? null, time);
     this.moved();
   }
 
@@ -132,6 +156,7 @@ export class Player {
       this.release(0);
       return;
     }
+    this.later = null;
     this.time = time === clock.end ? time : clock.within(time);
     this.seen = true;
     const { place } = this;

@@ -2,8 +2,8 @@
 
 /** @import { Keyframe, Shown } from "./traits.js" */
 
-const LATER = 1.15; // room behind the last keyframe, to drag it there
-const LEAST = 1; // s
+const LATER = 0.15; // room behind the last keyframe, for the next one, as a share of its time
+const LEAST = 1.15; // s, of this room
 const MOST_LABELS = 12;
 const LABEL = 38; // CSS pixels that a label needs
 const STEPS = [0.1, 0.2, 0.5, 1, 2, 5, 10, 30, 60, 300, 600]; // s between labels
@@ -30,7 +30,8 @@ export function withReturn({ keyframes, repeat, back }) {
  * @param {Keyframe[]} keyframes
  */
 export function spanOf(keyframes) {
-  return Math.max(LEAST, keyframes.at(-1)?.time ?? 0) * LATER;
+  const last = keyframes.at(-1)?.time ?? 0;
+  return last + Math.max(LEAST, LATER * last);
 }
 
 /**

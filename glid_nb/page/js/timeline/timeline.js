@@ -54,8 +54,7 @@ export class Timeline {
       edit: (type, content) => void this.edit(type, content),
     });
     this.track = new Track({
-      scrubs: () => this.player.clock !== null,
-      scrub: (time) => this.player.scrub(time),
+      scrub: (time) => this.#scrub(time),
       scrubbed: () => this.#selectHere(),
       select: (index) => this.select(index),
       move: (index, time) => void this.act("move_pose", { index, time }),
@@ -68,7 +67,8 @@ export class Timeline {
         this.showHead();
       },
     });
-    this.root.append(this.bar.element, this.note, legend(), this.track.element);
+    const parts = [this.bar.element, this.note, legend(), this.track.element];
+    this.root.append(make("div", { className: "glid-timeline-parts" }, ...parts));
     this.root.addEventListener("keydown", (e) => this.#keydown(e));
     this.root.addEventListener("keyup", (e) => {
       if (e.key === " " && !this.#typing(e)) e.preventDefault();
@@ -160,6 +160,7 @@ export class Timeline {
 
   showMotion() {
     const { player, shown, spans } = this;
+    player.only = shown.keyframes?.[0].time ?? 0;
     const intervals = spans.map((span) => ({ ...span, floats: toFloats(span.floats) }));
     player.set(intervals, shown.repeat);
     const computing = spans.some(({ status }) => status === "computing");
@@ -194,6 +195,11 @@ export class Timeline {
   keep() {
     const { player } = this;
     this.act("keep", { time: player.seen ? player.place : this.active.time });
+  }
+
+  /** @param {number} time */
+  #scrub(time) {
+    this.player.scrub(Math.min(time, this.track.span));
   }
 
   // Selects the keyframe that is shown, after a motion has ended or a pointer that scrubbed was let go.
@@ -264,7 +270,7 @@ export class Timeline {
     } else if (e.shiftKey) {
       this.select(nextKey(keyframes, player.place, sign) ?? active);
     } else {
-      player.scrub(player.place + sign * STEP);
+      this.#scrub(player.place + sign * STEP);
     }
   }
 }

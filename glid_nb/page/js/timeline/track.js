@@ -14,7 +14,6 @@ import { seconds } from "./words.js";
  * What a hand on the track does.
  *
  * @typedef {object} Hand
- * @property {() => boolean} scrubs whether there is a motion to scrub through
  * @property {(time: number) => void} scrub
  * @property {() => void} scrubbed the pointer was let go
  * @property {(index: number) => void} select
@@ -261,7 +260,7 @@ export class Track {
 
   /** @param {PointerEvent} e */
   #down(e) {
-    if (e.button !== 0 || !this.hand.scrubs()) return;
+    if (e.button !== 0) return;
     this.#scrubbing = e.pointerId;
     this.element.setPointerCapture(e.pointerId);
     this.#scrub(e);
