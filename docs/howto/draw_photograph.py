@@ -84,6 +84,7 @@ def draw_cut_out() -> None:
     pins = frame.to_world([[225, 90], [240, 190], [120, 430], [380, 430]])
     targets = pins + np.array([[3.2, -0.5], [1.0, 0.0], [0.0, 0.0], [0.0, 0.0]])
     map = glid.solve(domain, glid.Pose(pins, targets)).map
+    assert isinstance(map, glid.HarmonicMap)
     cut, behind = glid.cut_out(picture, tracing), glid.filled_in(picture, tracing)
     figure = Figure(figsize=(9, 3.25), layout="constrained")
     shown = {
