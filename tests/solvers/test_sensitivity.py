@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import functools
 from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -20,6 +21,7 @@ from glid_nb.session.problem import load_pose
 from glid_nb.solvers import Options, Result, SensitivityError
 
 from ..support.domains import domain
+from .test_reference_problems import NAMES, problem
 
 pytestmark = pytest.mark.slow
 
@@ -112,6 +114,16 @@ def test_so_it_is_on_a_traced_sample(name: str) -> None:
     result = solved(shape, load_pose(samples.pose_path(name, "gentle")), energy)
     assert differs(result, energy, "targets", 0) < CLOSE
     assert differs(result, energy, "handles", 3) < CLOSE
+
+
+@pytest.mark.reference
+@pytest.mark.parametrize("name", NAMES)
+def test_so_it_is_on_a_shape_of_the_paper(reference_folder: Path, name: str) -> None:
+    shape, pose, _ = problem(reference_folder, name)
+    energy = SymmetricDirichlet()
+    result = solved(shape, pose, energy)
+    assert differs(result, energy, "targets", 1) < CLOSE
+    assert differs(result, energy, "handles", 2) < CLOSE
 
 
 def test_conjugate_gradients_and_the_factor_agree() -> None:
