@@ -167,7 +167,8 @@ class Pane(ClosingWidget, ipywidgets.GridBox):
             self._most = wanted
         self.scene = self._new_scene(stage.uniform_vectors)
         self._show(scene)
-        stage.drawing_time = 0.0  # it belonged to the old scene; the page measures the new one
+        if where not in self._times:
+            stage.drawing_time = 0.0  # it was the old scene's; the page measures the new one
 
     def _quickest(self) -> EvaluatedIn:
         """Who is to evaluate, by what the page has reported. What may be quicker is tried once."""

@@ -27,7 +27,13 @@ LIVING_CONTEXTS = "[...window.drawnOn].filter((context) => !context.isContextLos
 
 FILLED = """
 def filled(editor):
-    return all(box.children for box in editor._boxes.values())
+    measured = editor.canvas.pane.stage.drawing_time > 0
+    return measured and all(box.children for box in editor._boxes.values())
+def made():
+    instances = __import__('ipywidgets').widgets.widget._instances
+    # Where the page moves the vertices, a mesh has two attributes more.
+    by_page = [e.canvas.pane.scene.evaluated_in == "page" for e in (one, two)]
+    return len(instances) - 2 * sum(by_page)
 """
 SOLVERS = """
 import threading
@@ -59,8 +65,7 @@ def test_two_editors_at_once_and_a_rerun(open_notebook: OpenNotebook) -> None:
     book.screenshot("editor-two-at-once")
 
     # A rerun of a cell closes its editor and not the other one. Nothing accumulates.
-    widgets = "len(__import__('ipywidgets').widgets.widget._instances)"
-    threads = "len(__import__('threading').enumerate())"
+    widgets, threads = "made()", "len(__import__('threading').enumerate())"
     before, contexts = [0, 0], 0
     book.value("None", setup=FILLED)
     filled = "filled(one) and filled(two)"  # in the pads' thread

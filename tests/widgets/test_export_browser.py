@@ -38,7 +38,7 @@ def test_the_exported_picture_is_the_rendering_and_what_the_canvas_shows(
     name = files.get_by_placeholder("Name.glid")
     name.fill(str(tmp_path / "bent.glid"))
     name.press("Enter")
-    what, view = files.locator("select").all()
+    _background, what, view = files.locator("select").all()
     what.select_option(label="Picture (PNG)")
     width = files.locator("input[type=number]").first
     width.fill("300")

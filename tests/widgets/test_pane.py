@@ -30,7 +30,7 @@ def test_the_mesh_is_coarse_until_the_page_has_said_what_it_can_draw() -> None:
     assert stage.materials == pane.scene.materials
     assert stage.coefficients == pane.scene.shader_map.wire(canvas.deformation.map)
     assert pane.scene.picture.material.uniforms["map"]["value"] is texture  # sent once
-    # It was measured anew: the shader's time is that of 10,000 vertices.
+    # Another page is as quick.
     stage.drawing_time = 7.0
     assert (pane.scene.picture.n_vertices, pane.scene.evaluated_in) == (fine, "shader")
     # Another page is slower. Its script moves the vertices then, and that is measured.
