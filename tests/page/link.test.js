@@ -48,19 +48,6 @@ test("events wait until the batch before is answered and its frame is drawn", ()
   assert.deepEqual(batches()[1], ["move 2", "up 3"]);
 });
 
-test("batches can be spaced, so that the kernel is asked less often", () => {
-  const { link, answer, batches } = linked();
-  link.spacing = 1_000; // more than the test takes
-  link.put({ type: "down" });
-  link.put({ type: "move" });
-  answer(1);
-  frames.run();
-  mock.timers.tick(900);
-  assert.equal(batches().length, 1);
-  mock.timers.tick(100);
-  assert.deepEqual(batches()[1], ["move 2"]);
-});
-
 test("a move replaces the move that waits, though not one before another event", () => {
   const { link, answer, batches } = linked();
   link.put({ type: "down" });

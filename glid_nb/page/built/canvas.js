@@ -50,8 +50,8 @@ e)};const options={capture:true,signal};window.addEventListener("pointerdown",re
 addEventListener("focusout",refocus,options);window.addEventListener("keydown",keydown,options)}function isForThePad(e,target){
 if(undoOrRedo(e))return!e.altKey;if(e.ctrlKey||e.metaKey||target.matches("select"))return false;if(keyOf(
 e)==="Escape"&&target.closest(":popover-open"))return false;const free=target.closest(".glid-timelin\
-e")?/^[^ ]$/:/^([^ ]|Escape|Delete)$/;return free.test(keyOf(e))}var BUSY_AFTER=250;var ACKNOWLEDGE_TIMEOUT=2e3;var Link=class{busy=false;spacing=0;refusal=null;view=Math.
-random().toString(36).slice(2);#queue=[];#buffers=[];#promised=[];#waiting=false;#awaited=0;#number=0;#acknowledged=0;#overdue;#timeout;#drawing=0;#sent=-Infinity;#resting;constructor(model,element,signal,report){
+e")?/^[^ ]$/:/^([^ ]|Escape|Delete)$/;return free.test(keyOf(e))}var BUSY_AFTER=250;var ACKNOWLEDGE_TIMEOUT=2e3;var Link=class{busy=false;refusal=null;view=Math.random().
+toString(36).slice(2);#queue=[];#buffers=[];#promised=[];#waiting=false;#awaited=0;#number=0;#acknowledged=0;#overdue;#timeout;#drawing=0;constructor(model,element,signal,report){
 this.model=model;this.element=element;this.signal=signal;this.report=report;connectNoMoreComms(model.
 widget_manager.kernel);element.dataset.idle="true";signal.addEventListener("abort",()=>this.#stop());
 model.on("msg:custom",message=>{if(message.view===this.view)this.#answered(message)})}get idle(){return this.#acknowledged===
@@ -61,21 +61,19 @@ seq:number2});this.#buffers.push(...buffers);this.element.dataset.idle="false";t
 resolve=>this.#promised.push({number:number2,resolve}))}#flush(){if(this.#waiting||!this.#queue.length)
 return;this.#waiting=true;this.#awaited=this.#number;try{const{kernel}=this.model.widget_manager;if(kernel===
 null||kernel?.isDisposed)throw new Error("the kernel was shut down");this.model.send({view:this.view,
-events:this.#queue},void 0,this.#buffers);this.#sent=performance.now()}catch{this.#markDisconnected();
-return}this.#queue=[];this.#buffers=[];this.#overdue=setTimeout(()=>{this.busy=true;this.report()},BUSY_AFTER);
-this.#timeout=setTimeout(()=>this.#release(),ACKNOWLEDGE_TIMEOUT)}#markDisconnected(){const around=this.
-element.closest(".glid-editor")??this.element.closest(".glid-host");around?.classList.add("jupyter-w\
-idgets-disconnected")}#answered({ack,refusal}){if(ack===this.#awaited)clearTimeout(this.#overdue);this.#acknowledged=
-Math.max(this.#acknowledged,ack);this.busy=false;this.refusal=refusal;this.element.dataset.idle=String(
-this.idle);const due=this.#promised.filter(({number:number2})=>number2<=ack);this.#promised=this.#promised.
-filter(({number:number2})=>number2>ack);for(const{resolve}of due)resolve(refusal);this.report();if(ack<
-this.#awaited)return;const left=this.spacing-(performance.now()-this.#sent);if(left>0)this.#resting=
-setTimeout(()=>this.#release(),left);else if(document.hidden)this.#release();else this.#drawing=requestAnimationFrame(
-()=>this.#release())}#release(){this.#stop();this.#waiting=false;this.#flush()}#stop(){clearTimeout(
-this.#overdue);clearTimeout(this.#timeout);clearTimeout(this.#resting);cancelAnimationFrame(this.#drawing)}};
-function connectNoMoreComms(kernel){const status=kernel?.statusChanged;const connect=status?.connect;
-if(!connect||Object.hasOwn(status,"connect"))return;status.connect=(slot,receiver)=>!String(slot).includes(
-"_cleanSubshells")&&connect.call(status,slot,receiver)}function openMenu(element,[x,y],rows){const ending=new AbortController;let pressed=false;const close=()=>{
+events:this.#queue},void 0,this.#buffers)}catch{this.#markDisconnected();return}this.#queue=[];this.#buffers=
+[];this.#overdue=setTimeout(()=>{this.busy=true;this.report()},BUSY_AFTER);this.#timeout=setTimeout(
+()=>this.#release(),ACKNOWLEDGE_TIMEOUT)}#markDisconnected(){const around=this.element.closest(".gli\
+d-editor")??this.element.closest(".glid-host");around?.classList.add("jupyter-widgets-disconnected")}#answered({
+ack,refusal}){if(ack===this.#awaited)clearTimeout(this.#overdue);this.#acknowledged=Math.max(this.#acknowledged,
+ack);this.busy=false;this.refusal=refusal;this.element.dataset.idle=String(this.idle);const due=this.#promised.
+filter(({number:number2})=>number2<=ack);this.#promised=this.#promised.filter(({number:number2})=>number2>
+ack);for(const{resolve}of due)resolve(refusal);this.report();if(ack<this.#awaited)return;if(document.
+hidden)this.#release();else this.#drawing=requestAnimationFrame(()=>this.#release())}#release(){this.#stop();
+this.#waiting=false;this.#flush()}#stop(){clearTimeout(this.#overdue);clearTimeout(this.#timeout);cancelAnimationFrame(
+this.#drawing)}};function connectNoMoreComms(kernel){const status=kernel?.statusChanged;const connect=status?.
+connect;if(!connect||Object.hasOwn(status,"connect"))return;status.connect=(slot,receiver)=>!String(
+slot).includes("_cleanSubshells")&&connect.call(status,slot,receiver)}function openMenu(element,[x,y],rows){const ending=new AbortController;let pressed=false;const close=()=>{
 ending.abort();menu.remove();element.focus({preventScroll:true})};const step=by=>{const items=[...menu.
 querySelectorAll("button")];const focused=document.activeElement;const present=items.indexOf(focused);
 items.at((present+by)%items.length)?.focus()};const keys={ArrowDown:()=>step(1),ArrowUp:()=>step(-1),
@@ -595,7 +593,7 @@ async function drawingTime(pad,shapes){const times=[];for(let i=0;i<=N_TIMED;i++
 now();shapes.refresh();const moved=performance.now()-moving;await new Promise(go=>requestAnimationFrame(
 go));const canvas=drawnBelow(pad);const gl=canvas?.getContext("webgl")||canvas?.getContext("webgl2");
 if(!gl)continue;const start=performance.now();gl.readPixels(0,0,1,1,gl.RGBA,gl.UNSIGNED_BYTE,new Uint8Array(
-4));times.push(moved+performance.now()-start)}return times.length>1?Math.min(...times.slice(1)):0}var SAVE_VIEW_AFTER=250;var SLOW=8;var SPACING=200;var STILL={release(){},pause:()=>void 0};var Canvas=class{legend=new Legend;notices=new Notices;help=help(
+4));times.push(moved+performance.now()-start)}return times.length>1?Math.min(...times.slice(1)):0}var SAVE_VIEW_AFTER=250;var STILL={release(){},pause:()=>void 0};var Canvas=class{legend=new Legend;notices=new Notices;help=help(
 HELP);#chosen;#saving;#playing=STILL;#painted=false;#presses=false;constructor({model,el,signal}){this.
 model=model;this.interactive=model.get("interactive");const paper=make("canvas",{className:"glid-pap\
 er"});this.box=make("div",{className:"glid-pad",role:"application","aria-label":"Deformation canvas:\
@@ -612,18 +610,17 @@ e),signal);this.box.addEventListener("glid:press",e=>this.#pressed(e))}this.#tak
 this.#saving);this.ahead.close();this.shapes.close()}get marks(){return marksOf(this.model.get("mark\
 s"),this.shapes.lead)}prepareSolver(){if(this.interactive)void this.ahead.prepare()}rested(){if(!this.
 pad.grip)this.ahead.giveBack()}followHand(){if(this.pad.grip&&!this.shapes.motion)this.ahead.follow(
-this.pad.held);const slow=this.model.get("drawing_time")>SLOW;this.link.spacing=slow&&this.pad.grip&&
-this.ahead.leads?SPACING:0}#listener(signal){const put=event=>{const drags=event.type==="up"||this.pad.
-grip&&/^(down|move)$/.test(event.type);if(!drags)this.ahead.giveBack();return this.link.put(event)};
-return{put,signal}}get brush(){const brush=this.model.get("brush");return"radius"in brush?brush:null}get painting(){
-return this.brush!==null}say(notice){save(this.model,{notice})}openMenu(place,found={mark:this.marks.
-selected.at(-1)}){const{selected,targets}=this.marks;const mark=found?.mark===void 0?null:Number(found.
-mark);const centre=[this.view.x,this.view.y];const point=mark===null?this.model.get("cursor")??centre:
-targets[mark];const at=place??this.view.toScreen(point);const does={press:(key,shift=false)=>{return()=>this.
-pad.press(key,{shiftKey:shift})},pin:()=>void this.pad.send("pin",at),paste:()=>void this.clipboard.
-paste(),alone:()=>this.room?.alone(),fullScreen:()=>this.room?.fullScreen(),showKeys:this.help.toggle};
-const pinned=mark!==null&&selected.includes(mark)?selected.length:1;const covered=mark===null&&coveredNear(
-this.box,at);openMenu(this.box,at,menuRows(does,mark===null?null:{pinned},covered))}showMotion(motion=null,playing=STILL,heights=null){
+this.pad.held)}#listener(signal){const put=event=>{const drags=event.type==="up"||this.pad.grip&&/^(down|move)$/.
+test(event.type);if(!drags)this.ahead.giveBack();return this.link.put(event)};return{put,signal}}get brush(){
+const brush=this.model.get("brush");return"radius"in brush?brush:null}get painting(){return this.brush!==
+null}say(notice){save(this.model,{notice})}openMenu(place,found={mark:this.marks.selected.at(-1)}){const{
+selected,targets}=this.marks;const mark=found?.mark===void 0?null:Number(found.mark);const centre=[this.
+view.x,this.view.y];const point=mark===null?this.model.get("cursor")??centre:targets[mark];const at=place??
+this.view.toScreen(point);const does={press:(key,shift=false)=>{return()=>this.pad.press(key,{shiftKey:shift})},
+pin:()=>void this.pad.send("pin",at),paste:()=>void this.clipboard.paste(),alone:()=>this.room?.alone(),
+fullScreen:()=>this.room?.fullScreen(),showKeys:this.help.toggle};const pinned=mark!==null&&selected.
+includes(mark)?selected.length:1;const covered=mark===null&&coveredNear(this.box,at);openMenu(this.box,
+at,menuRows(does,mark===null?null:{pinned},covered))}showMotion(motion=null,playing=STILL,heights=null){
 this.#playing=playing;this.shapes.motion=motion;this.shapes.lift(heights);this.showLegend();this.shapes.
 refresh();this.redraw()}showLegend(){this.legend.show(this.model,Boolean(this.shapes.motion))}takeFocus(){
 const{painting}=this;const chosen=painting&&!this.#painted;this.#painted=painting;const side=this.box.

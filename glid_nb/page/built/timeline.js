@@ -16,8 +16,8 @@ mixed.length;for(let i=0;i<mixed.length;i++){mixed[i]=(1-share)*floats[low+i]+sh
 return key;const[,letter,digit]=code.match(/^(?:Key([A-Z])|(?:Digit|Numpad)([0-9]))$/)??[];if(letter)
 return shiftKey?letter:letter.toLowerCase();return digit??LATIN[code]?.[Number(shiftKey)]??key}function undoOrRedo(e){
 if(!e.ctrlKey&&!e.metaKey)return null;const key=keyOf(e).toLowerCase();if(key==="z")return e.shiftKey?
-"redo":"undo";return key==="y"?"redo":null}var BUSY_AFTER=250;var ACKNOWLEDGE_TIMEOUT=2e3;var Link=class{busy=false;spacing=0;refusal=null;view=Math.
-random().toString(36).slice(2);#queue=[];#buffers=[];#promised=[];#waiting=false;#awaited=0;#number=0;#acknowledged=0;#overdue;#timeout;#drawing=0;#sent=-Infinity;#resting;constructor(model,element,signal,report){
+"redo":"undo";return key==="y"?"redo":null}var BUSY_AFTER=250;var ACKNOWLEDGE_TIMEOUT=2e3;var Link=class{busy=false;refusal=null;view=Math.random().
+toString(36).slice(2);#queue=[];#buffers=[];#promised=[];#waiting=false;#awaited=0;#number=0;#acknowledged=0;#overdue;#timeout;#drawing=0;constructor(model,element,signal,report){
 this.model=model;this.element=element;this.signal=signal;this.report=report;connectNoMoreComms(model.
 widget_manager.kernel);element.dataset.idle="true";signal.addEventListener("abort",()=>this.#stop());
 model.on("msg:custom",message=>{if(message.view===this.view)this.#answered(message)})}get idle(){return this.#acknowledged===
@@ -27,21 +27,19 @@ seq:number});this.#buffers.push(...buffers);this.element.dataset.idle="false";th
 resolve=>this.#promised.push({number,resolve}))}#flush(){if(this.#waiting||!this.#queue.length)return;
 this.#waiting=true;this.#awaited=this.#number;try{const{kernel}=this.model.widget_manager;if(kernel===
 null||kernel?.isDisposed)throw new Error("the kernel was shut down");this.model.send({view:this.view,
-events:this.#queue},void 0,this.#buffers);this.#sent=performance.now()}catch{this.#markDisconnected();
-return}this.#queue=[];this.#buffers=[];this.#overdue=setTimeout(()=>{this.busy=true;this.report()},BUSY_AFTER);
-this.#timeout=setTimeout(()=>this.#release(),ACKNOWLEDGE_TIMEOUT)}#markDisconnected(){const around=this.
-element.closest(".glid-editor")??this.element.closest(".glid-host");around?.classList.add("jupyter-w\
-idgets-disconnected")}#answered({ack,refusal}){if(ack===this.#awaited)clearTimeout(this.#overdue);this.#acknowledged=
-Math.max(this.#acknowledged,ack);this.busy=false;this.refusal=refusal;this.element.dataset.idle=String(
-this.idle);const due=this.#promised.filter(({number})=>number<=ack);this.#promised=this.#promised.filter(
-({number})=>number>ack);for(const{resolve}of due)resolve(refusal);this.report();if(ack<this.#awaited)
-return;const left=this.spacing-(performance.now()-this.#sent);if(left>0)this.#resting=setTimeout(()=>this.#release(),
-left);else if(document.hidden)this.#release();else this.#drawing=requestAnimationFrame(()=>this.#release())}#release(){
-this.#stop();this.#waiting=false;this.#flush()}#stop(){clearTimeout(this.#overdue);clearTimeout(this.#timeout);
-clearTimeout(this.#resting);cancelAnimationFrame(this.#drawing)}};function connectNoMoreComms(kernel){
-const status=kernel?.statusChanged;const connect=status?.connect;if(!connect||Object.hasOwn(status,"\
-connect"))return;status.connect=(slot,receiver)=>!String(slot).includes("_cleanSubshells")&&connect.
-call(status,slot,receiver)}var PATHS={edit:"M3 2l9.5 5.2-4 1.2 2.4 4.3-1.8 1-2.4-4.3L3 12z",foreground:"M13.5 2.5l-6 6 M6.7 9.2\
+events:this.#queue},void 0,this.#buffers)}catch{this.#markDisconnected();return}this.#queue=[];this.#buffers=
+[];this.#overdue=setTimeout(()=>{this.busy=true;this.report()},BUSY_AFTER);this.#timeout=setTimeout(
+()=>this.#release(),ACKNOWLEDGE_TIMEOUT)}#markDisconnected(){const around=this.element.closest(".gli\
+d-editor")??this.element.closest(".glid-host");around?.classList.add("jupyter-widgets-disconnected")}#answered({
+ack,refusal}){if(ack===this.#awaited)clearTimeout(this.#overdue);this.#acknowledged=Math.max(this.#acknowledged,
+ack);this.busy=false;this.refusal=refusal;this.element.dataset.idle=String(this.idle);const due=this.#promised.
+filter(({number})=>number<=ack);this.#promised=this.#promised.filter(({number})=>number>ack);for(const{
+resolve}of due)resolve(refusal);this.report();if(ack<this.#awaited)return;if(document.hidden)this.#release();else
+this.#drawing=requestAnimationFrame(()=>this.#release())}#release(){this.#stop();this.#waiting=false;
+this.#flush()}#stop(){clearTimeout(this.#overdue);clearTimeout(this.#timeout);cancelAnimationFrame(this.#drawing)}};
+function connectNoMoreComms(kernel){const status=kernel?.statusChanged;const connect=status?.connect;
+if(!connect||Object.hasOwn(status,"connect"))return;status.connect=(slot,receiver)=>!String(slot).includes(
+"_cleanSubshells")&&connect.call(status,slot,receiver)}var PATHS={edit:"M3 2l9.5 5.2-4 1.2 2.4 4.3-1.8 1-2.4-4.3L3 12z",foreground:"M13.5 2.5l-6 6 M6.7 9.2\
 c-1.6-.5-3 .6-3.1 2.1-.1 1-.7 1.7-1.6 2 2.2.9 5.6.4 5.9-2.2 .1-.8-.4-1.6-1.2-1.9z M9.5 12.5h5 M12 10\
 v5",background:"M13.5 2.5l-6 6 M6.7 9.2c-1.6-.5-3 .6-3.1 2.1-.1 1-.7 1.7-1.6 2 2.2.9 5.6.4 5.9-2.2 .\
 1-.8-.4-1.6-1.2-1.9z M9.5 12.5h5",brush:"M13.5 2.5l-6 6 M6.7 9.2c-1.6-.5-3 .6-3.1 2.1-.1 1-.7 1.7-1.\

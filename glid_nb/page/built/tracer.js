@@ -48,8 +48,8 @@ e)};const options={capture:true,signal};window.addEventListener("pointerdown",re
 addEventListener("focusout",refocus,options);window.addEventListener("keydown",keydown,options)}function isForThePad(e,target){
 if(undoOrRedo(e))return!e.altKey;if(e.ctrlKey||e.metaKey||target.matches("select"))return false;if(keyOf(
 e)==="Escape"&&target.closest(":popover-open"))return false;const free=target.closest(".glid-timelin\
-e")?/^[^ ]$/:/^([^ ]|Escape|Delete)$/;return free.test(keyOf(e))}var BUSY_AFTER=250;var ACKNOWLEDGE_TIMEOUT=2e3;var Link=class{busy=false;spacing=0;refusal=null;view=Math.
-random().toString(36).slice(2);#queue=[];#buffers=[];#promised=[];#waiting=false;#awaited=0;#number=0;#acknowledged=0;#overdue;#timeout;#drawing=0;#sent=-Infinity;#resting;constructor(model,element,signal,report){
+e")?/^[^ ]$/:/^([^ ]|Escape|Delete)$/;return free.test(keyOf(e))}var BUSY_AFTER=250;var ACKNOWLEDGE_TIMEOUT=2e3;var Link=class{busy=false;refusal=null;view=Math.random().
+toString(36).slice(2);#queue=[];#buffers=[];#promised=[];#waiting=false;#awaited=0;#number=0;#acknowledged=0;#overdue;#timeout;#drawing=0;constructor(model,element,signal,report){
 this.model=model;this.element=element;this.signal=signal;this.report=report;connectNoMoreComms(model.
 widget_manager.kernel);element.dataset.idle="true";signal.addEventListener("abort",()=>this.#stop());
 model.on("msg:custom",message=>{if(message.view===this.view)this.#answered(message)})}get idle(){return this.#acknowledged===
@@ -59,21 +59,19 @@ seq:number});this.#buffers.push(...buffers);this.element.dataset.idle="false";th
 resolve=>this.#promised.push({number,resolve}))}#flush(){if(this.#waiting||!this.#queue.length)return;
 this.#waiting=true;this.#awaited=this.#number;try{const{kernel}=this.model.widget_manager;if(kernel===
 null||kernel?.isDisposed)throw new Error("the kernel was shut down");this.model.send({view:this.view,
-events:this.#queue},void 0,this.#buffers);this.#sent=performance.now()}catch{this.#markDisconnected();
-return}this.#queue=[];this.#buffers=[];this.#overdue=setTimeout(()=>{this.busy=true;this.report()},BUSY_AFTER);
-this.#timeout=setTimeout(()=>this.#release(),ACKNOWLEDGE_TIMEOUT)}#markDisconnected(){const around=this.
-element.closest(".glid-editor")??this.element.closest(".glid-host");around?.classList.add("jupyter-w\
-idgets-disconnected")}#answered({ack,refusal}){if(ack===this.#awaited)clearTimeout(this.#overdue);this.#acknowledged=
-Math.max(this.#acknowledged,ack);this.busy=false;this.refusal=refusal;this.element.dataset.idle=String(
-this.idle);const due=this.#promised.filter(({number})=>number<=ack);this.#promised=this.#promised.filter(
-({number})=>number>ack);for(const{resolve}of due)resolve(refusal);this.report();if(ack<this.#awaited)
-return;const left=this.spacing-(performance.now()-this.#sent);if(left>0)this.#resting=setTimeout(()=>this.#release(),
-left);else if(document.hidden)this.#release();else this.#drawing=requestAnimationFrame(()=>this.#release())}#release(){
-this.#stop();this.#waiting=false;this.#flush()}#stop(){clearTimeout(this.#overdue);clearTimeout(this.#timeout);
-clearTimeout(this.#resting);cancelAnimationFrame(this.#drawing)}};function connectNoMoreComms(kernel){
-const status=kernel?.statusChanged;const connect=status?.connect;if(!connect||Object.hasOwn(status,"\
-connect"))return;status.connect=(slot,receiver)=>!String(slot).includes("_cleanSubshells")&&connect.
-call(status,slot,receiver)}var NUMBERS=[{name:"threshold",label:"Threshold",unit:"0–1",title:"Smallest value of the foregroun\
+events:this.#queue},void 0,this.#buffers)}catch{this.#markDisconnected();return}this.#queue=[];this.#buffers=
+[];this.#overdue=setTimeout(()=>{this.busy=true;this.report()},BUSY_AFTER);this.#timeout=setTimeout(
+()=>this.#release(),ACKNOWLEDGE_TIMEOUT)}#markDisconnected(){const around=this.element.closest(".gli\
+d-editor")??this.element.closest(".glid-host");around?.classList.add("jupyter-widgets-disconnected")}#answered({
+ack,refusal}){if(ack===this.#awaited)clearTimeout(this.#overdue);this.#acknowledged=Math.max(this.#acknowledged,
+ack);this.busy=false;this.refusal=refusal;this.element.dataset.idle=String(this.idle);const due=this.#promised.
+filter(({number})=>number<=ack);this.#promised=this.#promised.filter(({number})=>number>ack);for(const{
+resolve}of due)resolve(refusal);this.report();if(ack<this.#awaited)return;if(document.hidden)this.#release();else
+this.#drawing=requestAnimationFrame(()=>this.#release())}#release(){this.#stop();this.#waiting=false;
+this.#flush()}#stop(){clearTimeout(this.#overdue);clearTimeout(this.#timeout);cancelAnimationFrame(this.#drawing)}};
+function connectNoMoreComms(kernel){const status=kernel?.statusChanged;const connect=status?.connect;
+if(!connect||Object.hasOwn(status,"connect"))return;status.connect=(slot,receiver)=>!String(slot).includes(
+"_cleanSubshells")&&connect.call(status,slot,receiver)}var NUMBERS=[{name:"threshold",label:"Threshold",unit:"0–1",title:"Smallest value of the foregroun\
 d",end:1,power:1,digits:3},{name:"smoothing",label:"Smoothing",unit:"px",title:"Blur before tracing \
 the outline",end:.01,power:2,digits:1},{name:"offset",label:"Offset",unit:"px",title:"How far the ca\
 ge stays from the shape",end:.05,power:1.5,digits:1},{name:"simplify",label:"Simplify",unit:"px",title:"\

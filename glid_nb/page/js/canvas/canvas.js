@@ -36,10 +36,6 @@ import { coveredNear, Shapes } from "./shapes.js";
  */
 
 const SAVE_VIEW_AFTER = 250; // ms
-// Where a drawing takes longer than this, in ms, kernel and page share few processors. So the kernel
-// hears of a drag less often while the page goes ahead.
-const SLOW = 8;
-const SPACING = 200; // ms
 /** @type {Playing} */
 const STILL = { release() {}, pause: () => undefined };
 
@@ -120,8 +116,6 @@ export class Canvas {
   /** Has the page's own solver follow what is dragged. */
   followHand() {
     if (this.pad.grip && !this.shapes.motion) this.ahead.follow(this.pad.held);
-    const slow = this.model.get("drawing_time") > SLOW;
-    this.link.spacing = slow && this.pad.grip && this.ahead.leads ? SPACING : 0;
   }
 
   /**

@@ -12,7 +12,6 @@ const ACKNOWLEDGE_TIMEOUT = 2000; // ms until events are sent without an answer
 
 export class Link {
   busy = false; // an answer is overdue
-  spacing = 0; // least ms between two batches, so that the kernel leaves the page time to draw
   /** @type {string | null} why the kernel refused the last batch */
   refusal = null;
 
@@ -32,9 +31,6 @@ export class Link {
   /** @type {ReturnType<typeof setTimeout> | undefined} */
   #timeout;
   #drawing = 0;
-  #sent = -Infinity; // when the last batch was sent
-  /** @type {ReturnType<typeof setTimeout> | undefined} */
-  #resting;
 
   /**
    * @param {Model<any>} model
@@ -88,7 +84,6 @@ export class Link {
       const { kernel } = this.model.widget_manager; // undefined where the page does not tell
       if (kernel === null || kernel?.isDisposed) throw new Error("the kernel was shut down");
       this.model.send({ view: this.view, events: this.#queue }, undefined, this.#buffers);
-      this.#sent = performance.now();
     } catch {
       this.#markDisconnected();
       return;
@@ -121,9 +116,7 @@ export class Link {
     this.report();
     if (ack < this.#awaited) return;
     // The frame arrived before this answer; the page's next drawing shows it.
-    const left = this.spacing - (performance.now() - this.#sent);
-    if (left > 0) this.#resting = setTimeout(() => this.#release(), left);
-    else if (document.hidden) this.#release();
+    if (document.hidden) this.#release();
     else this.#drawing = requestAnimationFrame(() => this.#release());
   }
 
@@ -136,7 +129,6 @@ export class Link {
   #stop() {
     clearTimeout(this.#overdue);
     clearTimeout(this.#timeout);
-    clearTimeout(this.#resting);
     cancelAnimationFrame(this.#drawing);
   }
 }
