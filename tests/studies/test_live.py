@@ -34,7 +34,9 @@ def test_a_sample_is_timed_in_node_and_in_the_package() -> None:
 @pytest.mark.browser
 def test_a_short_drag_is_recorded_and_all_its_maps_are_certified() -> None:
     run = recorded.RUNS[0]
-    found = recorded.measure(sample_case("bar", "gentle"), run, 1.0)
+    found = recorded.measure(
+        sample_case("bar", "gentle"), run, 4.0
+    )  # a busy machine may need a second for the first map
     assert found["maps"] > 0
     assert found["uncertified"] == 0
     (row,) = recorded.tables([found])["recorded"]
