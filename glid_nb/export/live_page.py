@@ -83,7 +83,7 @@ def live_page_html(
     stiff = None if first is None else first.stiffness.within(domain.cage)
     data = {
         "title": title,
-        "outline": {k: v for k, v in domain.to_dict().items() if k != "notes"},
+        "outline": outline_of(domain),
         "options": {
             "energy": energy.name,
             "s": float(getattr(energy, "s", 1.0)),
@@ -136,6 +136,11 @@ def coefficients_of(map: HarmonicMap) -> list[float]:
     """Real and imaginary parts of phi, then of psi, as the page takes them."""
     parts = [part(one) for one in (map.phi, map.psi) for part in (np.real, np.imag)]
     return np.concatenate(parts).tolist()
+
+
+def outline_of(domain: Domain) -> dict[str, Any]:
+    """The cage, the offset cage and the hole points, as the page takes them."""
+    return {key: value for key, value in domain.to_dict().items() if key != "notes"}
 
 
 def pins_of(pose: Pose | None) -> list[dict[str, Any]]:

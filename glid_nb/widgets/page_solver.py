@@ -5,7 +5,6 @@ from typing import Any
 import numpy as np
 
 from glid_nb import export
-from glid_nb._arrays import Array
 from glid_nb.energies import ENERGIES, CustomEnergy
 from glid_nb.page import bundle
 from glid_nb.pose import Pose
@@ -43,11 +42,12 @@ class PageSolver:
     def _tell_options(self, moment: Moment) -> None:
         current, domain = moment.state.current, moment.state.domain
         stiffness = current.pose.stiffness
-        asked = (domain, current.energy, current.options, stiffness, can_solve(moment))
+        solves = can_solve(moment)
+        asked = (domain, current.energy, current.options, stiffness, solves)
         if asked == self._asked:
             return
         self._asked = asked
-        if not can_solve(moment):
+        if not solves:
             self._stage.solver = {}
             return
         stiff = bool(stiffness.within(domain.cage))
@@ -88,15 +88,7 @@ def can_solve(moment: Moment) -> bool:
 
 
 def _pose(pose: Pose) -> dict[str, Any]:
-    """A pose as the page's solver takes it; None where an angle or a scale is free."""
-
-    def wanted(values: Array) -> list[float | None]:
-        return [float(value) if np.isfinite(value) else None for value in values]
-
-    return {
-        "handles": pose.handles.tolist(),
-        "targets": pose.targets.tolist(),
-        "weights": pose.weights.tolist(),
-        "angles": wanted(pose.angles),
-        "scales": wanted(pose.scales),
-    }
+    """A pose as the page's solver takes it: a list for each number of the pins."""
+    pins = export.pins_of(pose)
+    numbers = "handle", "target", "weight", "angle", "scale"
+    return {f"{number}s": [pin[number] for pin in pins] for number in numbers}

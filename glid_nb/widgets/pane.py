@@ -9,6 +9,7 @@ import numpy as np
 import shapely
 import traitlets
 
+from glid_nb import export
 from glid_nb._arrays import Array
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging import PixelFrame
@@ -124,7 +125,7 @@ class Pane(ClosingWidget, ipywidgets.GridBox):
             camera=self._renderer.camera,
             materials=self.scene.materials,
             coefficients=self._wire(),
-            outline=outline_of(self.scene),
+            outline=_outlined(self.scene),
         )
         super().__init__([self._renderer, self.stage])
         self.add_class("glid-pane")
@@ -197,7 +198,7 @@ class Pane(ClosingWidget, ipywidgets.GridBox):
             stage.materials = scene.materials
             stage.coefficients = self._wire()
             if old.domain is not scene.domain:
-                stage.outline = outline_of(scene)
+                stage.outline = _outlined(scene)
             # Round to the precision of a screen.
             at = {key: np.round(getattr(drawing, key), 5).tolist() for key in ("targets", "images")}
             chosen = {"selected": list(drawing.selected), "ring": drawing.ring}
@@ -286,11 +287,10 @@ class Pane(ClosingWidget, ipywidgets.GridBox):
         return scene.shader_map.wire(scene.map) if scene.evaluated_in != "kernel" else b""
 
 
-def outline_of(scene: Scene) -> dict[str, Any]:
+def _outlined(scene: Scene) -> dict[str, Any]:
     """`Stage.outline` of a scene."""
-    outline = {k: v for k, v in scene.domain.to_dict().items() if k != "notes"}
     sizes = {"chain": scene.shader_map.n_chain, "shaderHoles": scene.shader_map.n_holes}
-    return {"outline": outline, **sizes}
+    return {"outline": export.outline_of(scene.domain), **sizes}
 
 
 def emptiest_corner(

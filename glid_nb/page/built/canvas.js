@@ -182,7 +182,9 @@ return answer}drag(pose){return this.#send({type:"drag",pose})}place(pose,coeffi
 {type:"place",pose,coefficients})}#send(request){this.#number+=1;this.#worker.postMessage({...request,
 id:this.#number});return this.#number}#answered(answer){const asked=this.#asked.get(answer.id);if(answer.
 type==="map")this.onmap(answer);if(answer.type==="map"&&!answer.settled)return;this.#asked.delete(answer.
-id);if(answer.type==="failed")asked?.reject(new Error(answer.message));else asked?.resolve(answer)}};var FAR=1e3;var Wire=class{#chain;#outline;#vertices;#sizes;constructor(outline,{chain,shaderHoles}){
+id);if(answer.type==="failed")asked?.reject(new Error(answer.message));else asked?.resolve(answer)}};
+function startedWorker(script){const address=URL.createObjectURL(new Blob([script],{type:"text/javas\
+cript"}));const worker=new Worker(address);URL.revokeObjectURL(address);return worker}var FAR=1e3;var Wire=class{#chain;#outline;#vertices;#sizes;constructor(outline,{chain,shaderHoles}){
 const loops=[outline.offset_cage,...outline.offset_holes];this.#outline=outline;this.#sizes={chain,holes:shaderHoles};
 this.#chain=chainOf(loops.map(loop=>loop.length));this.#vertices=loops.flat();this.cage=this.#cageOf()}#cageOf(){
 const cage=new Float32Array(4*this.#sizes.chain);const last=this.#vertices[this.#vertices.length-1];
@@ -224,8 +226,7 @@ targets.length;if(lead?.pins.targets.length!==count)return marks;const{targets,i
 pins;return{...marks,targets,images,ring:ringOf(marks,samples,count)}}function ringOf({ring,selected},samples,count){
 const last=selected.at(-1);if(ring.length===0||last===void 0)return ring;const[angle,scale,turned,scaled]=ring;
 const[x,y]=[samples[last],samples[count+last]];return[turned?angle:Math.atan2(y,x),scaled?scale:Math.
-hypot(x,y),turned,scaled]}function startedWorker(script){const address=URL.createObjectURL(new Blob(
-[script],{type:"text/javascript"}));const worker=new Worker(address);URL.revokeObjectURL(address);return worker}function menuRows(does,pin,covered){return[...pin?pinRows(does,pin.pinned):shapeRows(does,covered),[
+hypot(x,y),turned,scaled]}function menuRows(does,pin,covered){return[...pin?pinRows(does,pin.pinned):shapeRows(does,covered),[
 "Copy the pose","Ctrl+C",does.press("copy")],["Paste a pose","Ctrl+V",does.paste],["Swap left and ri\
 ght","M",does.press("m")],["Select all pins","A",does.press("a")],["The undeformed shape","0",does.press(
 "0")],["See everything","F",does.press("f")],["Paint stiff areas","B",does.press("b")],["The picture\

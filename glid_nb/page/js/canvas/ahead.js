@@ -4,7 +4,7 @@
 // and proves every map. Those are shown until the kernel is at rest again; its map is shown from then
 // on. Every other gesture is the kernel's alone.
 
-import { Solving } from "../live/solving.js";
+import { Solving, startedWorker } from "../live/solving.js";
 import { Wire } from "../live/wire.js";
 import { distance } from "../pad/view.js";
 
@@ -162,15 +162,4 @@ function ringOf({ ring, selected }, samples, count) {
   const [angle, scale, turned, scaled] = ring;
   const [x, y] = [samples[last], samples[count + last]];
   return [turned ? angle : Math.atan2(y, x), scaled ? scale : Math.hypot(x, y), turned, scaled];
-}
-
-/**
- * @param {string} script
- * @returns {Port}
- */
-function startedWorker(script) {
-  const address = URL.createObjectURL(new Blob([script], { type: "text/javascript" }));
-  const worker = new Worker(address);
-  URL.revokeObjectURL(address);
-  return /** @type {Port} */ (/** @type {unknown} */ (worker));
 }

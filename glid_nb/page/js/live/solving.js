@@ -87,3 +87,15 @@ export class Solving {
     else asked?.resolve(answer);
   }
 }
+
+/**
+ * A worker that runs a script.
+ * @param {string} script
+ * @returns {Port}
+ */
+export function startedWorker(script) {
+  const address = URL.createObjectURL(new Blob([script], { type: "text/javascript" }));
+  const worker = new Worker(address);
+  URL.revokeObjectURL(address);
+  return /** @type {Port} */ (/** @type {unknown} */ (worker));
+}

@@ -2,7 +2,7 @@
 
 import { CannotShow } from "../exported/renderer.js";
 import { cornersOf, restored, unpacked } from "../exported/unpack.js";
-import { Solving } from "../live/solving.js";
+import { Solving, startedWorker } from "../live/solving.js";
 import { coefficientsOf, identityOf } from "../live/wire.js";
 import { View } from "../pad/view.js";
 import { Editing } from "./editing.js";
@@ -13,7 +13,6 @@ import { fitted, roomOn } from "./room.js";
 import { Stage } from "./stage.js";
 
 /** @import { LiveData } from "./data.js" */
-/** @import { Port } from "../live/solving.js" */
 
 /**
  * What the first script of html/live_page.html has unpacked. The page adds its view, so that other
@@ -25,10 +24,7 @@ const { data, worker } = unpackedPage;
 
 /** A worker that has the shape, at the map to begin with. */
 async function startedSolver() {
-  const address = URL.createObjectURL(new Blob([worker], { type: "text/javascript" }));
-  const started = new Worker(address);
-  URL.revokeObjectURL(address);
-  const solving = new Solving(/** @type {Port} */ (/** @type {unknown} */ (started)));
+  const solving = new Solving(startedWorker(worker));
   const { outline, options, start, poses } = data;
   await solving.ask({ type: "shape", outline, options });
   const coefficients = start.length ? Float64Array.from(start) : identityOf(outline);
