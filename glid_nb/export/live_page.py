@@ -32,7 +32,16 @@ from glid_nb.imaging.backdrop import Background
 from glid_nb.imaging.bleed import bled
 from glid_nb.imaging.render import MARGIN
 from glid_nb.motion import Motion
-from glid_nb.page import ShaderMap, bundle, stylesheet, template, webgl2_shaders
+from glid_nb.page import (
+    ShaderMap,
+    bundle,
+    coefficients_of,
+    outline_of,
+    pins_of,
+    stylesheet,
+    template,
+    webgl2_shaders,
+)
 from glid_nb.pose import Pose
 from glid_nb.solvers.stiffness import stiff_nodes
 
@@ -130,39 +139,6 @@ def _start(start: HarmonicMap | Motion) -> list[float]:
     if np.array_equal(map.phi, identity.phi) and np.array_equal(map.psi, identity.psi):
         return []
     return coefficients_of(map)
-
-
-def coefficients_of(map: HarmonicMap) -> list[float]:
-    """Real and imaginary parts of phi, then of psi, as the page takes them."""
-    parts = [part(one) for one in (map.phi, map.psi) for part in (np.real, np.imag)]
-    return np.concatenate(parts).tolist()
-
-
-def outline_of(domain: Domain) -> dict[str, Any]:
-    """The cage, the offset cage and the hole points, as the page takes them."""
-    return {key: value for key, value in domain.to_dict().items() if key != "notes"}
-
-
-def pins_of(pose: Pose | None) -> list[dict[str, Any]]:
-    """The pins of a pose as the page takes them."""
-    if pose is None:
-        return []
-    return [
-        {
-            "handle": pose.handles[i].tolist(),
-            "target": pose.targets[i].tolist(),
-            "angle": _number(pose.angles[i]),
-            "scale": _number(pose.scales[i]),
-            "weight": float(pose.weights[i]),
-            "name": str(pose.names[i]),
-        }
-        for i in range(len(pose))
-    ]
-
-
-def _number(value: float) -> float | None:
-    """A wanted angle or scale; None where it is free."""
-    return float(value) if np.isfinite(value) else None
 
 
 def _mesh(domain: Domain, pose: Pose | None) -> dict[str, Any]:

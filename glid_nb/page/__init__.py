@@ -1,5 +1,6 @@
-"""What runs in the browser: JavaScript, style sheets, shaders, and a map as shaders take it."""
+"""What runs in the browser: JavaScript, style sheets, shaders; problems and maps as they take them."""
 
 from glid_nb.page.files import bundle, glsl, stylesheet, template
+from glid_nb.page.problem import coefficients_of, outline_of, pins_of
 from glid_nb.page.shader_map import ShaderMap
 from glid_nb.page.shaders import energy_defines, fragment_shader, vertex_shader, webgl2_shaders

@@ -14,7 +14,7 @@ from glid_nb.geometry import Domain
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging.read import ImageSource, read_image
 from glid_nb.imaging.trace import trace
-from glid_nb.page import bundle
+from glid_nb.page import bundle, coefficients_of, pins_of
 from glid_nb.pose import Pose
 from glid_nb.widgets.closing import ClosingWidget, one_a_cell
 from glid_nb.widgets.pad import answer_during_cells
@@ -101,8 +101,8 @@ class LiveEditor(ClosingWidget, anywidget.AnyWidget):
     @pose.setter
     def pose(self, pose: Pose) -> None:
         pose.check_inside(self.map.domain)
-        coefficients = export.coefficients_of(self.map)
-        self.edit = {"by": _KERNEL, "pins": export.pins_of(pose), "coefficients": coefficients}
+        coefficients = coefficients_of(self.map)
+        self.edit = {"by": _KERNEL, "pins": pins_of(pose), "coefficients": coefficients}
 
     @traitlets.validate("edit")
     def _check_edit(self, proposal: dict[str, Any]) -> dict[str, Any]:

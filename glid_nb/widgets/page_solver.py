@@ -4,9 +4,8 @@ from typing import Any
 
 import numpy as np
 
-from glid_nb import export
 from glid_nb.energies import ENERGIES, CustomEnergy
-from glid_nb.page import bundle
+from glid_nb.page import bundle, coefficients_of, pins_of
 from glid_nb.pose import Pose
 from glid_nb.session.edit_state import Moment
 from glid_nb.solvers import Options
@@ -69,7 +68,7 @@ class PageSolver:
         self._stage.rest = {
             "number": self._stage.rest.get("number", 0) + 1,
             "pose": _pose(pose),
-            "coefficients": np.array(export.coefficients_of(map), "<f8").tobytes(),
+            "coefficients": np.array(coefficients_of(map), "<f8").tobytes(),
         }
 
 
@@ -89,6 +88,6 @@ def can_solve(moment: Moment) -> bool:
 
 def _pose(pose: Pose) -> dict[str, Any]:
     """A pose as the page's solver takes it: a list for each number of the pins."""
-    pins = export.pins_of(pose)
+    pins = pins_of(pose)
     numbers = "handle", "target", "weight", "angle", "scale"
     return {f"{number}s": [pin[number] for pin in pins] for number in numbers}

@@ -9,12 +9,11 @@ import numpy as np
 import shapely
 import traitlets
 
-from glid_nb import export
 from glid_nb._arrays import Array
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging import PixelFrame
 from glid_nb.imaging.backdrop import Backdrop
-from glid_nb.page import bundle, stylesheet
+from glid_nb.page import bundle, outline_of, stylesheet
 from glid_nb.widgets.closing import ClosingWidget
 from glid_nb.widgets.layers import BackdropMesh, EvaluatedIn, picture_texture
 from glid_nb.widgets.overlays import PANEL_LEGEND, legend
@@ -290,7 +289,7 @@ class Pane(ClosingWidget, ipywidgets.GridBox):
 def _outlined(scene: Scene) -> dict[str, Any]:
     """`Stage.outline` of a scene."""
     sizes = {"chain": scene.shader_map.n_chain, "shaderHoles": scene.shader_map.n_holes}
-    return {"outline": export.outline_of(scene.domain), **sizes}
+    return {"outline": outline_of(scene.domain), **sizes}
 
 
 def emptiest_corner(

@@ -16,8 +16,8 @@ import glid_check
 from glid_nb import Domain, HarmonicMap, Pose, samples, trace
 from glid_nb.energies import ENERGIES
 from glid_nb.export import live_page_html
-from glid_nb.export.live_page import coefficients_of
 from glid_nb.io import load_pose
+from glid_nb.page import coefficients_of
 
 from ..support import shapes
 from ..support.browser import ARTEFACTS, launched_chromium, watched_page

@@ -67,8 +67,9 @@ _COEFFICIENTS = f"""async (id) => {{
 }}"""
 
 _SHOWS = f"""async ([id, wanted, pad, view]) => {{
-  const shown = await ({_COEFFICIENTS})(id);
   const manager = await ({MANAGER})();
+  if (!manager.has_model(id)) return false;
+  const shown = await ({_COEFFICIENTS})(id);
   const seen = (await manager.get_model(pad)).get('view');
   if (!seen.every((v, i) => Math.abs(v - view[i]) < 1e-9)) return false;
   return wanted.every((v, i) => Math.abs(v - shown[i]) < 1e-6);
@@ -130,6 +131,8 @@ class Hand:
         self.pad.wait_for()
         if settle:
             self.settle()
+            if self.pane.locator("xpath=ancestor::*[contains(@class, 'glid-editor')]").count():
+                self.book.wait_for(f"{canvas}.pane.stage.room")  # for then it has its size
 
     def settle(self) -> None:
         """Wait for the solver."""
@@ -221,15 +224,25 @@ class Hand:
         self.page.evaluate(_FRAMES)
 
     def wait_until_drawn(self) -> None:
-        """Wait until the page has the kernel's map, to float32, and a frame was drawn with it."""
-        identity, wanted, pad, view = self.book.value(
+        """Wait until the page has the kernel's map, to float32, and a frame was drawn with it.
+
+        The kernel is asked each time: a canvas that still tries how to draw fast has other widgets
+        a moment later.
+        """
+        end = time.monotonic() + 20
+        while not self.page.evaluate(_SHOWS, self._to_be_shown()):
+            assert time.monotonic() < end, "the page does not draw the kernel's map"
+            self.page.evaluate(_FRAMES)
+        self.page.evaluate(_FRAMES)
+
+    def _to_be_shown(self) -> list[Any]:
+        """The arguments of _SHOWS."""
+        return self.book.value(
             "[pane.scene.picture.mesh.model_id,"
             f" pane.scene.shader_map.coefficients({self.model}.map)[0].ravel().tolist(),"
             " pane.stage.model_id, list(pane.stage.view)]",
             f"pane = {self.canvas}.pane",
         )
-        self.page.wait_for_function(_SHOWS, arg=[identity, wanted, pad, view], timeout=20_000)
-        self.page.evaluate(_FRAMES)
 
     def wait_for_color(self, point: Sequence[float], wanted: Callable[[list[int]], bool]) -> None:
         """Wait until the canvas has this colour at a point of the world."""

@@ -11,7 +11,7 @@ from traitlets import TraitError
 
 import glid_nb as glid
 from glid_nb import HarmonicMap, InputError, Pose
-from glid_nb.export import coefficients_of
+from glid_nb.page import coefficients_of
 from glid_nb.pose import PoseError
 from glid_nb.widgets import Editor, LiveEditor
 

@@ -16,6 +16,7 @@ from glid_nb._runtime import double_precision
 from glid_nb.energies import by_name
 from glid_nb.geometry import graded_panels
 from glid_nb.harmonic import HarmonicMap
+from glid_nb.page import coefficients_of
 from glid_nb.solvers import evaluation, problem
 from glid_nb.solvers.discretisation import discretise
 
@@ -84,12 +85,6 @@ def golden(name: str) -> dict[str, Any]:
 def energy_of_minimum(result: glid.Result) -> float | None:
     """The energy of a solve that has converged; None for others, which end anywhere."""
     return result.energy if result.status is glid.Status.CONVERGED else None
-
-
-def coefficients_of(map: HarmonicMap) -> list[float]:
-    """``[Re phi, Im phi, Re psi, Im psi]``."""
-    parts = (map.phi.real, map.phi.imag, map.psi.real, map.psi.imag)
-    return np.concatenate(parts).tolist()
 
 
 def map_of(data: dict[str, Any]) -> HarmonicMap:

@@ -11,8 +11,9 @@ import numpy as np
 import pytest
 
 from glid_nb.harmonic import HarmonicMap
+from glid_nb.page import coefficients_of
 
-from .golden import FOLDER, coefficients_of
+from .golden import FOLDER
 
 
 def answers(requests: list[dict[str, Any]]) -> list[Any]:

@@ -13,10 +13,10 @@ from glid_nb.certificate.paper import derivative_bound_weights, jumps
 from glid_nb.geometry import Cage, Domain, graded_panels
 from glid_nb.harmonic import HarmonicMap, cauchy, rows_of
 from glid_nb.harmonic.basis import basis_of
+from glid_nb.page import coefficients_of
 
 from ...certificate.test_extremes import derivatives, exact
 from ...support.domains import NAMES, random_map
-from .golden import coefficients_of
 from .in_node import answers
 
 QUADRATIC = math.sqrt(3) / 216
