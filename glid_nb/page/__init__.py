@@ -1,4 +1,4 @@
-"""What runs in the browser: JavaScript, style sheets, shaders; problems and maps as they take them."""
+"""What runs in the browser: JavaScript, style sheets and shaders, and what they take."""
 
 from glid_nb.page.files import bundle, glsl, stylesheet, template
 from glid_nb.page.problem import coefficients_of, outline_of, pins_of
