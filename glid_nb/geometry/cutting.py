@@ -78,8 +78,8 @@ def _checked_width(width: float | None, cage: Cage) -> float:
         raise GeometryError(f"the cut's width must be a positive number, not {width!r:.60}")
     least = _LEAST_WIDTH * cage.longer_side
     if width < least:
-        why = f"no offset cage fits into it; use at least {least:.3g}"
-        raise GeometryError(f"the cut's width {width:.3g} is too small: {why}")
+        what = f"the cut's width {width:.3g} is too small for an offset cage that pages can draw"
+        raise GeometryError(f"{what}; use at least {least:.3g}")
     return float(width)
 
 

@@ -68,6 +68,12 @@ def test_a_zigzag_makes_many_pieces() -> None:
     assert [round(piece.area, 2) for piece in pieces] == [12.8, 2.85, 0.95]
 
 
+def test_a_closed_line_cuts_out_what_it_encloses() -> None:
+    rim, disc = cut(RECTANGLE, [[2, 1], [4, 1], [4, 3], [2, 3], [2, 1]], 0.2)
+    assert (rim.n_holes, disc.n_holes) == (1, 0)
+    assert disc.bounds == pytest.approx((2.1, 1.1, 3.9, 2.9))
+
+
 def test_a_line_between_two_holes_joins_them_and_a_line_to_the_rim_opens_one() -> None:
     (joined,) = cut(HOLED, [[2.5, 2.5], [7, 7]])
     assert joined.n_holes == 1
@@ -122,7 +128,7 @@ def test_a_line_that_cuts_nothing_is_refused_by_name(line: Any, culprit: str) ->
 @pytest.mark.parametrize(
     ("width", "culprit"),
     [
-        (1e-5, "too small: no offset cage fits into it; use at least 0.0006"),
+        (1e-5, "too small for an offset cage.*use at least 0.0006"),
         (0, "positive number"),
         (-1, "positive number"),
         (np.nan, "positive number"),
