@@ -304,17 +304,17 @@ kground's colour"},component:{icon:"M8 1.5v3 M8 11.5v3 M1.5 8h3 M11.5 8h3 M8 5.2
 o trace"},polygon:{icon:"M8 2l5.5 4-2 7h-7l-2-7z",label:"Draw the outline by hand (P)",hint:"Click t\
 he corners in turn, or draw around the shape · double-click or Enter closes it · Esc starts over"},
 rectangle:{icon:PATHS.rectangle,label:"Draw a rectangle (R)",hint:"Drag a rectangle over the shape"},
-knife:{icon:"M2 14l5.2-5.2 M5.6 7.2l3.2 3.2c3.2-1.3 5.2-4.4 5.2-8.4z",label:"Cut with the knife (K)",
-hint:"Draw a line: the shape is cut along it · begin or end outside to cut a part loose"}};var TOOL_NAMES=[
-"edit","foreground","background","color","component","polygon","rectangle","knife"];var HELP=[["Outl\
-ine",[["V","edit: drag a vertex, double-click an edge to add one, click a hole to drop or keep it"],
-["Right-click, Delete","remove a vertex"],["[ ]","select the vertex before, the next vertex"],["Arro\
-w keys","nudge the selected vertex, with Shift farther"],["Ctrl+Z, Ctrl+Shift+Z","undo, redo"]]],["B\
-y hand",[["B, N","paint over the shape, over the background"],["I, C","pick the background's colour,\
- the component"],["K","knife: draw a line along which the shape is cut; Esc while drawing discards i\
-t"],["P, R","draw the outline or a hole in it, a rectangle; Enter closes it, Esc discards it"]]],["V\
-iew",[["Wheel, + -, F","zoom after a click on the picture, fit the picture"],["Drag beside the outli\
-ne","move the view"]]]];var REACH={mouse:9,pen:12,touch:18};var ZOOM=1.25;var MARGIN=24;var HINT=8;var CALLOUT=24;var EDGE=8;
+knife:{icon:"M8 8l4.4-4.4a1.41 1.41 0 0 1 2 2L10 10z M8 8l-6 6c4 .1 6.6-1.2 8-4",label:"Cut with the\
+ knife (K)",hint:"Draw a line: the shape is cut along it · begin or end outside to cut a part loose"}};
+var TOOL_NAMES=["edit","foreground","background","color","component","polygon","rectangle","knife"];
+var HELP=[["Outline",[["V","edit: drag a vertex, double-click an edge to add one, click a hole to dr\
+op or keep it"],["Right-click, Delete","remove a vertex"],["[ ]","select the vertex before, the next\
+ vertex"],["Arrow keys","nudge the selected vertex, with Shift farther"],["Ctrl+Z, Ctrl+Shift+Z","un\
+do, redo"]]],["By hand",[["B, N","paint over the shape, over the background"],["I, C","pick the back\
+ground's colour, the component"],["K","knife: draw a line along which the shape is cut; Esc while dr\
+awing discards it"],["P, R","draw the outline or a hole in it, a rectangle; Enter closes it, Esc dis\
+cards it"]]],["View",[["Wheel, + -, F","zoom after a click on the picture, fit the picture"],["Drag \
+beside the outline","move the view"]]]];var REACH={mouse:9,pen:12,touch:18};var ZOOM=1.25;var MARGIN=24;var HINT=8;var CALLOUT=24;var EDGE=8;
 var MOST_ZOOM=40;var FARTHEST=1e3;var COLORS=["accent","accent-soft","warn","warn-soft","faint","vei\
 l","foreground","background","check-light","check-dark"];var KEYS=/^(Arrow\w+|Delete|Backspace|Escape|Enter|[[\]vbnicprk])$/i;
 var Stage=class{canvas=make("canvas",{className:"glid-canvas",role:"application","aria-label":"Pictu\
@@ -409,20 +409,19 @@ x`:"")}#askAbout(){const answer=(label,what)=>this.#answer(label,()=>this.act("d
 "What you drew","What you drew lies inside the shape. It is ",answer("a hole","hole"),answer("the ne\
 w outline","outline"),answer("nothing",""))}#askWhichPiece(){const keepNext=()=>{const{shares,kept}=this.
 shown?.cut??{shares:[],kept:0};return this.act("keep_piece",{number:(kept+1)%shares.length})};return question(
-"Pieces of the cut","The cut took the shape apart. Only the outlined piece is kept. ",this.#answer("\
-Keep another piece",keepNext),this.#answer("Undo the cut",()=>this.act("undo")))}#answer(label,act){
-const onclick=()=>{act();this.stage.canvas.focus({preventScroll:true})};return make("button",{onclick},
-label)}#toolbar(help2){const input=make("input",{type:"file",accept:"image/*",hidden:true});input.addEventListener(
-"change",()=>{if(input.files?.[0])this.upload(input.files[0])});const open=iconButton("open","Open a\
- picture",()=>{input.value="";input.click()});const{stage}=this;return make("div",{className:"glid-t\
-oolbar",role:"toolbar","aria-label":"Tracer"},...[open,input,gap(),...this.tools,gap(),this.undo,this.
-redo,this.discard],make("span",{className:"glid-grow"}),iconButton("minus","Zoom out (-)",()=>stage.
-zoom(false)),iconButton("plus","Zoom in (+)",()=>stage.zoom(true)),iconButton("fit","Fit the picture\
- (F)",()=>stage.fit()),help2)}#chooseTool(e){const button=e.target.closest("[data-tool]");const name=button?.
-dataset.tool;if(!name)return;this.#showTool(name);this.act("tool",{name})}#showTool(name){if(name!==
-this.stage.tool)this.stage.setTool(name);for(const button of this.root.querySelectorAll("[data-tool]")){
-const{tool}=button.dataset;button.ariaPressed=String(tool===name)}}};function gap(){return make("spa\
-n",{className:"glid-gap"})}function question(name,text,...answers){const look={className:"glid-quest\
-ion",role:"group","aria-label":name,hidden:true};return make("div",look,text,...answers)}function render(context){const tracer=new Tracer(context);follow(context.model,{"change:height":()=>tracer.
+"Pieces of the cut","Only the outlined piece is kept. ",this.#answer("Keep another",keepNext),this.#answer(
+"Undo the cut",()=>this.act("undo")))}#answer(label,act){const onclick=()=>{act();this.stage.canvas.
+focus({preventScroll:true})};return make("button",{onclick},label)}#toolbar(help2){const input=make(
+"input",{type:"file",accept:"image/*",hidden:true});input.addEventListener("change",()=>{if(input.files?.[0])
+this.upload(input.files[0])});const open=iconButton("open","Open a picture",()=>{input.value="";input.
+click()});const{stage}=this;return make("div",{className:"glid-toolbar",role:"toolbar","aria-label":"\
+Tracer"},...[open,input,gap(),...this.tools,gap(),this.undo,this.redo,this.discard],make("span",{className:"\
+glid-grow"}),iconButton("minus","Zoom out (-)",()=>stage.zoom(false)),iconButton("plus","Zoom in (+)",
+()=>stage.zoom(true)),iconButton("fit","Fit the picture (F)",()=>stage.fit()),help2)}#chooseTool(e){
+const button=e.target.closest("[data-tool]");const name=button?.dataset.tool;if(!name)return;this.#showTool(
+name);this.act("tool",{name})}#showTool(name){if(name!==this.stage.tool)this.stage.setTool(name);for(const button of this.
+root.querySelectorAll("[data-tool]")){const{tool}=button.dataset;button.ariaPressed=String(tool===name)}}};
+function gap(){return make("span",{className:"glid-gap"})}function question(name,text,...answers){const look={
+className:"glid-question",role:"group","aria-label":name,hidden:true};return make("div",look,text,...answers)}function render(context){const tracer=new Tracer(context);follow(context.model,{"change:height":()=>tracer.
 showHeight(),"change:shown":()=>tracer.showState(),"change:picture":()=>tracer.showPicture()});return()=>tracer.
 close()}var main_default={render};export{main_default as default};

@@ -51,7 +51,7 @@ export const TOOLS = {
     hint: "Drag a rectangle over the shape",
   },
   knife: {
-    icon: "M2 14l5.2-5.2 M5.6 7.2l3.2 3.2c3.2-1.3 5.2-4.4 5.2-8.4z",
+    icon: "M8 8l4.4-4.4a1.41 1.41 0 0 1 2 2L10 10z M8 8l-6 6c4 .1 6.6-1.2 8-4",
     label: "Cut with the knife (K)",
     hint: "Draw a line: the shape is cut along it · begin or end outside to cut a part loose",
   },

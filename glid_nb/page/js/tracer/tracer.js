@@ -153,8 +153,8 @@ export class Tracer {
     };
     return question(
       "Pieces of the cut",
-      "The cut took the shape apart. Only the outlined piece is kept. ",
-      this.#answer("Keep another piece", keepNext),
+      "Only the outlined piece is kept. ",
+      this.#answer("Keep another", keepNext),
       this.#answer("Undo the cut", () => this.act("undo")),
     );
   }
