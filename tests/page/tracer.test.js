@@ -106,6 +106,14 @@ test("a slider's place and its value belong together", () => {
   }
 });
 
+test("every tool has a key of its own, which its title names", () => {
+  const keys = Object.values(TOOLS).map(({ key }) => key);
+  assert.equal(new Set(keys).size, keys.length);
+  for (const { key, label } of Object.values(TOOLS)) {
+    assert.ok(label.endsWith(`(${key.toUpperCase()})`));
+  }
+});
+
 test("every tool has its button", () => {
   assert.deepEqual(TOOL_NAMES.toSorted(), Object.keys(TOOLS).toSorted());
 });

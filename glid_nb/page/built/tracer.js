@@ -291,32 +291,32 @@ hover.edge.foot),color)}function vertexRadius(loops){let total=0;let count=0;for
 loop.forEach(([x,y],i)=>{const[u,v]=loop[(i+1)%loop.length];total+=Math.hypot(u-x,v-y)});count+=loop.
 length}return Math.min(4,Math.max(1.75,total/Math.max(count,1)*.16))}function drawPlus(pen,[x,y],color){
 disk(pen,[x,y],7,"white",color,1.5);const across=[[x-3.5,y],[x+3.5,y]];const upright=[[x,y-3.5],[x,y+
-3.5]];tracePath(pen,[across,upright],false);pen.stroke()}var TOOLS={edit:{icon:PATHS.edit,label:"Edit vertices and holes (V)",hint:"Drag a vertex · double-cl\
-ick an edge to add one · right-click a vertex to delete it · click a hole to drop it"},foreground:{
-icon:"M13.5 2.5l-6 6 M6.7 9.2c-1.6-.5-3 .6-3.1 2.1-.1 1-.7 1.7-1.6 2 2.2.9 5.6.4 5.9-2.2 .1-.8-.4-1.\
-6-1.2-1.9z M9.5 12.5h5 M12 10v5",label:"Paint over the shape (B)",hint:"Paint over the shape"},background:{
-icon:"M13.5 2.5l-6 6 M6.7 9.2c-1.6-.5-3 .6-3.1 2.1-.1 1-.7 1.7-1.6 2 2.2.9 5.6.4 5.9-2.2 .1-.8-.4-1.\
-6-1.2-1.9z M9.5 12.5h5",label:"Paint over the background (N)",hint:"Paint over the background around\
- the shape"},color:{icon:"M9 4l3 3 M10 3.2l1-1a1.6 1.6 0 0 1 2.8 2.2l-1.1 1.1 M9.6 5.2L3.4 11.4 2.5 \
-13.5l2.1-.9 6.2-6.2",label:"Pick the background's colour (I)",hint:"Click a pixel that shows the bac\
-kground's colour"},component:{icon:"M8 1.5v3 M8 11.5v3 M1.5 8h3 M11.5 8h3 M8 5.2a2.8 2.8 0 1 0 0 5.6\
- 2.8 2.8 0 0 0 0-5.6z",label:"Pick the component to trace (C)",hint:"Click the part of the picture t\
-o trace"},polygon:{icon:"M8 2l5.5 4-2 7h-7l-2-7z",label:"Draw the outline by hand (P)",hint:"Click t\
-he corners in turn, or draw around the shape · double-click or Enter closes it · Esc starts over"},
-rectangle:{icon:PATHS.rectangle,label:"Draw a rectangle (R)",hint:"Drag a rectangle over the shape"},
-knife:{icon:"M8 8l4.4-4.4a1.41 1.41 0 0 1 2 2L10 10z M8 8l-6 6c4 .1 6.6-1.2 8-4",label:"Cut with the\
- knife (K)",hint:"Draw a line: the shape is cut along it · begin or end outside to cut a part loose"}};
-var TOOL_NAMES=["edit","foreground","background","color","component","polygon","rectangle","knife"];
-var HELP=[["Outline",[["V","edit: drag a vertex, double-click an edge to add one, click a hole to dr\
-op or keep it"],["Right-click, Delete","remove a vertex"],["[ ]","select the vertex before, the next\
- vertex"],["Arrow keys","nudge the selected vertex, with Shift farther"],["Ctrl+Z, Ctrl+Shift+Z","un\
-do, redo"]]],["By hand",[["B, N","paint over the shape, over the background"],["I, C","pick the back\
-ground's colour, the component"],["K","knife: draw a line along which the shape is cut; Esc while dr\
-awing discards it"],["P, R","draw the outline or a hole in it, a rectangle; Enter closes it, Esc dis\
-cards it"]]],["View",[["Wheel, + -, F","zoom after a click on the picture, fit the picture"],["Drag \
-beside the outline","move the view"]]]];var REACH={mouse:9,pen:12,touch:18};var ZOOM=1.25;var MARGIN=24;var HINT=8;var CALLOUT=24;var EDGE=8;
+3.5]];tracePath(pen,[across,upright],false);pen.stroke()}var TOOLS={edit:{key:"v",icon:PATHS.edit,label:"Edit vertices and holes (V)",hint:"Drag a vertex · d\
+ouble-click an edge to add one · right-click a vertex to delete it · click a hole to drop it"},foreground:{
+key:"b",icon:"M13.5 2.5l-6 6 M6.7 9.2c-1.6-.5-3 .6-3.1 2.1-.1 1-.7 1.7-1.6 2 2.2.9 5.6.4 5.9-2.2 .1-\
+.8-.4-1.6-1.2-1.9z M9.5 12.5h5 M12 10v5",label:"Paint over the shape (B)",hint:"Paint over the shape"},
+background:{key:"n",icon:"M13.5 2.5l-6 6 M6.7 9.2c-1.6-.5-3 .6-3.1 2.1-.1 1-.7 1.7-1.6 2 2.2.9 5.6.4\
+ 5.9-2.2 .1-.8-.4-1.6-1.2-1.9z M9.5 12.5h5",label:"Paint over the background (N)",hint:"Paint over t\
+he background around the shape"},color:{key:"i",icon:"M9 4l3 3 M10 3.2l1-1a1.6 1.6 0 0 1 2.8 2.2l-1.\
+1 1.1 M9.6 5.2L3.4 11.4 2.5 13.5l2.1-.9 6.2-6.2",label:"Pick the background's colour (I)",hint:"Clic\
+k a pixel that shows the background's colour"},component:{key:"c",icon:"M8 1.5v3 M8 11.5v3 M1.5 8h3 \
+M11.5 8h3 M8 5.2a2.8 2.8 0 1 0 0 5.6 2.8 2.8 0 0 0 0-5.6z",label:"Pick the component to trace (C)",hint:"\
+Click the part of the picture to trace"},polygon:{key:"p",icon:"M8 2l5.5 4-2 7h-7l-2-7z",label:"Draw\
+ the outline by hand (P)",hint:"Click the corners in turn, or draw around the shape · double-click o\
+r Enter closes it · Esc starts over"},rectangle:{key:"r",icon:PATHS.rectangle,label:"Draw a rectang\
+le (R)",hint:"Drag a rectangle over the shape"},knife:{key:"k",icon:"M8 8l4.4-4.4a1.41 1.41 0 0 1 2 \
+2L10 10z M8 8l-6 6c4 .1 6.6-1.2 8-4",label:"Cut with the knife (K)",hint:"Draw a line: the shape is \
+cut along it · begin or end outside to cut a part loose"}};var TOOL_NAMES=["edit","foreground","bac\
+kground","color","component","polygon","rectangle","knife"];var HELP=[["Outline",[["V","edit: drag a\
+ vertex, double-click an edge to add one, click a hole to drop or keep it"],["Right-click, Delete","\
+remove a vertex"],["[ ]","select the vertex before, the next vertex"],["Arrow keys","nudge the selec\
+ted vertex, with Shift farther"],["Ctrl+Z, Ctrl+Shift+Z","undo, redo"]]],["By hand",[["B, N","paint \
+over the shape, over the background"],["I, C","pick the background's colour, the component"],["K","k\
+nife: draw a line along which the shape is cut; Esc while drawing discards it"],["P, R","draw the ou\
+tline or a hole in it, a rectangle; Enter closes it, Esc discards it"]]],["View",[["Wheel, + -, F","\
+zoom after a click on the picture, fit the picture"],["Drag beside the outline","move the view"]]]];var REACH={mouse:9,pen:12,touch:18};var ZOOM=1.25;var MARGIN=24;var HINT=8;var CALLOUT=24;var EDGE=8;
 var MOST_ZOOM=40;var FARTHEST=1e3;var COLORS=["accent","accent-soft","warn","warn-soft","faint","vei\
-l","foreground","background","check-light","check-dark"];var KEYS=/^(Arrow\w+|Delete|Backspace|Escape|Enter|[[\]vbnicprk])$/i;
+l","foreground","background","check-light","check-dark"];var KEYS=/^(Arrow\w+|Delete|Backspace|Escape|Enter|[[\]])$/i;
 var Stage=class{canvas=make("canvas",{className:"glid-canvas",role:"application","aria-label":"Pictu\
 re and cage"});callout=make("div",{className:"glid-callout",role:"alert",hidden:true});hintText=make(
 "div",{className:"glid-hint"});drop=make("div",{className:"glid-drop",hidden:true},"Drop a picture h\
@@ -384,24 +384,25 @@ model=model;this.link=new Link(model,this.root,signal,()=>{this.showStatus();if(
 shown)this.#showTool(this.shown.tool)});this.stage=new Stage(this.root,this.link,file=>this.upload(file),
 signal);this.panel=new Panel((type,content)=>void this.act(type,content),this.stage);this.tools=TOOL_NAMES.
 map(name=>{const button=drawnButton(TOOLS[name].icon,TOOLS[name].label,void 0);button.dataset.tool=name;
-return button});this.undo=iconButton("undo","Undo (Ctrl+Z)",()=>this.act("undo"));this.redo=iconButton(
-"redo","Redo (Ctrl+Shift+Z)",()=>this.act("redo"));this.discard=make("button",{title:"Go back to the\
- outline as traced",onclick:()=>this.act("discard_edits")},"Discard edits");this.question=this.#askAbout();
+return button});for(const name of TOOL_NAMES){this.stage.actions[TOOLS[name].key]=()=>this.#chooseTool(
+name)}this.undo=iconButton("undo","Undo (Ctrl+Z)",()=>this.act("undo"));this.redo=iconButton("redo",
+"Redo (Ctrl+Shift+Z)",()=>this.act("redo"));this.discard=make("button",{title:"Go back to the outlin\
+e as traced",onclick:()=>this.act("discard_edits")},"Discard edits");this.question=this.#askAbout();
 this.pieces=this.#askWhichPiece();this.stage.element.append(this.question,this.pieces);const keys=help(
 HELP);this.stage.element.append(keys.table);this.stage.actions["?"]=keys.toggle;this.root.append(this.#toolbar(
 keys.button),make("div",{className:"glid-body"},this.stage.element,this.panel.element),this.status);
 keysAround(this.stage.element,e=>this.stage.pad.keydown(e),signal,this.root);this.root.addEventListener(
-"click",e=>this.#chooseTool(e));el.classList.add("glid-host");el.append(this.root)}close(){this.stage.
-close()}get shown(){const shown=this.model.get("shown");return shown.loops?shown:null}act(type,content={},buffers=[]){
-return this.link.put({type,...content},buffers)}async upload(file){const name=file.name||"the pictur\
-e";let start=0;let refused=null;do{const data=await file.slice(start,start+PART).arrayBuffer();const part={
-name,size:file.size,start,buffered:true};refused=await this.act("upload",part,[data]);start+=PART}while(!refused&&
-start<file.size)}showState(){const{shown,stage}=this;if(!shown)return;stage.update(shown);this.panel.
-update(shown);this.undo.disabled=!shown.can_undo;this.redo.disabled=!shown.can_redo;this.discard.hidden=
-!shown.edited;this.question.hidden=!shown.inside.length;this.pieces.hidden=(shown.cut?.shares.length??
-1)<2;for(const button of this.tools)button.disabled=!shown.size;if(this.link.idle)this.#showTool(shown.
-tool);this.showStatus()}showStatus(){const{shown}=this;if(!shown)return;const{kind,text}=statusOf(shown,
-this.link.refusal,this.link.busy);this.root.dataset.status=kind;this.status.textContent=text}async showPicture(){
+"click",e=>this.#clicked(e));el.classList.add("glid-host");el.append(this.root)}close(){this.stage.close()}get shown(){
+const shown=this.model.get("shown");return shown.loops?shown:null}act(type,content={},buffers=[]){return this.
+link.put({type,...content},buffers)}async upload(file){const name=file.name||"the picture";let start=0;
+let refused=null;do{const data=await file.slice(start,start+PART).arrayBuffer();const part={name,size:file.
+size,start,buffered:true};refused=await this.act("upload",part,[data]);start+=PART}while(!refused&&start<
+file.size)}showState(){const{shown,stage}=this;if(!shown)return;stage.update(shown);this.panel.update(
+shown);this.undo.disabled=!shown.can_undo;this.redo.disabled=!shown.can_redo;this.discard.hidden=!shown.
+edited;this.question.hidden=!shown.inside.length;this.pieces.hidden=(shown.cut?.shares.length??1)<2;
+for(const button of this.tools)button.disabled=!shown.size;if(this.link.idle)this.#showTool(shown.tool);
+this.showStatus()}showStatus(){const{shown}=this;if(!shown)return;const{kind,text}=statusOf(shown,this.
+link.refusal,this.link.busy);this.root.dataset.status=kind;this.status.textContent=text}async showPicture(){
 try{await this.stage.setPicture(this.model.get("picture"))}catch(error){const why=error instanceof Error?
 error.message:error;this.link.refusal=`The picture cannot be shown: ${why}`;this.showStatus()}}showHeight(){
 const height=this.model.get("height");this.root.style.setProperty("--glid-height",height?`${height}p\
@@ -417,11 +418,12 @@ this.upload(input.files[0])});const open=iconButton("open","Open a picture",()=>
 click()});const{stage}=this;return make("div",{className:"glid-toolbar",role:"toolbar","aria-label":"\
 Tracer"},...[open,input,gap(),...this.tools,gap(),this.undo,this.redo,this.discard],make("span",{className:"\
 glid-grow"}),iconButton("minus","Zoom out (-)",()=>stage.zoom(false)),iconButton("plus","Zoom in (+)",
-()=>stage.zoom(true)),iconButton("fit","Fit the picture (F)",()=>stage.fit()),help2)}#chooseTool(e){
-const button=e.target.closest("[data-tool]");const name=button?.dataset.tool;if(!name)return;this.#showTool(
-name);this.act("tool",{name})}#showTool(name){if(name!==this.stage.tool)this.stage.setTool(name);for(const button of this.
-root.querySelectorAll("[data-tool]")){const{tool}=button.dataset;button.ariaPressed=String(tool===name)}}};
-function gap(){return make("span",{className:"glid-gap"})}function question(name,text,...answers){const look={
-className:"glid-question",role:"group","aria-label":name,hidden:true};return make("div",look,text,...answers)}function render(context){const tracer=new Tracer(context);follow(context.model,{"change:height":()=>tracer.
+()=>stage.zoom(true)),iconButton("fit","Fit the picture (F)",()=>stage.fit()),help2)}#clicked(e){const button=e.
+target.closest("[data-tool]");const name=button?.dataset.tool;if(name)this.#chooseTool(name)}#chooseTool(name){
+if(!this.shown?.size)return;this.#showTool(name);this.act("tool",{name})}#showTool(name){if(name!==this.
+stage.tool)this.stage.setTool(name);for(const button of this.root.querySelectorAll("[data-tool]")){const{
+tool}=button.dataset;button.ariaPressed=String(tool===name)}}};function gap(){return make("span",{className:"\
+glid-gap"})}function question(name,text,...answers){const look={className:"glid-question",role:"grou\
+p","aria-label":name,hidden:true};return make("div",look,text,...answers)}function render(context){const tracer=new Tracer(context);follow(context.model,{"change:height":()=>tracer.
 showHeight(),"change:shown":()=>tracer.showState(),"change:picture":()=>tracer.showPicture()});return()=>tracer.
 close()}var main_default={render};export{main_default as default};

@@ -33,6 +33,9 @@ export class Tracer {
       button.dataset.tool = name;
       return button;
     });
+    for (const name of TOOL_NAMES) {
+      this.stage.actions[TOOLS[name].key] = () => this.#chooseTool(name);
+    }
     this.undo = iconButton("undo", "Undo (Ctrl+Z)", () => this.act("undo"));
     this.redo = iconButton("redo", "Redo (Ctrl+Shift+Z)", () => this.act("redo"));
     this.discard = make(
@@ -55,7 +58,7 @@ export class Tracer {
       this.status,
     );
     keysAround(this.stage.element, (e) => this.stage.pad.keydown(e), signal, this.root);
-    this.root.addEventListener("click", (e) => this.#chooseTool(e));
+    this.root.addEventListener("click", (e) => this.#clicked(e));
     el.classList.add("glid-host");
     el.append(this.root);
   }
@@ -194,16 +197,22 @@ export class Tracer {
     );
   }
 
-  /**
-   * A tool is shown at once; the kernel changes it after what was done with the last one.
-   *
-   * @param {MouseEvent} e
-   */
-  #chooseTool(e) {
+  /** @param {MouseEvent} e */
+  #clicked(e) {
     /** @type {HTMLElement | null} */
     const button = /** @type {Element} */ (e.target).closest("[data-tool]");
     const name = /** @type {Tool | undefined} */ (button?.dataset.tool);
-    if (!name) return;
+    if (name) this.#chooseTool(name);
+  }
+
+  /**
+   * A tool is shown at once, so that a drag right after its key does not move the view; the kernel
+   * changes it after what was done with the last one.
+   *
+   * @param {Tool} name
+   */
+  #chooseTool(name) {
+    if (!this.shown?.size) return;
     this.#showTool(name);
     this.act("tool", { name });
   }
