@@ -25,7 +25,7 @@ WAVE, IN_FRONT = [430, 80], [222, 285]
 
 def figure() -> np.ndarray:
     """A person whose right arm hangs along the body, RGBA."""
-    picture = Image.new("RGBA", (500 * SHARPER,) * 2)
+    picture = Image.new("RGBA", (500 * SHARPER, 500 * SHARPER))
     pen = ImageDraw.Draw(picture)
 
     def part(box: tuple[int, int, int, int], radius: int, color: str) -> None:
@@ -64,9 +64,10 @@ def main() -> None:
     for ax, title, goal in zip(moved, titles, (WAVE, IN_FRONT), strict=True):
         targets = np.vstack([frame.to_world([goal]), pins[1:]])
         pose = glid.Pose(pins, targets, depths=[1, 0, 0, 0, 0, 0])
-        result = glid.solve(domain, pose)
-        assert result.certificate.certified
-        ax.imshow(glid.render(picture, result.map, pose=pose))
+        map = glid.solve(domain, pose).map
+        assert isinstance(map, glid.HarmonicMap)
+        assert glid.certify(map).certified
+        ax.imshow(glid.render(picture, map, pose=pose))
         ax.set_title(title, fontsize=10)
     for ax in (traced, *moved):
         ax.set_axis_off()
