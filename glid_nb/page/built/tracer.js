@@ -214,48 +214,48 @@ x,y]=this.view.toWorld(place);const{unit}=this.view;return this.link.put({type,x
 e.pointerType)*unit,button:e.button??0,shift:Boolean(e.shiftKey),alt:Boolean(e.altKey),time:e.timeStamp??
 performance.now(),...more})}press(key,e){this.send("key",[this.view.width/2,this.view.height/2],e,{key})}hover(place=this.
 rests){this.rests=place;if(this.mode!==null)return;this.found=place&&this.#find(place,"mouse");this.#showCursor();
-this.behaviour.changed()}keydown(e){const key=keyOf(e);const command=e.ctrlKey||e.metaKey;const action=command?
-void 0:this.behaviour.actions[key.toLowerCase()];const history=undoOrRedo(e);if(!history&&!action&&key!==
-" "){if(e.altKey||!this.behaviour.keys.test(key)||command&&key!=="a")return}e.preventDefault();e.stopPropagation();
-if(key===" "){if(!e.repeat)this.#tap=true;this.#setSpace(true)}else if(action){action()}else{if(key===
-"Escape"||history)this.#drop();this.press(history??key,e)}}#keyup(e){if(e.key!==" ")return;this.#setSpace(
-false);if(this.#tap)this.behaviour.tapped?.()}#reach(type){return this.behaviour.reach[type??"mouse"]??
-this.behaviour.reach.mouse}#find(place,type){return this.behaviour.find(this.view.toWorld(place),this.#reach(
-type)*this.view.unit)}#down(e){if(this.pointers.has(e.pointerId)||this.pointers.size>1)return;e.preventDefault();
-this.element.focus({preventScroll:true});this.#tap=false;const place=this.place(e);this.pointers.set(
-e.pointerId,place);this.element.setPointerCapture(e.pointerId);const second=this.pointers.size===2;if(second)
-this.#takeBack(e);this.#start=place;this.mode=second||e.button===1||e.button===0&&this.#space?"pan":
-"hand";if(this.mode==="hand")this.#handDown(place,e);this.#showCursor()}#handDown(place,e){const{behaviour}=this;
-const found=this.#find(place,e.pointerType);const left=e.button===0;if(left&&!e.shiftKey&&!e.altKey&&
-found?.mark!==void 0){this.grip={from:this.view.toWorld(place),points:behaviour.held(found)}}this.#pans=
-left&&Boolean(behaviour.pans?.(found,e));this.encloses=left&&!behaviour.painting?behaviour.encloses?.(
-found,e):null;this.path=left?[this.view.toWorld(place)]:[];this.send("down",place,e,{part:found?.part,
-at:left?behaviour.pressedAt?.():void 0});if(e.pointerType==="touch"&&behaviour.menu&&!behaviour.painting){
-this.#longPress=setTimeout(()=>this.#pressedLong(e,place),LONG_PRESS)}behaviour.changed()}#pressedLong(e,place){
-this.#longPress=setTimeout(()=>{this.#takeBack(e);this.mode=null;this.#menu(place,"touch")},LONG_PRESS_GRACE)}#menu(place,type){
-this.behaviour.menu?.(place,this.#find(place,type))}#contextMenu(e){e.preventDefault();e.stopPropagation();
-const touch=e instanceof PointerEvent&&e.pointerType==="touch";if(e.button===2&&!touch)this.#menu(this.
-place(e),"mouse")}#takeBack(e){if(this.mode==="hand")this.send("cancel",this.#start,e);this.#drop()}#move(e){
-const place=this.place(e);const touch=e.pointerType==="touch";if(!this.pointers.has(e.pointerId)){if(!touch)
-this.hover(place);return}if(!touch)this.rests=place;const far=distance(place,this.#start);if(far>LONG_PRESS_SLACK)
-clearTimeout(this.#longPress);if(this.mode==="hand"&&this.#pans&&far>CLICK){this.#takeBack(e);this.mode=
-"pan";this.#showCursor()}if(this.mode==="pan"){this.view.follow(this.pointers,e.pointerId,place);return}
-this.pointers.set(e.pointerId,place);if(this.mode==="hand")this.#handMoved(place,e,far)}#handMoved(place,e,far){
-const point=this.view.toWorld(place);this.#lengthenPath(place,point,far);if(!this.encloses&&!this.behaviour.
-painting){this.send("move",place,e,{replaces:`move ${e.pointerId}`})}if(this.grip){const dx=point[0]-
-this.grip.from[0];const dy=point[1]-this.grip.from[1];for(const[mark,[x,y]]of this.grip.points)this.
-held.set(mark,[x+dx,y+dy])}this.behaviour.changed()}#lengthenPath(place,point,far){if(this.encloses===
-"box"){const[corner]=this.path;this.path=far>CLICK?rectangle(corner,point):[corner];return}const last=this.
-path.at(-1);if(last&&distance(place,this.view.toScreen(last))>=PATH_STEP)this.path.push(point)}#up(e,type){
-if(!this.pointers.has(e.pointerId))return;const place=this.place(e);this.pointers.delete(e.pointerId);
-if(this.mode==="hand"){const{path}=this;this.send(type,place,e,{path,encloses:Boolean(this.encloses)}).
-then(()=>{if(!this.grip)this.held.clear();if(this.path===path)this.path=[];this.behaviour.changed()})}
-this.#letGo();if(!this.pointers.size)this.mode=null;this.#showCursor()}#letGo(){clearTimeout(this.#longPress);
-this.grip=null;this.behaviour.changed()}#drop(){this.#letGo();this.held.clear();this.path=[]}#wheel(e){
-if(!this.behaviour.ownsWheel&&!this.focused&&!e.ctrlKey)return;e.stopPropagation();this.view.wheel(e,
-this.place(e))}#setSpace(pressed){this.#space=pressed;this.#showCursor()}#showCursor(){this.element.
-style.cursor=this.#cursor()}#cursor(){if(this.mode==="pan"||this.grip)return"grabbing";return this.#space?
-"grab":this.behaviour.cursor(this.found)}};var HALO="rgba(255, 255, 255, 0.9)";var SPECK=12;var CHECK=8;function drawStage(pen,stage,scene,hover){
+this.behaviour.changed()}keydown(e){const key=keyOf(e);const command=e.ctrlKey||e.metaKey;const action=command||
+e.altKey?void 0:this.behaviour.actions[key.toLowerCase()];const history=undoOrRedo(e);if(!history&&!action&&
+key!==" "){if(e.altKey||!this.behaviour.keys.test(key)||command&&key!=="a")return}e.preventDefault();
+e.stopPropagation();if(key===" "){if(!e.repeat)this.#tap=true;this.#setSpace(true)}else if(action){action()}else{
+if(key==="Escape"||history)this.#drop();this.press(history??key,e)}}#keyup(e){if(e.key!==" ")return;
+this.#setSpace(false);if(this.#tap)this.behaviour.tapped?.()}#reach(type){return this.behaviour.reach[type??
+"mouse"]??this.behaviour.reach.mouse}#find(place,type){return this.behaviour.find(this.view.toWorld(
+place),this.#reach(type)*this.view.unit)}#down(e){if(this.pointers.has(e.pointerId)||this.pointers.size>
+1)return;e.preventDefault();this.element.focus({preventScroll:true});this.#tap=false;const place=this.
+place(e);this.pointers.set(e.pointerId,place);this.element.setPointerCapture(e.pointerId);const second=this.
+pointers.size===2;if(second)this.#takeBack(e);this.#start=place;this.mode=second||e.button===1||e.button===
+0&&this.#space?"pan":"hand";if(this.mode==="hand")this.#handDown(place,e);this.#showCursor()}#handDown(place,e){
+const{behaviour}=this;const found=this.#find(place,e.pointerType);const left=e.button===0;if(left&&!e.
+shiftKey&&!e.altKey&&found?.mark!==void 0){this.grip={from:this.view.toWorld(place),points:behaviour.
+held(found)}}this.#pans=left&&Boolean(behaviour.pans?.(found,e));this.encloses=left&&!behaviour.painting?
+behaviour.encloses?.(found,e):null;this.path=left?[this.view.toWorld(place)]:[];this.send("down",place,
+e,{part:found?.part,at:left?behaviour.pressedAt?.():void 0});if(e.pointerType==="touch"&&behaviour.menu&&
+!behaviour.painting){this.#longPress=setTimeout(()=>this.#pressedLong(e,place),LONG_PRESS)}behaviour.
+changed()}#pressedLong(e,place){this.#longPress=setTimeout(()=>{this.#takeBack(e);this.mode=null;this.#menu(
+place,"touch")},LONG_PRESS_GRACE)}#menu(place,type){this.behaviour.menu?.(place,this.#find(place,type))}#contextMenu(e){
+e.preventDefault();e.stopPropagation();const touch=e instanceof PointerEvent&&e.pointerType==="touch";
+if(e.button===2&&!touch)this.#menu(this.place(e),"mouse")}#takeBack(e){if(this.mode==="hand")this.send(
+"cancel",this.#start,e);this.#drop()}#move(e){const place=this.place(e);const touch=e.pointerType===
+"touch";if(!this.pointers.has(e.pointerId)){if(!touch)this.hover(place);return}if(!touch)this.rests=
+place;const far=distance(place,this.#start);if(far>LONG_PRESS_SLACK)clearTimeout(this.#longPress);if(this.
+mode==="hand"&&this.#pans&&far>CLICK){this.#takeBack(e);this.mode="pan";this.#showCursor()}if(this.mode===
+"pan"){this.view.follow(this.pointers,e.pointerId,place);return}this.pointers.set(e.pointerId,place);
+if(this.mode==="hand")this.#handMoved(place,e,far)}#handMoved(place,e,far){const point=this.view.toWorld(
+place);this.#lengthenPath(place,point,far);if(!this.encloses&&!this.behaviour.painting){this.send("m\
+ove",place,e,{replaces:`move ${e.pointerId}`})}if(this.grip){const dx=point[0]-this.grip.from[0];const dy=point[1]-
+this.grip.from[1];for(const[mark,[x,y]]of this.grip.points)this.held.set(mark,[x+dx,y+dy])}this.behaviour.
+changed()}#lengthenPath(place,point,far){if(this.encloses==="box"){const[corner]=this.path;this.path=
+far>CLICK?rectangle(corner,point):[corner];return}const last=this.path.at(-1);if(last&&distance(place,
+this.view.toScreen(last))>=PATH_STEP)this.path.push(point)}#up(e,type){if(!this.pointers.has(e.pointerId))
+return;const place=this.place(e);this.pointers.delete(e.pointerId);if(this.mode==="hand"){const{path}=this;
+this.send(type,place,e,{path,encloses:Boolean(this.encloses)}).then(()=>{if(!this.grip)this.held.clear();
+if(this.path===path)this.path=[];this.behaviour.changed()})}this.#letGo();if(!this.pointers.size)this.
+mode=null;this.#showCursor()}#letGo(){clearTimeout(this.#longPress);this.grip=null;this.behaviour.changed()}#drop(){
+this.#letGo();this.held.clear();this.path=[]}#wheel(e){if(!this.behaviour.ownsWheel&&!this.focused&&
+!e.ctrlKey)return;e.stopPropagation();this.view.wheel(e,this.place(e))}#setSpace(pressed){this.#space=
+pressed;this.#showCursor()}#showCursor(){this.element.style.cursor=this.#cursor()}#cursor(){if(this.
+mode==="pan"||this.grip)return"grabbing";return this.#space?"grab":this.behaviour.cursor(this.found)}};var HALO="rgba(255, 255, 255, 0.9)";var SPECK=12;var CHECK=8;function drawStage(pen,stage,scene,hover){
 const{shown,colors,loops}=scene;const{view}=stage;const[width,height]=shown.size??[0,0];const corner=view.
 toScreen([0,0]);drawPicture(pen,stage,colors,corner,[width/view.unit,height/view.unit]);if(loops.length&&
 !stage.painting){const frame=rectangle(corner,view.toScreen([width,height]));fillPath(pen,[...loops,
@@ -289,24 +289,24 @@ pen,view.toScreen(hover.edge.foot),color)}function vertexRadius(loops){let total
 loop.forEach(([x,y],i)=>{const[u,v]=loop[(i+1)%loop.length];total+=Math.hypot(u-x,v-y)});count+=loop.
 length}return Math.min(4,Math.max(1.75,total/Math.max(count,1)*.16))}function drawPlus(pen,[x,y],color){
 disk(pen,[x,y],7,"white",color,1.5);const across=[[x-3.5,y],[x+3.5,y]];const upright=[[x,y-3.5],[x,y+
-3.5]];tracePath(pen,[across,upright],false);pen.stroke()}var TOOLS={edit:{label:"Edit vertices and holes (V)",hint:"Drag a vertex · double-click an edge to a\
-dd one · right-click a vertex to delete it · click a hole to drop it"},foreground:{label:"Paint ov\
-er the shape (B)",hint:"Paint over the shape"},background:{label:"Paint over the background (N)",hint:"\
-Paint over the background around the shape"},color:{label:"Pick the background's colour (I)",hint:"C\
-lick a pixel that shows the background's colour"},component:{label:"Pick the component to trace (C)",
-hint:"Click the part of the picture to trace"},polygon:{label:"Draw the outline by hand (P)",hint:"C\
-lick the corners in turn, or draw around the shape · double-click or Enter closes it · Esc starts ov\
-er"},rectangle:{label:"Draw a rectangle (R)",hint:"Drag a rectangle over the shape"}};var TOOL_NAMES=[
-"edit","foreground","background","color","component","polygon","rectangle"];var HELP=[["Outline",[["\
-V","edit: drag a vertex, double-click an edge to add one, click a hole to drop or keep it"],["Right-\
-click, Delete","remove a vertex"],["[ ]","select the vertex before, the next vertex"],["Arrow keys",
-"nudge the selected vertex, with Shift farther"],["Ctrl+Z, Ctrl+Shift+Z","undo, redo"]]],["By hand",
-[["B, N","paint over the shape, over the background"],["I, C","pick the background's colour, the com\
-ponent"],["P, R","draw the outline or a hole in it, a rectangle; Enter closes it, Esc discards it"]]],
-["View",[["Wheel, + -, F","zoom after a click on the picture, fit the picture"],["Drag beside the ou\
-tline","move the view"]]]];var REACH={mouse:9,pen:12,touch:18};var ZOOM=1.25;var MARGIN=24;var HINT=8;var CALLOUT=24;var EDGE=8;
+3.5]];tracePath(pen,[across,upright],false);pen.stroke()}var TOOLS={edit:{key:"v",label:"Edit vertices and holes (V)",hint:"Drag a vertex · double-click an e\
+dge to add one · right-click a vertex to delete it · click a hole to drop it"},foreground:{key:"b",
+label:"Paint over the shape (B)",hint:"Paint over the shape"},background:{key:"n",label:"Paint over \
+the background (N)",hint:"Paint over the background around the shape"},color:{key:"i",label:"Pick th\
+e background's colour (I)",hint:"Click a pixel that shows the background's colour"},component:{key:"\
+c",label:"Pick the component to trace (C)",hint:"Click the part of the picture to trace"},polygon:{key:"\
+p",label:"Draw the outline by hand (P)",hint:"Click the corners in turn, or draw around the shape · \
+double-click or Enter closes it · Esc starts over"},rectangle:{key:"r",label:"Draw a rectangle (R)",
+hint:"Drag a rectangle over the shape"}};var TOOL_NAMES=["edit","foreground","background","color","c\
+omponent","polygon","rectangle"];var HELP=[["Outline",[["V","edit: drag a vertex, double-click an ed\
+ge to add one, click a hole to drop or keep it"],["Right-click, Delete","remove a vertex"],["[ ]","s\
+elect the vertex before, the next vertex"],["Arrow keys","nudge the selected vertex, with Shift fart\
+her"],["Ctrl+Z, Ctrl+Shift+Z","undo, redo"]]],["By hand",[["B, N","paint over the shape, over the ba\
+ckground"],["I, C","pick the background's colour, the component"],["P, R","draw the outline or a hol\
+e in it, a rectangle; Enter closes it, Esc discards it"]]],["View",[["Wheel, + -, F","zoom after a c\
+lick on the picture, fit the picture"],["Drag beside the outline","move the view"]]]];var REACH={mouse:9,pen:12,touch:18};var ZOOM=1.25;var MARGIN=24;var HINT=8;var CALLOUT=24;var EDGE=8;
 var MOST_ZOOM=40;var FARTHEST=1e3;var COLORS=["accent","accent-soft","warn","warn-soft","faint","vei\
-l","foreground","background","check-light","check-dark"];var KEYS=/^(Arrow\w+|Delete|Backspace|Escape|Enter|[[\]vbnicpr])$/i;
+l","foreground","background","check-light","check-dark"];var KEYS=/^(Arrow\w+|Delete|Backspace|Escape|Enter|[[\]])$/;
 var Stage=class{canvas=make("canvas",{className:"glid-canvas",role:"application","aria-label":"Pictu\
 re and cage"});callout=make("div",{className:"glid-callout",role:"alert",hidden:true});hintText=make(
 "div",{className:"glid-hint"});drop=make("div",{className:"glid-drop",hidden:true},"Drop a picture h\
@@ -372,24 +372,25 @@ v",{className:"glid-status",role:"status","aria-live":"polite"});constructor({mo
 model=model;this.link=new Link(model,this.root,signal,()=>{this.showStatus();if(this.link.idle&&this.
 shown)this.#showTool(this.shown.tool)});this.stage=new Stage(this.root,this.link,file=>this.upload(file),
 signal);this.panel=new Panel((type,content)=>void this.act(type,content),this.stage);this.tools=TOOL_NAMES.
-map(name=>{const button=iconButton(name,TOOLS[name].label,void 0);button.dataset.tool=name;return button});
-this.undo=iconButton("undo","Undo (Ctrl+Z)",()=>this.act("undo"));this.redo=iconButton("redo","Redo \
-(Ctrl+Shift+Z)",()=>this.act("redo"));this.discard=make("button",{title:"Go back to the outline as t\
-raced",onclick:()=>this.act("discard_edits")},"Discard edits");this.question=this.#askAbout();this.stage.
-element.append(this.question);const keys=help(HELP);this.stage.element.append(keys.table);this.stage.
-actions["?"]=keys.toggle;this.root.append(this.#toolbar(keys.button),make("div",{className:"glid-bod\
-y"},this.stage.element,this.panel.element),this.status);keysAround(this.stage.element,e=>this.stage.
-pad.keydown(e),signal,this.root);this.root.addEventListener("click",e=>this.#chooseTool(e));el.classList.
-add("glid-host");el.append(this.root)}close(){this.stage.close()}get shown(){const shown=this.model.
-get("shown");return shown.loops?shown:null}act(type,content={},buffers=[]){return this.link.put({type,
-...content},buffers)}async upload(file){const name=file.name||"the picture";let start=0;let refused=null;
-do{const data=await file.slice(start,start+PART).arrayBuffer();const part={name,size:file.size,start,
-buffered:true};refused=await this.act("upload",part,[data]);start+=PART}while(!refused&&start<file.size)}showState(){
-const{shown,stage}=this;if(!shown)return;stage.update(shown);this.panel.update(shown);this.undo.disabled=
-!shown.can_undo;this.redo.disabled=!shown.can_redo;this.discard.hidden=!shown.edited;this.question.hidden=
-!shown.inside.length;for(const button of this.tools)button.disabled=!shown.size;if(this.link.idle)this.#showTool(
-shown.tool);this.showStatus()}showStatus(){const{shown}=this;if(!shown)return;const{kind,text}=statusOf(
-shown,this.link.refusal,this.link.busy);this.root.dataset.status=kind;this.status.textContent=text}async showPicture(){
+map(name=>{const button=iconButton(name,TOOLS[name].label,void 0);button.dataset.tool=name;this.stage.
+actions[TOOLS[name].key]=()=>this.#chooseTool(name);return button});this.undo=iconButton("undo","Und\
+o (Ctrl+Z)",()=>this.act("undo"));this.redo=iconButton("redo","Redo (Ctrl+Shift+Z)",()=>this.act("re\
+do"));this.discard=make("button",{title:"Go back to the outline as traced",onclick:()=>this.act("dis\
+card_edits")},"Discard edits");this.question=this.#askAbout();this.stage.element.append(this.question);
+const keys=help(HELP);this.stage.element.append(keys.table);this.stage.actions["?"]=keys.toggle;this.
+root.append(this.#toolbar(keys.button),make("div",{className:"glid-body"},this.stage.element,this.panel.
+element),this.status);keysAround(this.stage.element,e=>this.stage.pad.keydown(e),signal,this.root);this.
+root.addEventListener("click",e=>this.#toolClicked(e));el.classList.add("glid-host");el.append(this.
+root)}close(){this.stage.close()}get shown(){const shown=this.model.get("shown");return shown.loops?
+shown:null}act(type,content={},buffers=[]){return this.link.put({type,...content},buffers)}async upload(file){
+const name=file.name||"the picture";let start=0;let refused=null;do{const data=await file.slice(start,
+start+PART).arrayBuffer();const part={name,size:file.size,start,buffered:true};refused=await this.act(
+"upload",part,[data]);start+=PART}while(!refused&&start<file.size)}showState(){const{shown,stage}=this;
+if(!shown)return;stage.update(shown);this.panel.update(shown);this.undo.disabled=!shown.can_undo;this.
+redo.disabled=!shown.can_redo;this.discard.hidden=!shown.edited;this.question.hidden=!shown.inside.length;
+for(const button of this.tools)button.disabled=!shown.size;if(this.link.idle)this.#showTool(shown.tool);
+this.showStatus()}showStatus(){const{shown}=this;if(!shown)return;const{kind,text}=statusOf(shown,this.
+link.refusal,this.link.busy);this.root.dataset.status=kind;this.status.textContent=text}async showPicture(){
 try{await this.stage.setPicture(this.model.get("picture"))}catch(error){const why=error instanceof Error?
 error.message:error;this.link.refusal=`The picture cannot be shown: ${why}`;this.showStatus()}}showHeight(){
 const height=this.model.get("height");this.root.style.setProperty("--glid-height",height?`${height}p\
@@ -402,10 +403,11 @@ const input=make("input",{type:"file",accept:"image/*",hidden:true});input.addEv
 ()=>{input.value="";input.click()});const{stage}=this;return make("div",{className:"glid-toolbar",role:"\
 toolbar","aria-label":"Tracer"},...[open,input,gap(),...this.tools,gap(),this.undo,this.redo,this.discard],
 make("span",{className:"glid-grow"}),iconButton("minus","Zoom out (-)",()=>stage.zoom(false)),iconButton(
-"plus","Zoom in (+)",()=>stage.zoom(true)),iconButton("fit","Fit the picture (F)",()=>stage.fit()),help2)}#chooseTool(e){
-const button=e.target.closest("[data-tool]");const name=button?.dataset.tool;if(!name)return;this.#showTool(
-name);this.act("tool",{name})}#showTool(name){if(name!==this.stage.tool)this.stage.setTool(name);for(const button of this.
-root.querySelectorAll("[data-tool]")){const{tool}=button.dataset;button.ariaPressed=String(tool===name)}}};
-function gap(){return make("span",{className:"glid-gap"})}function render(context){const tracer=new Tracer(context);follow(context.model,{"change:height":()=>tracer.
+"plus","Zoom in (+)",()=>stage.zoom(true)),iconButton("fit","Fit the picture (F)",()=>stage.fit()),help2)}#toolClicked(e){
+const button=e.target.closest("[data-tool]");const name=button?.dataset.tool;if(name)this.#chooseTool(
+name)}#chooseTool(name){this.#showTool(name);this.act("tool",{name})}#showTool(name){if(name!==this.
+stage.tool)this.stage.setTool(name);for(const button of this.root.querySelectorAll("[data-tool]")){const{
+tool}=button.dataset;button.ariaPressed=String(tool===name)}}};function gap(){return make("span",{className:"\
+glid-gap"})}function render(context){const tracer=new Tracer(context);follow(context.model,{"change:height":()=>tracer.
 showHeight(),"change:shown":()=>tracer.showState(),"change:picture":()=>tracer.showPicture()});return()=>tracer.
 close()}var main_default={render};export{main_default as default};

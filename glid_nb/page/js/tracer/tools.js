@@ -3,34 +3,43 @@
 /** @import { Section } from "../pad/help.js" */
 /** @import { Tool } from "./traits.js" */
 
-/** @type {Record<Tool, { label: string, hint: string }>} the button's title, and a hint */
+/** @type {Record<Tool, { key: string, label: string, hint: string }>} label: the button's title */
 export const TOOLS = {
   edit: {
+    key: "v",
     label: "Edit vertices and holes (V)",
     hint:
       "Drag a vertex · double-click an edge to add one · " +
       "right-click a vertex to delete it · click a hole to drop it",
   },
-  foreground: { label: "Paint over the shape (B)", hint: "Paint over the shape" },
+  foreground: { key: "b", label: "Paint over the shape (B)", hint: "Paint over the shape" },
   background: {
+    key: "n",
     label: "Paint over the background (N)",
     hint: "Paint over the background around the shape",
   },
   color: {
+    key: "i",
     label: "Pick the background's colour (I)",
     hint: "Click a pixel that shows the background's colour",
   },
   component: {
+    key: "c",
     label: "Pick the component to trace (C)",
     hint: "Click the part of the picture to trace",
   },
   polygon: {
+    key: "p",
     label: "Draw the outline by hand (P)",
     hint:
       "Click the corners in turn, or draw around the shape · " +
       "double-click or Enter closes it · Esc starts over",
   },
-  rectangle: { label: "Draw a rectangle (R)", hint: "Drag a rectangle over the shape" },
+  rectangle: {
+    key: "r",
+    label: "Draw a rectangle (R)",
+    hint: "Drag a rectangle over the shape",
+  },
 };
 
 /** @type {Tool[]} */

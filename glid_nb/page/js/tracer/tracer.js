@@ -31,6 +31,7 @@ export class Tracer {
     this.tools = TOOL_NAMES.map((name) => {
       const button = iconButton(name, TOOLS[name].label, undefined);
       button.dataset.tool = name;
+      this.stage.actions[TOOLS[name].key] = () => this.#chooseTool(name);
       return button;
     });
     this.undo = iconButton("undo", "Undo (Ctrl+Z)", () => this.act("undo"));
@@ -54,7 +55,7 @@ export class Tracer {
       this.status,
     );
     keysAround(this.stage.element, (e) => this.stage.pad.keydown(e), signal, this.root);
-    this.root.addEventListener("click", (e) => this.#chooseTool(e));
+    this.root.addEventListener("click", (e) => this.#toolClicked(e));
     el.classList.add("glid-host");
     el.append(this.root);
   }
@@ -172,16 +173,20 @@ export class Tracer {
     );
   }
 
-  /**
-   * A tool is shown at once; the kernel changes it after what was done with the last one.
-   *
-   * @param {MouseEvent} e
-   */
-  #chooseTool(e) {
+  /** @param {MouseEvent} e */
+  #toolClicked(e) {
     /** @type {HTMLElement | null} */
     const button = /** @type {Element} */ (e.target).closest("[data-tool]");
     const name = /** @type {Tool | undefined} */ (button?.dataset.tool);
-    if (!name) return;
+    if (name) this.#chooseTool(name);
+  }
+
+  /**
+   * A tool is there at once; the kernel changes it after what was done with the last one.
+   *
+   * @param {Tool} name
+   */
+  #chooseTool(name) {
     this.#showTool(name);
     this.act("tool", { name });
   }
