@@ -250,3 +250,69 @@ def test_an_outline_inside_the_shape_is_a_hole_or_a_new_one(hand: Hand, what: st
         np.testing.assert_allclose(model.loops[0].max(axis=0), [x + 8, y + 8])
     else:
         assert model.state is before
+
+
+def cut(hand: Hand, *path: tuple[float, float]) -> str | None:
+    return hand.send("down", *path[0]) or hand.send("up", *path[-1], path=path)
+
+
+def test_the_knife_cuts_along_its_path_and_stays_in_the_hand(hand: Hand) -> None:
+    model, before = hand.model, hand.model.state
+    hand.key("k")
+    assert cut(hand, (60, 5), (61, 50), (60, 100)) is None
+    assert hand.gestures.tool == "knife"
+    assert hand.gestures.cut is not None
+    assert not hand.gestures.cut.in_middle
+    assert len(hand.gestures.cut.pieces) == 1
+    first = model.state
+    assert cut(hand, (30, 90), (50, 95)) is None
+    assert hand.gestures.cut.in_middle
+    hand.key("undo")
+    assert model.state is first
+    assert hand.gestures.cut is None  # what it said is over
+    hand.key("undo")
+    assert model.state is before
+    hand.key("Escape")
+    assert hand.gestures.tool == "edit"
+
+
+def test_another_piece_of_the_cut_can_be_kept_in_the_same_step(hand: Hand) -> None:
+    model, before = hand.model, hand.model.state
+    hand.send("tool", name="knife")
+    cut(hand, (95, 0), (95, 120))
+    assert hand.gestures.cut is not None
+    large, small = hand.gestures.cut.pieces
+    assert (hand.gestures.cut.kept, model.cage.n_vertices) == (0, large.n_vertices)
+    assert hand.send("keep_piece", number=1) is None
+    assert hand.gestures.cut.kept == 1
+    assert model.cage.equals(small)
+    assert "no such piece" in str(hand.send("keep_piece", number=2))
+    hand.send("keep_piece", number=0)
+    assert model.cage.equals(large)
+    hand.key("undo")
+    assert model.state is before
+    assert "no such piece" in str(hand.send("keep_piece", number=0))
+    hand.key("redo")
+    assert model.cage.equals(large)
+
+
+@pytest.mark.parametrize("how", ["Escape", "cancel"])
+def test_a_cut_that_is_cancelled_never_was(hand: Hand, how: str) -> None:
+    before = hand.model.state
+    hand.key("k")
+    hand.send("down", 60, 5)
+    hand.send("cancel") if how == "cancel" else hand.key(how)
+    hand.send("up", 60, 100, path=[(60, 5), (60, 100)])
+    assert hand.model.state is before
+    assert hand.gestures.tool == "knife"
+
+
+def test_a_cut_that_is_refused_says_why(hand: Hand) -> None:
+    before = hand.model.state
+    hand.key("k")
+    assert cut(hand, (150, 5), (155, 5)) == (
+        "The cut misses the shape; draw it across the part that should come loose"
+    )
+    assert "two different points" in str(hand.click(60, 60))
+    assert "crosses itself" in str(cut(hand, (10, 60), (60, 90), (60, 20), (30, 95)))
+    assert hand.model.state is before
