@@ -258,7 +258,7 @@ def cut(hand: Hand, *path: tuple[float, float]) -> str | None:
 
 def test_the_knife_cuts_along_its_path_and_stays_in_the_hand(hand: Hand) -> None:
     model, before = hand.model, hand.model.state
-    hand.key("k")
+    hand.send("tool", name="knife")
     assert cut(hand, (60, 5), (61, 50), (60, 100)) is None
     assert hand.gestures.tool == "knife"
     assert hand.gestures.cut is not None
@@ -299,7 +299,7 @@ def test_another_piece_of_the_cut_can_be_kept_in_the_same_step(hand: Hand) -> No
 @pytest.mark.parametrize("how", ["Escape", "cancel"])
 def test_a_cut_that_is_cancelled_never_was(hand: Hand, how: str) -> None:
     before = hand.model.state
-    hand.key("k")
+    hand.send("tool", name="knife")
     hand.send("down", 60, 5)
     hand.send("cancel") if how == "cancel" else hand.key(how)
     hand.send("up", 60, 100, path=[(60, 5), (60, 100)])
@@ -309,7 +309,7 @@ def test_a_cut_that_is_cancelled_never_was(hand: Hand, how: str) -> None:
 
 def test_a_cut_that_is_refused_says_why(hand: Hand) -> None:
     before = hand.model.state
-    hand.key("k")
+    hand.send("tool", name="knife")
     assert cut(hand, (150, 5), (155, 5)) == (
         "The cut misses the shape; draw it across the part that should come loose"
     )
