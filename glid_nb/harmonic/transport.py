@@ -27,6 +27,7 @@ _TOLERANCE = 1e-3  # of the cage's unit
 _MOST_POINTS = 20_000_000
 _ROUNDS = 60
 _FINER = 3  # how often what is not valid is divided anew, by a tenth of the tolerance
+_ON_EDGE = 1e-14  # of the cage's size; vertices this close to an edge touch it
 _RESOLUTION = 1e-9  # of the cage's size; what is left of a geometry inside is larger
 
 POINT, LINE, RING, POLYGON = 0, 1, 2, 3  # of shapely.get_type_id
@@ -92,18 +93,60 @@ def transport(
     inside, outside, cut = _clipped(listed, side, map.domain.cage.longer_side)
     made = _carried(inside, side, tolerance)
     invalid = np.flatnonzero(~shapely.is_valid(made))
+    if invalid.size:  # where rings touch, both must turn at the same point
+        inside[invalid] = [_noded(one, map.domain.cage.longer_side) for one in inside[invalid]]
+        made[invalid] = _carried(inside[invalid], _once_each(side), tolerance)
+        invalid = invalid[~shapely.is_valid(made[invalid])]
     finer = tolerance
     for _ in range(_FINER):
         if not invalid.size:
             break
         finer /= 10
-        made[invalid] = _carried(inside[invalid], side, finer)
+        made[invalid] = _carried(inside[invalid], _once_each(side), finer)
         invalid = invalid[~shapely.is_valid(made[invalid])]
     overlapping = np.union1d(invalid, _several(inside, side))
     outside, cut, overlapping = (
         read_only(np.asarray(part, dtype=int)) for part in (outside, cut, overlapping)
     )
     return Transported(rebuilt(made), outside, cut, overlapping, tolerance)
+
+
+def _once_each(side: _Side) -> _Side:
+    """The same direction, with one image for all copies of a point, to the last bit."""
+
+    def images(z: Array) -> tuple[Array, Array, Array, Array]:
+        distinct, which = np.unique(z, return_inverse=True)
+        value, error, second, radius = side.images(distinct)
+        return value[which], error[which], second[which], radius[which]
+
+    return side._replace(images=images)
+
+
+def _noded(geometry: Any, size: float) -> Any:
+    """A polygon, or several, with a vertex wherever another vertex of it lies on an edge."""
+    if shapely.get_type_id(geometry) not in (POLYGON, 6):
+        return geometry
+    corners = np.unique(shapely.get_coordinates(geometry), axis=0)
+    points: Any = shapely.points(corners)
+    tree = shapely.STRtree(points)
+
+    def noded(ring: Array) -> Array:
+        edges: Any = shapely.linestrings(np.stack([ring[:-1], ring[1:]], axis=1))
+        edge, corner = tree.query(edges, predicate="dwithin", distance=_ON_EDGE * size)
+        share = shapely.line_locate_point(edges[edge], points[corner])
+        within = (share > 0) & (share < shapely.length(edges[edge]))
+        edge, corner, share = edge[within], corner[within], share[within]
+        order = np.lexsort((share, edge))
+        return np.insert(ring, edge[order] + 1, corners[corner[order]], axis=0)
+
+    polygons: list[Any] = []
+    for part in shapely.get_parts(np.array([geometry])):
+        loops = [
+            noded(shapely.get_coordinates(ring)) for ring in np.atleast_1d(shapely.get_rings(part))
+        ]
+        polygons.append(shapely.Polygon(loops[0], loops[1:]))
+    whole = shapely.get_type_id(geometry) == POLYGON
+    return polygons[0] if whole else shapely.MultiPolygon(polygons)
 
 
 def _checked_tolerance(map: "HarmonicMap", tolerance: Any) -> float:
@@ -303,7 +346,18 @@ def divided(
 
 
 def _listed(given: Any) -> tuple[Array, Callable[[Array], Any]]:
-    """An array of geometries, and what makes the given kind of thing of an array."""
+    """An array of finite geometries, and what makes the given kind of thing of an array."""
+    geometries, rebuilt = _read(given)
+    xy, of = shapely.get_coordinates(geometries, return_index=True)
+    bad = np.flatnonzero(~np.isfinite(xy).all(axis=1))
+    if bad.size:
+        x, y = xy[bad[0]]
+        what = f"geometry {of[bad[0]]} has a corner at ({x:g}, {y:g})"
+        raise TransportError(f"{what}; coordinates must be finite")
+    return geometries, rebuilt
+
+
+def _read(given: Any) -> tuple[Array, Callable[[Array], Any]]:
     if isinstance(given, shapely.Geometry):
         return np.array([given], dtype=object), lambda made: made[0]
     if isinstance(given, Mapping):
@@ -329,11 +383,18 @@ def _listed(given: Any) -> tuple[Array, Callable[[Array], Any]]:
 
 
 def _polygon(ring: Any, number: int) -> Any:
+    wanted = f"polygon {number} must be a (k, 2) array of at least 3 points"
+    if isinstance(ring, np.ma.MaskedArray) and (masked := np.argwhere(ring.mask)).size:
+        raise TransportError(f"point {masked[0][0]} of polygon {number} is masked; leave it out")
     try:
-        return shapely.Polygon(np.asarray(ring, dtype=float).reshape(-1, 2))
-    except (TypeError, ValueError, shapely.errors.ShapelyError) as error:
-        what = f"polygon {number} must be a (k, 2) array of at least 3 points"
-        raise TransportError(f"{what} ({error})") from None
+        corners = np.asarray(ring, dtype=float)
+    except (TypeError, ValueError) as error:
+        raise TransportError(f"{wanted} ({error})") from None
+    if corners.ndim != 2 or corners.shape[1] != 2 or len(corners) < 3:
+        raise TransportError(f"{wanted}; the shape is {corners.shape}")
+    if not np.isfinite(corners).all():
+        raise TransportError(f"polygon {number} has coordinates that are not finite")
+    return shapely.Polygon(corners)
 
 
 def _of_geojson(data: Mapping[str, Any]) -> tuple[Array, Callable[[Array], Any]]:
@@ -344,6 +405,10 @@ def _of_geojson(data: Mapping[str, Any]) -> tuple[Array, Callable[[Array], Any]]
         features = [data]
     else:
         return np.array([_shape(data)], dtype=object), lambda made: _mapping(made[0])
+    for i, one in enumerate(features):
+        if not isinstance(one, Mapping):
+            kind = type(one).__name__
+            raise TransportError(f"feature {i} of the GeoJSON must be a mapping, not {kind}")
     shapes = np.empty(len(features), dtype=object)
     shapes[:] = [_shape(one.get("geometry")) for one in features]
 
@@ -359,8 +424,10 @@ def _of_geojson(data: Mapping[str, Any]) -> tuple[Array, Callable[[Array], Any]]
 def _shape(geometry: Any) -> Any:
     if geometry is None:
         return shapely.Polygon()
+    if not (isinstance(geometry, Mapping) and isinstance(geometry.get("type"), str)):
+        raise TransportError('the GeoJSON is not valid: a geometry is a mapping with a "type"')
     try:
-        return shapely.geometry.shape(geometry)
+        return shapely.geometry.shape(dict(geometry))
     except (TypeError, ValueError, KeyError, AttributeError, shapely.errors.ShapelyError) as error:
         raise TransportError(f"the GeoJSON is not valid: {error}") from None
 
