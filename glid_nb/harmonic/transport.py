@@ -83,10 +83,8 @@ def transport(
     back: bool = False,
 ) -> Transported:
     """See `HarmonicMap.transport`."""
-    if _is_labels(geometry):
-        return _labels(map, geometry, frame, back)
-    if frame is not None:
-        raise TransportError("frame is for label images; geometries are in the map's coordinates")
+    if frame is not None or _is_labels(geometry):
+        return _labels(map, _checked_labels(geometry), frame, back)
     tolerance = _checked_tolerance(map, tolerance)
     listed, rebuilt = _listed(geometry)
     side = _backward(map, tolerance) if back else _forward(map)
@@ -441,7 +439,30 @@ def _mapping(geometry: Any) -> dict[str, Any] | None:
 
 
 def _is_labels(given: Any) -> bool:
-    return isinstance(given, np.ndarray) and given.ndim == 2 and given.dtype.kind in "iub"
+    kind = getattr(getattr(given, "dtype", None), "kind", "")
+    return getattr(given, "ndim", 0) == 2 and kind != "" and kind in "iub"
+
+
+def _checked_labels(given: Any) -> NDArray[Any]:
+    """(h, w) whole numbers of their own type."""
+    if isinstance(given, np.ma.MaskedArray) and np.ma.getmaskarray(given).any():
+        raise TransportError("the label image is masked; fill it, for example with 0")
+    try:
+        labels = np.asarray(given)
+    except ValueError as error:
+        raise TransportError(f"a label image is (h, w) whole numbers: {error}") from None
+    if labels.dtype.kind not in "iub" or labels.ndim != 2 or not labels.size:
+        what = f"{labels.dtype.name} values of the shape {labels.shape}"
+        wanted = "a frame is for a label image, (h, w) whole numbers"
+        hint = "geometries are in the map's coordinates and take none"
+        raise TransportError(f"{wanted}, not {what}; {hint}")
+    return labels
+
+
+def _check_frame(frame: Any) -> None:
+    if not all(hasattr(frame, one) for one in ("width", "height", "to_world", "to_pixel")):
+        wanted = "such as glid_nb.PixelFrame(width, height)"
+        raise TransportError(f"frame must be the place of pixels, {wanted}, not {frame!r:.40}")
 
 
 def _labels(map: "HarmonicMap", labels: NDArray[Any], frame: Any, back: bool) -> Transported:
@@ -450,6 +471,7 @@ def _labels(map: "HarmonicMap", labels: NDArray[Any], frame: Any, back: bool) ->
         raise TransportError(
             "a label image needs its place: give frame=glid_nb.PixelFrame(width, height)"
         )
+    _check_frame(frame)
     height, width = labels.shape
     if (frame.width, frame.height) != (width, height):
         given = f"the labels have {height} rows and {width} columns"
@@ -458,7 +480,8 @@ def _labels(map: "HarmonicMap", labels: NDArray[Any], frame: Any, back: bool) ->
         raise TransportError(
             f"{given}, the frame is {frame.width} wide and {frame.height} high{hint}"
         )
-    result, several = np.zeros_like(labels), np.zeros(labels.shape, dtype=bool)
+    # In the order of rows, which ravel() below relies on.
+    result, several = np.zeros(labels.shape, labels.dtype), np.zeros(labels.shape, dtype=bool)
     centres = frame.to_world(pixel_centres(width, height))
     if back:
         known = map.domain.cage.contains(centres)
@@ -492,7 +515,7 @@ def pixel_centres(width: int, height: int) -> Array:
 
 @dataclass(frozen=True, eq=False)
 class DisplacementField:
-    """A map or its inverse as displacements on a grid.
+    """A map or its inverse as displacements on a grid. `glid_nb.audit` says whether it folds.
 
     Coordinates are pixels of the frame, x right and y down from the picture's top left corner.
     """
@@ -538,7 +561,9 @@ def displacement_field(
     map: "HarmonicMap", frame: Any, shape: Any = None, *, inverse: bool = False
 ) -> DisplacementField:
     """See `HarmonicMap.displacement_field`."""
-    size = (frame.height, frame.width) if shape is None else tuple(shape)
+    _check_frame(frame)
+    listed = (frame.height, frame.width) if shape is None else shape
+    size: tuple[Any, ...] = tuple(listed) if isinstance(listed, list | tuple | np.ndarray) else ()
     whole = len(size) == 2 and not any(unmet(int, one, {"least": 2}) for one in size)
     if not whole:
         raise TransportError(f"shape must be (rows, columns), at least 2 each, not {shape!r:.40}")

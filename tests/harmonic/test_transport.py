@@ -112,6 +112,14 @@ def test_labels_follow_the_picture() -> None:
     assert (made[y, x] == labels[v, u]).mean() > 0.7
     back = map.inverse.transport(made, frame=frame).geometry
     assert (back[v, u] == labels[v, u]).mean() > 0.7
+    assert (map.transport(np.asfortranarray(labels), frame=frame).geometry == made).all()
+    assert (map.transport(labels.tolist(), frame=frame).geometry == made).all()
+    with pytest.raises(TransportError, match="the label image is masked"):
+        map.transport(np.ma.masked_equal(labels, 3), frame=frame)
+    with pytest.raises(TransportError, match="whole numbers, not float64 values"):
+        map.transport(labels / 2, frame=frame)
+    with pytest.raises(TransportError, match="frame must be the place of pixels"):
+        map.transport(labels, frame="here")
     with pytest.raises(TransportError, match="swapped"):
         map.transport(labels, frame=PixelFrame(60, 80))
     with pytest.raises(TransportError, match="needs its place"):
@@ -153,5 +161,9 @@ def test_bad_input_is_named() -> None:
     bow = shapely.Polygon([[0, 0], [2, 2], [2, 0], [0, 2]])
     with pytest.raises(TransportError, match="geometry 0 is not valid"):
         map.transport(bow)
+    with pytest.raises(TransportError, match="frame must be the place of pixels"):
+        map.displacement_field(None)
+    with pytest.raises(TransportError, match="shape must be"):
+        map.displacement_field(PixelFrame(10, 10), 5)
     with pytest.raises(TransportError, match="shape must be"):
         map.displacement_field(PixelFrame(10, 10), (1, 5))
