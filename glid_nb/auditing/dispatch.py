@@ -59,6 +59,9 @@ def audit(
     of_mesh, of_map = (source, triangles), (bounds, second_derivative, jacobian)
     if isinstance(warp, HarmonicMap):
         raise AuditError("a HarmonicMap has a proof of its own; use glid.certify(map)")
+    if isinstance(getattr(warp, "map", None), HarmonicMap):  # an inverse, a transform, a result
+        what = f"this {type(warp).__name__} belongs to a HarmonicMap, which has a proof of its own"
+        raise AuditError(f"{what}; use glid.certify(x.map)")
     if isinstance(warp, MeshMap):
         _refuse("a MeshMap", source=source, triangles=triangles, bounds=bounds)
         mesh = warp.triangulation

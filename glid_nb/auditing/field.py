@@ -25,7 +25,7 @@ def checked_field(value: Any, order: str = "xy") -> Array:
     """(h, w, 2) displacements (dx, dy) of their own type. Raises an AuditError for others."""
     if order not in ("xy", "yx"):
         raise AuditError(f'order must be "xy" for (dx, dy) or "yx" for (dy, dx), not {order!r:.40}')
-    if isinstance(value, np.ma.MaskedArray):
+    if isinstance(value, np.ma.MaskedArray) and np.ma.getmaskarray(value).any():
         raise AuditError("the field is masked; fill in the masked displacements, or cut them off")
     try:
         field = np.asarray(value)

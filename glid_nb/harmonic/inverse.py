@@ -190,13 +190,6 @@ class Inverse:
             index, z, jets = index[order], z[order], jets.at(order)
         return index, z, jets, _proved(w[index], jets)[0]
 
-    def refined(self, points: Any, guesses: Any) -> tuple[Array, Array]:
-        """(k,) complex preimages of (k,) complex points, by Newton's method from guesses, and
-        (k,) bool: whether it found one in the domain."""
-        z, _, found = _newton(self.map, points, guesses)
-        found[found] = self._contains(z[found])
-        return z, found
-
     def _searched(self, w: Array, every: bool) -> tuple[Array, Array, Jets]:
         """Indices of points, their preimages in the domain, and the jets there."""
         which, starts, least = self._overlay.sources(as_points(w), self._overhang)

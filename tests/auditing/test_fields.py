@@ -196,6 +196,10 @@ def test_what_cannot_be_read(field: Any, message: str) -> None:
         glid.audit(field)
 
 
+def test_a_masked_array_without_a_masked_number_is_a_field() -> None:
+    assert glid.audit(np.ma.masked_array(np.zeros((3, 3, 2)))).proved
+
+
 def test_a_nan_of_swapped_components_is_named() -> None:
     with pytest.raises(glid.InputError, match="dx is nan"):
         glid.audit(with_value(np.nan), order="yx")
