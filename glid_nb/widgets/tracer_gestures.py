@@ -22,8 +22,7 @@ _NUDGE, _NUDGE_SHIFT = 1.0, 10.0  # pixels of the picture
 REACH_SHARES = {"in_hole": 0.6, "edge": 0.8}  # the page gets them from here
 """Shares of the reach. It is smaller in a hole, so that the middle of a small hole can be clicked.
 """
-_TOOLS = {"v": "edit", "b": "foreground", "n": "background", "i": "color", "c": "component"}
-_TOOLS |= {"p": "polygon", "r": "rectangle", "k": "knife"}
+_TOOLS = ("edit", "foreground", "background", "color", "component", "polygon", "rectangle", "knife")
 _FREEHAND = 30.0  # CSS pixels; a longer path is drawn freehand, not a click
 _LARGEST_UPLOAD = 64 << 20
 
@@ -73,7 +72,7 @@ class TraceGestures(Gestures):
         actions["set_options"] = lambda e: model.set_options(e.get("gesture"), **e["changes"])
         super().__init__(model, actions)
         self.model = model
-        self.tool = "edit"  # the tool of the left button, one of the values of _TOOLS
+        self.tool = "edit"  # the tool of the left button, one of _TOOLS
         self.corners: tuple[tuple[float, float], ...] = ()  # of an unfinished polygon
         self.inside: list[Any] = []
         """An outline that was drawn inside the shape; the page asks what it should be."""
@@ -257,8 +256,6 @@ class TraceGestures(Gestures):
             self._undo(event)
         elif key == "redo":
             self.model.redo()
-        elif key.lower() in _TOOLS:
-            self.tool, self.corners, self.inside = _TOOLS[key.lower()], (), []
 
     def _nudge(self, event: Event) -> None:
         """Move the selected vertex. Keys in quick succession are one step for undo."""
@@ -281,7 +278,7 @@ class TraceGestures(Gestures):
     # The toolbar and the panel
 
     def _tool(self, event: Event) -> None:
-        if event["name"] not in _TOOLS.values():
+        if event["name"] not in _TOOLS:
             raise TraceError(f"there is no tool {event['name']!r}")
         self.tool, self.corners, self.inside = event["name"], (), []
 

@@ -34,7 +34,7 @@ const COLORS = [
   "check-light",
   "check-dark",
 ];
-const KEYS = /^(Arrow\w+|Delete|Backspace|Escape|Enter|[[\]])$/i;
+const KEYS = /^(Arrow\w+|Delete|Backspace|Escape|Enter|[[\]])$/;
 
 /** @implements {Behaviour} */
 export class Stage {
