@@ -96,6 +96,7 @@ class DeformCanvas(ClosingWidget, ipywidgets.HBox):
         """The model of this view."""
         self._mesh: dict[str, Any] = {"n_vertices": n_vertices, "evaluated_in": evaluated_in}
         self.pane = self._pane(size, interactive=True)
+        self.pane.stage.picture_size = self.image.shape[1::-1]
         self._page_solver = PageSolver(self.pane.stage)
         self.source: Pane | None = None
         self.gestures = BrushGestures(model, self.fit, self.image)

@@ -16,6 +16,7 @@ import { HELP } from "./help_table.js";
 import { Legend } from "./legend.js";
 import { arrowAt, inSight, knobInCorner } from "./marks.js";
 import { Notices } from "./notices.js";
+import { drawAxis, drawNumbers, movedPin } from "./numbers.js";
 import { KEYS, PinBehaviour } from "./pin_behaviour.js";
 import { PoseClipboard } from "./pose_clipboard.js";
 import { resizeGrip } from "./resize_grip.js";
@@ -82,7 +83,8 @@ export class Canvas {
     this.redraw = painter(paper, this.view, signal, (pen) => this.#draw(pen));
     this.link = new Link(model, this.box, signal, () => this.#report());
     this.room = this.interactive ? new Room(this.box, model, signal) : null;
-    this.pad = new Pad(this.box, this.view, this.#listener(signal), new PinBehaviour(this));
+    this.behaviour = new PinBehaviour(this);
+    this.pad = new Pad(this.box, this.view, this.#listener(signal), this.behaviour);
     this.clipboard = new PoseClipboard(this);
     this.corner = this.#makeCorner();
     if (this.interactive) {
@@ -307,6 +309,18 @@ export class Canvas {
   }
 
   /** @param {Pen} pen */
+  #drawNumbers(pen) {
+    const { model, view, pad, marks } = this;
+    const { pressed } = this.behaviour;
+    const drags = pad.mode === "hand" && pad.path.length > 1 && !pad.encloses;
+    const moved = drags && pressed && movedPin(pressed, marks, pad.held, model.get("picture_size"));
+    if (!moved) return;
+    const { start, keys } = pressed;
+    if (start && keys?.axis) drawAxis(pen, view, start, moved.at);
+    drawNumbers(pen, view, moved);
+  }
+
+  /** @param {Pen} pen */
   #draw(pen) {
     const { model, view, pad, marks, brush } = this;
     const { motion } = this.shapes;
@@ -318,6 +332,7 @@ export class Canvas {
     const cursor = pad.focused ? model.get("cursor") : null;
     drawMarks(pen, view, marks, { hovered: pad.found?.mark, held: pad.held, cursor });
     if (brush) drawBrush(pen, view, brush, pad);
+    else this.#drawNumbers(pen);
     if (pad.encloses && pad.path.length > 2) drawLasso(pen, view, pad.path);
   }
 }
