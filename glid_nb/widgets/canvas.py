@@ -40,9 +40,9 @@ class DeformCanvas(ClosingWidget, ipywidgets.HBox):
     """A picture that follows its pins.
 
     A click on the shape adds a pin, and a drag moves its target (cyan). The pinned point (black)
-    follows as far as a certified map allows. Right click, long touch and the Menu key show more
-    actions. The ``?`` on the canvas shows a table of all keys and gestures. The keyboard alone is
-    enough: arrow keys move a cursor, and Enter adds or selects a pin there.
+    follows as far as a certified map allows. Right click, long touch, the Menu key and Shift+F10
+    show more actions. The ``?`` on the canvas shows a table of all keys and gestures. The keyboard
+    alone is enough: arrow keys move a cursor, and Enter adds or selects a pin there.
 
     The image is as in `glid_nb.read_image`. ``deformation`` is the model to show, or the domain of
     a new model. The canvas is ``width`` by ``height`` CSS pixels, at least 100 each; by default 600

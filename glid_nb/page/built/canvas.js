@@ -232,9 +232,9 @@ hypot(x,y),turned,scaled]}function menuRows(does,pin,covered){return[...pin?pinR
 ght","M",does.press("m")],["Select all pins","A",does.press("a")],["The undeformed shape","0",does.press(
 "0")],["See everything","F",does.press("f")],["Paint stiff areas","B",does.press("b")],["The picture\
  alone","P",does.alone],["Full screen","W",does.fullScreen],["All keys","?",does.showKeys]]}function pinRows({
-press},count){const pins=count>1?` ${count} pins`:"";return[["Bring forward","Page Up",press("PageUp")],
-["Send back","Page Down",press("PageDown")],null,[`Remove${pins}`,"Delete",press("Delete")],["Remove\
-, keep the shape","Shift+Delete",press("Delete",true)],["Leave angle and scale free","X",press("x")],
+press},count){const pins=count>1?` ${count} pins`:"";return[[`Remove${pins}`,"Delete",press("Delete")],
+["Remove, keep the shape","Shift+Delete",press("Delete",true)],null,["Bring forward","Page Up",press(
+"PageUp")],["Send back","Page Down",press("PageDown")],["Leave angle and scale free","X",press("x")],
 null]}function shapeRows({pin},covered){return covered?[["Add a pin here","Click",pin],null]:[]}function nearest(things,reach){let best=null;let least=Infinity;for(const thing of things){const far=thing.
 d+(thing.loss??0);if(thing.d>reach||far>=least)continue;best=thing;least=far}return best}var KNOB=6;var KNOB_REACH=4;var RADIUS=42;var LEAST_RADIUS=24;var EDGE=14;var CORNER=[36,112];var ARROW_REACH=12;
 function dial(view,marks,held){const last=marks.selected.at(-1);const[angle,scale]=marks.ring;if(angle===
@@ -294,22 +294,22 @@ pen,[[corner(0,11),corner(2.4,9),corner(-2.4,9)]],TARGET_FILL);strokePath(pen,[[
 function drawCursor(pen,[x,y]){const arm=(dx,dy)=>[[x+4*dx,y+4*dy],[x+13*dx,y+13*dy]];lines(pen,[arm(
 1,0),arm(-1,0),arm(0,1),arm(0,-1)],[[4,PALE],[1.6,WANTED]])}var HELP=[["Pins",[["Click the shape","pin a point"],["Drag a pin, or the shape","move it there; the\
  shape follows, and never folds"],["Shift, Ctrl in a drag","keep it on one axis; on whole pixels of \
-the picture; Shift turns by 15°"],["Right-click, long touch, Menu key","a menu for the pin or the s\
-hape there"],["Delete","remove the selected pins; with Shift keep the shape"],["Ring around a pin; A\
-lt on the pin","turn the shape there; the ring's knob scales it too"],["< >, + -, X","turn, scale; f\
-ree both again"],["Page Down, Page Up, [ ]","send selected pins and their surroundings back, forward"],
-["Arrow keys","nudge selected pins, with Shift farther; else move a cursor"],["Enter","show the curs\
-or; pin or select there"]]],["Selecting",[["Shift-click, A","select several pins, all pins"],["Shift\
- and drag, Ctrl and drag","select the pins in a box, in a lasso"],[", .","select the pin before, the\
- next pin, and bring it into view; so does a click on an arrow at the edge"],["Esc","cancel a drag; \
-select nothing"]]],["Poses",[["Ctrl+Z, Ctrl+Shift+Z","undo, redo"],["Ctrl+C, Ctrl+V","copy the pose,\
- put it on this or a similar shape"],["M","swap left and right"],["0","back to the undeformed shape"]]],
-["Stiff areas",[["B, E","paint stiff areas, erase them; Esc ends painting"]]],["View",[["Wheel, two \
-fingers","zoom"],["Middle button, Space and drag","move the view"],["F","see everything"],["P","the \
-picture alone, for lectures; Esc brings the rest back"],["W","the whole screen"]]],["Timeline",[["K",
-"make a keyframe of what is shown"],["Space","play the motion through the poses, pause; on the canva\
-s too"],["Arrow keys, Home, End","step in time, with Shift to the next pose; first, last pose"],["Al\
-t and arrow keys","move the pose in time; Delete removes it"]]]];var Legend=class{element=make("div",{className:"glid-legend"});show(model,moving){const bars=[model.
+the picture; Shift turns by 15°"],["Right-click, long touch, Shift+F10","a menu for the pin or the \
+shape there"],["Delete","remove the selected pins; with Shift keep the shape"],["Ring around a pin; \
+Alt on the pin","turn the shape there; the ring's knob scales it too"],["< >, + -, X","turn, scale; \
+free both again"],["Page Down, Page Up, [ ]","send selected pins and their surroundings back, forwar\
+d"],["Arrow keys","nudge selected pins, with Shift farther; else move a cursor"],["Enter","show the \
+cursor; pin or select there"]]],["Selecting",[["Shift-click, A","select several pins, all pins"],["S\
+hift and drag, Ctrl and drag","select the pins in a box, in a lasso"],[", .","select the pin before,\
+ the next pin, and bring it into view; so does a click on an arrow at the edge"],["Esc","cancel a dr\
+ag; select nothing"]]],["Poses",[["Ctrl+Z, Ctrl+Shift+Z","undo, redo"],["Ctrl+C, Ctrl+V","copy the p\
+ose, put it on this or a similar shape"],["M","swap left and right"],["0","back to the undeformed sh\
+ape"]]],["Stiff areas",[["B, E","paint stiff areas, erase them; Esc ends painting"]]],["View",[["Whe\
+el, two fingers","zoom"],["Middle button, Space and drag","move the view"],["F","see everything"],["\
+P","the picture alone, for lectures; Esc brings the rest back"],["W","the whole screen"]]],["Timelin\
+e",[["K","make a keyframe of what is shown"],["Space","play the motion through the poses, pause; on \
+the canvas too"],["Arrow keys, Home, End","step in time, with Shift to the next pose; first, last po\
+se"],["Alt and arrow keys","move the pose in time; Delete removes it"]]]];var Legend=class{element=make("div",{className:"glid-legend"});show(model,moving){const bars=[model.
 get("legend"),model.get("panel_legend")].filter(bar=>bar.title);this.element.replaceChildren(...bars.
 map(bar=>colorBar(bar,moving)));this.element.hidden=!bars.length;this.element.dataset.corner=model.get(
 "legend_corner")}};function colorBar({title,moving,colors,ticks,about},moves){const gradient=`backgr\
@@ -667,24 +667,26 @@ pad.behaviour.actions?.[detail];if(act)act();else this.pad.press(detail,{})}#tak
 if(!this.shapes.motion)return;e.stopImmediatePropagation();e.preventDefault();this.#playing.release()};
 const capture=true;this.box.addEventListener("pointerdown",e=>e.button===2&&goBack(e),{capture});const ours=e=>!e.
 ctrlKey&&!e.metaKey&&KEYS.test(keyOf(e));this.box.addEventListener("keydown",e=>ours(e)&&goBack(e),{
-capture});const followArrow=e=>{const target=arrowAt(this.view,this.marks,this.pad.place(e));if(!target||
-e.target!==this.box)return;this.view.centreOn(target);e.stopImmediatePropagation()};this.box.addEventListener(
-"pointerdown",followArrow,{capture})}#makeCorner(){const look="glid-help-button";return make("div",{
-className:"glid-corner"},this.help.button,iconButton("screen","Full screen (W)",()=>this.room?.fullScreen(),
-look),iconButton("rectangle","The picture alone (P)",()=>this.room?.alone(),look))}#report(){const{busy,
-refusal}=this.link;if(this.#presses&&this.link.idle&&this.pad.mode===null){this.#presses=false;this.#playing.
-release()}if(!busy&&refusal&&refusal!==this.model.get("notice"))this.say(refusal)}#viewMoved(){this.#see();
-clearTimeout(this.#saving);this.#saving=setTimeout(()=>{const{x,y,unit}=this.view;save(this.model,{view:[
-x,y,unit]})},SAVE_VIEW_AFTER)}#see(){this.shapes.see();this.redraw()}#drawNumbers(pen){const{model,view,
-pad,marks}=this;const{pressed}=this.behaviour;const drags=pad.mode==="hand"&&pad.path.length>1&&!pad.
-encloses;const moved=drags&&pressed&&movedPin(pressed,marks,pad.held,model.get("picture_size"));if(!moved)
-return;const{start,keys}=pressed;if(start&&keys?.axis)drawAxis(pen,view,start,moved.at);drawNumbers(
-pen,view,moved)}#draw(pen){const{model,view,pad,marks,brush}=this;const{motion}=this.shapes;const through=!motion&&
-knobInCorner(view,marks,pad.held);this.corner.classList.toggle("glid-through",through);if(motion)return;
-drawOnion(pen,view,model.get("onion"));drawStiff(pen,view,model.get("stiff"),this.painting);const cursor=pad.
-focused?model.get("cursor"):null;drawMarks(pen,view,marks,{hovered:pad.found?.mark,held:pad.held,cursor});
-if(brush)drawBrush(pen,view,brush,pad);else this.#drawNumbers(pen);if(pad.encloses&&pad.path.length>
-2)drawLasso(pen,view,pad.path)}};function render(context){const{model,signal}=context;const canvas=new Canvas(context);follow(model,{
+capture});const openedByKeys=e=>{if(e.key!=="F10"||!e.shiftKey)return;e.stopImmediatePropagation();e.
+preventDefault();this.openMenu()};this.box.addEventListener("keydown",openedByKeys,{capture});const followArrow=e=>{
+const target=arrowAt(this.view,this.marks,this.pad.place(e));if(!target||e.target!==this.box)return;
+this.view.centreOn(target);e.stopImmediatePropagation()};this.box.addEventListener("pointerdown",followArrow,
+{capture})}#makeCorner(){const look="glid-help-button";return make("div",{className:"glid-corner"},this.
+help.button,iconButton("screen","Full screen (W)",()=>this.room?.fullScreen(),look),iconButton("rect\
+angle","The picture alone (P)",()=>this.room?.alone(),look))}#report(){const{busy,refusal}=this.link;
+if(this.#presses&&this.link.idle&&this.pad.mode===null){this.#presses=false;this.#playing.release()}
+if(!busy&&refusal&&refusal!==this.model.get("notice"))this.say(refusal)}#viewMoved(){this.#see();clearTimeout(
+this.#saving);this.#saving=setTimeout(()=>{const{x,y,unit}=this.view;save(this.model,{view:[x,y,unit]})},
+SAVE_VIEW_AFTER)}#see(){this.shapes.see();this.redraw()}#drawNumbers(pen){const{model,view,pad,marks}=this;
+const{pressed}=this.behaviour;const drags=pad.mode==="hand"&&pad.path.length>1&&!pad.encloses;const moved=drags&&
+pressed&&movedPin(pressed,marks,pad.held,model.get("picture_size"));if(!moved)return;const{start,keys}=pressed;
+if(start&&keys?.axis)drawAxis(pen,view,start,moved.at);drawNumbers(pen,view,moved)}#draw(pen){const{
+model,view,pad,marks,brush}=this;const{motion}=this.shapes;const through=!motion&&knobInCorner(view,
+marks,pad.held);this.corner.classList.toggle("glid-through",through);if(motion)return;drawOnion(pen,
+view,model.get("onion"));drawStiff(pen,view,model.get("stiff"),this.painting);const cursor=pad.focused?
+model.get("cursor"):null;drawMarks(pen,view,marks,{hovered:pad.found?.mark,held:pad.held,cursor});if(brush)
+drawBrush(pen,view,brush,pad);else this.#drawNumbers(pen);if(pad.encloses&&pad.path.length>2)drawLasso(
+pen,view,pad.path)}};function render(context){const{model,signal}=context;const canvas=new Canvas(context);follow(model,{
 "change:width change:height change:view":()=>canvas.fit(),"change:coefficients":()=>canvas.shapes.lead||
 canvas.shapes.refresh(),"change:solver_script change:solver change:outline":()=>canvas.prepareSolver(),
 "change:rest":()=>canvas.rested(),"change:drawing_time":()=>model.get("drawn")&&!model.get("drawing_\

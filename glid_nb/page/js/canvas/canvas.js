@@ -264,6 +264,13 @@ export class Canvas {
     const ours = (/** @type {KeyboardEvent} */ e) =>
       !e.ctrlKey && !e.metaKey && KEYS.test(keyOf(e));
     this.box.addEventListener("keydown", (e) => ours(e) && goBack(e), { capture });
+    const openedByKeys = (/** @type {KeyboardEvent} */ e) => {
+      if (e.key !== "F10" || !e.shiftKey) return; // a keyboard without a menu key
+      e.stopImmediatePropagation();
+      e.preventDefault();
+      this.openMenu();
+    };
+    this.box.addEventListener("keydown", openedByKeys, { capture });
     const followArrow = (/** @type {PointerEvent} */ e) => {
       const target = arrowAt(this.view, this.marks, this.pad.place(e));
       if (!target || e.target !== this.box) return;

@@ -13,7 +13,7 @@ export const HELP = [
         "Shift, Ctrl in a drag",
         "keep it on one axis; on whole pixels of the picture; Shift turns by 15°",
       ],
-      ["Right-click, long touch, Menu key", "a menu for the pin or the shape there"],
+      ["Right-click, long touch, Shift+F10", "a menu for the pin or the shape there"],
       ["Delete", "remove the selected pins; with Shift keep the shape"],
       ["Ring around a pin; Alt on the pin", "turn the shape there; the ring's knob scales it too"],
       ["< >, + -, X", "turn, scale; free both again"],
