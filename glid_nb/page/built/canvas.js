@@ -308,8 +308,9 @@ ape"]]],["Stiff areas",[["B, E","paint stiff areas, erase them; Esc ends paintin
 el, two fingers","zoom"],["Middle button, Space and drag","move the view"],["F","see everything"],["\
 P","the picture alone, for lectures; Esc brings the rest back"],["W","the whole screen"]]],["Timelin\
 e",[["K","make a keyframe of what is shown"],["Space","play the motion through the poses, pause; on \
-the canvas too"],["Arrow keys, Home, End","step in time, with Shift to the next pose; first, last po\
-se"],["Alt and arrow keys","move the pose in time; Delete removes it"]]]];var Legend=class{element=make("div",{className:"glid-legend"});show(model,moving){const bars=[model.
+the canvas too"],["Arrow keys, Home, End","step a frame, with Shift to the next pose; first, last po\
+se"],["Ctrl and wheel","zoom the timeline; then the wheel alone moves along it"],["Double click a po\
+se, F2","type its name"],["Alt and arrow keys","move the pose in time; Delete removes it"]]]];var Legend=class{element=make("div",{className:"glid-legend"});show(model,moving){const bars=[model.
 get("legend"),model.get("panel_legend")].filter(bar=>bar.title);this.element.replaceChildren(...bars.
 map(bar=>colorBar(bar,moving)));this.element.hidden=!bars.length;this.element.dataset.corner=model.get(
 "legend_corner")}};function colorBar({title,moving,colors,ticks,about},moves){const gradient=`backgr\

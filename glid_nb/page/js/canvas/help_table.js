@@ -60,7 +60,9 @@ export const HELP = [
     [
       ["K", "make a keyframe of what is shown"],
       ["Space", "play the motion through the poses, pause; on the canvas too"],
-      ["Arrow keys, Home, End", "step in time, with Shift to the next pose; first, last pose"],
+      ["Arrow keys, Home, End", "step a frame, with Shift to the next pose; first, last pose"],
+      ["Ctrl and wheel", "zoom the timeline; then the wheel alone moves along it"],
+      ["Double click a pose, F2", "type its name"],
       ["Alt and arrow keys", "move the pose in time; Delete removes it"],
     ],
   ],
