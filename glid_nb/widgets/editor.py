@@ -422,7 +422,7 @@ class Editor(ClosingWidget, ipywidgets.VBox):
                     self._boxes[name].children = [ipywidgets.HTML(what)]
                     raise
                 self._boxes[name].children = [part]
-                if name == "files":
+                if isinstance(part, FilePanel) and part.motion is not None:
                     ipywidgets.dlink((part.motion.rate, "value"), (self.timeline, "rate"))
             return self._parts[name]
 

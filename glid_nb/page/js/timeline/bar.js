@@ -60,9 +60,14 @@ export class Bar {
       { className: "glid-bar", role: "toolbar", "aria-label": "Motion" },
       ...[this.play, this.repeat, this.clock, gap()],
       ...[this.record, this.onion, gap()],
-      ...[this.keep, copy, this.remove, gap(), this.save, gap()],
-      iconButton("minus", "See more of the timeline (Ctrl and wheel)", () => zoom(1 / STEP)),
-      iconButton("plus", "See less of the timeline, larger (Ctrl and wheel)", () => zoom(STEP)),
+      ...[this.keep, copy, this.remove, gap(), this.save],
+      make(
+        "span",
+        { className: "glid-zoom" },
+        gap(),
+        iconButton("minus", "See more of the timeline (Ctrl and wheel)", () => zoom(1 / STEP)),
+        iconButton("plus", "See less of the timeline, larger (Ctrl and wheel)", () => zoom(STEP)),
+      ),
     );
   }
 
