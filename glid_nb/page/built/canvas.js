@@ -105,8 +105,8 @@ offsetWidth||1;return{across,down:height/element.offsetHeight||across}}function 
 clientY}){const{left,top}=element.getBoundingClientRect();const{across,down}=scaleOf(element);return[
 (clientX-left)/across,(clientY-top)/down]}var WHEEL_SPEED=.0015;var WHEEL_LINE=33;var LINES=1;var PINCH=5;function distance([x,y],[u,v]){return Math.
 hypot(x-u,y-v)}var View=class{x=0;y=0;unit=1;width=0;height=0;constructor(changed,{up=1,nearest:nearest2,
-farthest}){this.changed=changed;this.up=up;this.nearest=nearest2;this.farthest=farthest}toWorld([px,
-py]){const x=this.x+(px-this.width/2)*this.unit;const y=this.y-this.up*(py-this.height/2)*this.unit;
+farthest:farthest2}){this.changed=changed;this.up=up;this.nearest=nearest2;this.farthest=farthest2}toWorld([
+px,py]){const x=this.x+(px-this.width/2)*this.unit;const y=this.y-this.up*(py-this.height/2)*this.unit;
 return[x,y]}toScreen([x,y]){const px=(x-this.x)/this.unit+this.width/2;const py=this.up*(this.y-y)/this.
 unit+this.height/2;return[px,py]}line(points){return points.map(point=>this.toScreen(point))}centreOn([
 x,y]){this.x=x;this.y=y;this.changed()}pan(dx,dy){this.x-=dx*this.unit;this.y+=this.up*dy*this.unit;
@@ -236,7 +236,13 @@ press},count){const pins=count>1?` ${count} pins`:"";return[[`Remove${pins}`,"De
 ["Remove, keep the shape","Shift+Delete",press("Delete",true)],null,["Bring forward","Page Up",press(
 "PageUp")],["Send back","Page Down",press("PageDown")],["Leave angle and scale free","X",press("x")],
 null]}function shapeRows({pin},covered){return covered?[["Add a pin here","Click",pin],null]:[]}function nearest(things,reach){let best=null;let least=Infinity;for(const thing of things){const far=thing.
-d+(thing.loss??0);if(thing.d>reach||far>=least)continue;best=thing;least=far}return best}var KNOB=6;var KNOB_REACH=4;var RADIUS=42;var LEAST_RADIUS=24;var EDGE=14;var CORNER=[36,112];var ARROW_REACH=12;
+d+(thing.loss??0);if(thing.d>reach||far>=least)continue;best=thing;least=far}return best}function nearestEdge(loops,point,reach){const edges=loops.flatMap(loop=>loop.map((start,j)=>{const foot=footOn(
+start,loop[(j+1)%loop.length],point);return{foot,d:distance(foot,point)}}));return nearest(edges,reach)}
+function footOn(start,end,point){const along=[end[0]-start[0],end[1]-start[1]];const dot=(point[0]-start[0])*
+along[0]+(point[1]-start[1])*along[1];const share=Math.min(Math.max(dot/(distance(start,end)**2||1e-30),
+0),1);return[start[0]+share*along[0],start[1]+share*along[1]]}function encloses(loop,[x,y]){let winding=0;loop.forEach(([x0,y0],i)=>{const[x1,y1]=loop[(i+1)%loop.
+length];const left=(x1-x0)*(y-y0)-(x-x0)*(y1-y0);if(y0<=y&&y1>y&&left>0)winding+=1;if(y0>y&&y1<=y&&left<
+0)winding-=1});return winding!==0}var KNOB=6;var KNOB_REACH=4;var RADIUS=42;var LEAST_RADIUS=24;var EDGE=14;var CORNER=[36,112];var ARROW_REACH=12;
 function dial(view,marks,held){const last=marks.selected.at(-1);const[angle,scale]=marks.ring;if(angle===
 void 0||scale===void 0)return null;if(last===void 0||!marks.targets[last])return null;const centre=view.
 toScreen(held?.get(last)??marks.targets[last]);const radius=RADIUS*Math.min(2.5,Math.max(.5,scale));
@@ -292,7 +298,24 @@ x,y]=knob;const color=turned?WANTED:FREE;circle(pen,centre,radius,[[4,BORDER]]);
 const corner=(turn,radius)=>[at[0]+radius*Math.cos(angle+turn),at[1]+radius*Math.sin(angle+turn)];fillPath(
 pen,[[corner(0,11),corner(2.4,9),corner(-2.4,9)]],TARGET_FILL);strokePath(pen,[[1.6,TARGET_EDGE]])}}
 function drawCursor(pen,[x,y]){const arm=(dx,dy)=>[[x+4*dx,y+4*dy],[x+13*dx,y+13*dy]];lines(pen,[arm(
-1,0),arm(-1,0),arm(0,1),arm(0,-1)],[[4,PALE],[1.6,WANTED]])}var HELP=[["Pins",[["Click the shape","pin a point"],["Drag a pin, or the shape","move it there; the\
+1,0),arm(-1,0),arm(0,1),arm(0,-1)],[[4,PALE],[1.6,WANTED]])}var COUNT=3;var GRID=24;var CLEARANCE=.4;var USED="glid-nb-pinned";var RADIUS2=8;function ghostPins({
+cage,holes}){const loops=[cage,...holes];const inside=gridOver(cage).filter(point=>encloses(cage,point)&&
+!holes.some(hole=>encloses(hole,point)));const clear=inside.map(point=>nearestEdge(loops,point,Infinity)?.
+d??0);const least=CLEARANCE*Math.max(...clear);const free=inside.filter((_,i)=>clear[i]>=least);if(!free.
+length)return[];const[first]=farthest(free,[middleOf(free)]);const places=farthest(free,[first]);while(places.
+length<COUNT-1)places.push(...farthest(free,[first,...places]));return[first,...places]}function gridOver(loop){
+const xs=loop.map(([x])=>x);const ys=loop.map(([,y])=>y);const along=(values,i)=>{const[low,high]=[Math.
+min(...values),Math.max(...values)];return low+(i+.5)/GRID*(high-low)};return Array.from({length:GRID*
+GRID},(_,i)=>[along(xs,i%GRID),along(ys,Math.floor(i/GRID))])}function middleOf(points){const sum=points.
+reduce(([u,v],[x,y])=>[u+x,v+y],[0,0]);return[sum[0]/points.length,sum[1]/points.length]}function farthest(points,others){
+const apart=point=>Math.min(...others.map(other=>distance(point,other)));return[points.reduce((best,point)=>apart(
+point)>apart(best)?point:best)]}var Ghosts=class{#outline=null;#places=[];draw(pen,view,outline,pinned){
+if(pinned)remember();if(pinned||!outline||remembered())return;if(outline!==this.#outline){this.#outline=
+outline;this.#places=ghostPins(outline)}pen.globalAlpha=.6;for(const place of view.line(this.#places)){
+disk(pen,place,RADIUS2,"rgba(255,255,255,0.75)");const ring=[[2,"#067a82"]];circle(pen,place,RADIUS2,
+ring,[4,2.3]);disk(pen,place,2.5,"#067a82")}pen.globalAlpha=1}};var used=false;function remembered(){
+try{return used||sessionStorage.getItem(USED)!==null}catch{return used}}function remember(){if(used)
+return;used=true;try{sessionStorage.setItem(USED,"1")}catch{}}var HELP=[["Pins",[["Click the shape","pin a point"],["Drag a pin, or the shape","move it there; the\
  shape follows, and never folds"],["Shift, Ctrl in a drag","keep it on one axis; on whole pixels of \
 the picture; Shift turns by 15°"],["Right-click, long touch, Shift+F10","a menu for the pin or the \
 shape there"],["Delete","remove the selected pins; with Shift keep the shape"],["Ring around a pin; \
@@ -306,11 +329,12 @@ ag; select nothing"]]],["Poses",[["Ctrl+Z, Ctrl+Shift+Z","undo, redo"],["Ctrl+C,
 ose, put it on this or a similar shape"],["M","swap left and right"],["0","back to the undeformed sh\
 ape"]]],["Stiff areas",[["B, E","paint stiff areas, erase them; Esc ends painting"]]],["View",[["Whe\
 el, two fingers","zoom"],["Middle button, Space and drag","move the view"],["F","see everything"],["\
-P","the picture alone, for lectures; Esc brings the rest back"],["W","the whole screen"]]],["Timelin\
-e",[["K","make a keyframe of what is shown"],["Space","play the motion through the poses, pause; on \
-the canvas too"],["Arrow keys, Home, End","step a frame, with Shift to the next pose; first, last po\
-se"],["Ctrl and wheel","zoom the timeline; then the wheel alone moves along it"],["Double click a po\
-se, F2","type its name"],["Alt and arrow keys","move the pose in time; Delete removes it"]]]];var Legend=class{element=make("div",{className:"glid-legend"});show(model,moving){const bars=[model.
+P","the picture alone, for lectures; Esc brings the rest back"],["W","the whole screen, without the \
+inspector"],["I","hide the inspector, show it again"]]],["Timeline",[["K","make a keyframe of what i\
+s shown"],["Space","play the motion through the poses, pause; on the canvas too"],["Arrow keys, Home\
+, End","step a frame, with Shift to the next pose; first, last pose"],["Ctrl and wheel","zoom the ti\
+meline; then the wheel alone moves along it"],["Double click a pose, F2","type its name"],["Alt and \
+arrow keys","move the pose in time; Delete removes it"]]]];var Legend=class{element=make("div",{className:"glid-legend"});show(model,moving){const bars=[model.
 get("legend"),model.get("panel_legend")].filter(bar=>bar.title);this.element.replaceChildren(...bars.
 map(bar=>colorBar(bar,moving)));this.element.hidden=!bars.length;this.element.dataset.corner=model.get(
 "legend_corner")}};function colorBar({title,moving,colors,ticks,about},moves){const gradient=`backgr\
@@ -352,25 +376,25 @@ ects several";var IMAGE_TIP="where the shape is now. The cyan disk is where it s
 . Another part of the shape covers it";var RING_TIPS={turn:"Drag around the pin to turn the shape th\
 ere; X frees it again",knob:"Drag around the pin to turn the shape there, away from it to scale it; \
 X frees it again"};var PinBehaviour=class{reach=REACH;keys=KEYS;pressed=null;constructor(canvas){this.
-canvas=canvas;this.actions={"?":canvas.help.toggle,contextmenu:()=>canvas.openMenu(),k:()=>void canvas.
-box.dispatchEvent(new CustomEvent("glid:key",{bubbles:true})),p:()=>canvas.room?.alone(),w:()=>canvas.
-room?.fullScreen()}}get painting(){return this.canvas.painting}changed(){this.canvas.followHand();this.
-canvas.redraw()}menu(place,found){this.canvas.openMenu(place,found)}pressedAt(){return this.canvas.pressedAt()}tapped(){
-this.canvas.box.dispatchEvent(new CustomEvent("glid:play",{bubbles:true}))}find(point,reach){const{view,
-marks,shapes,painting}=this.canvas;if(shapes.motion||painting)return null;const mark=markAt(marks,point,
-reach);return mark??ringAt(view,marks,view.toScreen(point),reach/view.unit/2)}encloses(found,e){const start=this.
-canvas.pad.grip?.points.get(found?.mark??"");this.pressed={found,start,pins:this.canvas.marks.targets.
-length};if(found)return null;if(e.shiftKey)return"box";return e.ctrlKey||e.metaKey?"lasso":null}held({
-mark}){const{selected,targets}=this.canvas.marks;const pressed=Number(mark);const moved=selected.includes(
-pressed)?selected:[pressed];return new Map(moved.map(i=>[i,targets[i]]))}constrain(point,e){const{model,
-pad}=this.canvas;const{pressed}=this;const[from]=pad.path;if(!pressed||!from||pressed.found?.part||pad.
-encloses||e.altKey)return point;pressed.keys={axis:e.shiftKey,whole:e.ctrlKey||e.metaKey};pressed.start??=
-from;const[x,y]=pressed.start;const free=[x+point[0]-from[0],y+point[1]-from[1]];const[u,v]=constrained(
-[x,y],free,pressed.keys,model.get("picture_size"));return[u-x+from[0],v-y+from[1]]}cursor(found){this.
-canvas.box.title=this.#tip(found);return found?"grab":"crosshair"}#tip(found){if(!found)return"";if(found.
-part)return RING_TIPS[found.part];const{marks,model}=this.canvas;const mark=Number(found.mark);const name=[
-"Pin",mark+1,model.get("names")[mark]].join(" ").trim();const tip=found.reached?IMAGE_TIP:TARGET_TIP;
-return`${name}: ${tip}${marks.hidden.includes(mark)?COVERED:""}`}};async function copied(text){try{await navigator.clipboard.writeText(text);return true}catch{return copiedBySelection(
+canvas=canvas;this.actions={"?":canvas.help.toggle,contextmenu:()=>canvas.openMenu(),i:()=>canvas.room?.
+toggleInspector(),k:()=>void canvas.box.dispatchEvent(new CustomEvent("glid:key",{bubbles:true})),p:()=>canvas.
+room?.alone(),w:()=>canvas.room?.fullScreen()}}get painting(){return this.canvas.painting}changed(){
+this.canvas.followHand();this.canvas.redraw()}menu(place,found){this.canvas.openMenu(place,found)}pressedAt(){
+return this.canvas.pressedAt()}tapped(){this.canvas.box.dispatchEvent(new CustomEvent("glid:play",{bubbles:true}))}find(point,reach){
+const{view,marks,shapes,painting}=this.canvas;if(shapes.motion||painting)return null;const mark=markAt(
+marks,point,reach);return mark??ringAt(view,marks,view.toScreen(point),reach/view.unit/2)}encloses(found,e){
+const start=this.canvas.pad.grip?.points.get(found?.mark??"");this.pressed={found,start,pins:this.canvas.
+marks.targets.length};if(found)return null;if(e.shiftKey)return"box";return e.ctrlKey||e.metaKey?"la\
+sso":null}held({mark}){const{selected,targets}=this.canvas.marks;const pressed=Number(mark);const moved=selected.
+includes(pressed)?selected:[pressed];return new Map(moved.map(i=>[i,targets[i]]))}constrain(point,e){
+const{model,pad}=this.canvas;const{pressed}=this;const[from]=pad.path;if(!pressed||!from||pressed.found?.
+part||pad.encloses||e.altKey)return point;pressed.keys={axis:e.shiftKey,whole:e.ctrlKey||e.metaKey};
+pressed.start??=from;const[x,y]=pressed.start;const free=[x+point[0]-from[0],y+point[1]-from[1]];const[
+u,v]=constrained([x,y],free,pressed.keys,model.get("picture_size"));return[u-x+from[0],v-y+from[1]]}cursor(found){
+this.canvas.box.title=this.#tip(found);return found?"grab":"crosshair"}#tip(found){if(!found)return"";
+if(found.part)return RING_TIPS[found.part];const{marks,model}=this.canvas;const mark=Number(found.mark);
+const name=["Pin",mark+1,model.get("names")[mark]].join(" ").trim();const tip=found.reached?IMAGE_TIP:
+TARGET_TIP;return`${name}: ${tip}${marks.hidden.includes(mark)?COVERED:""}`}};async function copied(text){try{await navigator.clipboard.writeText(text);return true}catch{return copiedBySelection(
 text)}}function copiedBySelection(text){const focused=document.activeElement;const area=document.createElement(
 "textarea");area.value=text;area.setAttribute("readonly","");Object.assign(area.style,{position:"fix\
 ed",top:"0",left:"0",opacity:"0"});document.body.append(area);area.select();try{return document.execCommand(
@@ -405,17 +429,21 @@ var NARROW=600;var Room=class{#root=null;#last={width:0,height:0,alone:0};#decid
 this.pad=pad;this.model=model;this.signal=signal;this.observer=new ResizeObserver(()=>this.#measureSoon());
 this.observer.observe(pad);window.addEventListener("resize",()=>this.#measureSoon(),{signal});window.
 addEventListener("keydown",e=>this.#escape(e),{signal,capture:true});model.on("change:room",()=>{if(String(
-model.get("room"))!==this.#told)this.#decides=false});const left=()=>{if(!document.fullscreenElement)
-this.alone(false)};document.addEventListener("fullscreenchange",left,{signal});signal.addEventListener(
-"abort",()=>{clearTimeout(this.#timer);this.observer.disconnect()})}alone(on=!this.#last.alone){const root=this.#root;
-if(!root||!on&&!this.#last.alone){this.#measureSoon();return}root.classList.toggle("glid-alone",on);
-this.#decides=true;this.#measure();root.scrollIntoView({block:on?"start":"nearest"});this.pad.focus(
-{preventScroll:true});if(!on&&document.fullscreenElement)document.exitFullscreen()}fullScreen(){if(document.
-fullscreenElement){document.exitFullscreen();return}this.#root?.requestFullscreen().catch(error=>{save(
-this.model,{notice:`Full screen is not possible here: ${error.message}`})})}#escape(e){if(e.key!=="E\
-scape"||!this.#last.alone)return;if(this.pad.matches(":active, :has(.glid-menu, :popover-open)"))return;
-e.stopPropagation();this.alone(false)}#measureSoon(){clearTimeout(this.#timer);this.#timer=setTimeout(
-()=>this.#measure(),SETTLE)}#measure(){const root=this.pad.closest(".glid-editor");const shell=this.
+model.get("room"))!==this.#told)this.#decides=false});const left=()=>{const full=document.fullscreenElement;
+if(!full)this.alone(false);if(!full||full===this.#root)this.toggleInspector(Boolean(full))};document.
+addEventListener("fullscreenchange",left,{signal});signal.addEventListener("abort",()=>{clearTimeout(
+this.#timer);this.observer.disconnect()})}alone(on=!this.#last.alone){const root=this.#root;if(!root||
+!on&&!this.#last.alone){this.#measureSoon();return}root.classList.toggle("glid-alone",on);this.#decides=
+true;this.#measure();root.scrollIntoView({block:on?"start":"nearest"});this.pad.focus({preventScroll:true});
+if(!on&&document.fullscreenElement)document.exitFullscreen()}fullScreen(){if(document.fullscreenElement){
+document.exitFullscreen();return}this.#root?.requestFullscreen().catch(error=>{save(this.model,{notice:`\
+Full screen is not possible here: ${error.message}`})})}toggleInspector(away){const root=this.#root;
+if(!root||root.classList.contains("glid-side-away")===away)return;const focused=root.querySelector("\
+.glid-side")?.contains(document.activeElement);const hidden=root.classList.toggle("glid-side-away",away);
+if(hidden&&focused)this.pad.focus({preventScroll:true});this.#decides=true;this.#measureSoon()}#escape(e){
+if(e.key!=="Escape"||!this.#last.alone)return;if(this.pad.matches(":active, :has(.glid-menu, :popove\
+r-open)"))return;e.stopPropagation();this.alone(false)}#measureSoon(){clearTimeout(this.#timer);this.#timer=
+setTimeout(()=>this.#measure(),SETTLE)}#measure(){const root=this.pad.closest(".glid-editor");const shell=this.
 pad.closest(".glid-shell");if(!root||!shell?.clientWidth)return;root.classList.toggle("glid-narrow",
 root.clientWidth<NARROW);const room=this.#roomIn(root,shell);if(!this.#root)this.#begin(root,shell,room);
 this.#room=room;this.shrink();if(!this.#decides)return;const last=this.#last;const wider=room.width-
@@ -424,7 +452,8 @@ return;this.#last=room;const numbers=[room.width,room.height,room.alone].map(Mat
 String(numbers);save(this.model,{room:numbers})}#begin(root,shell,room){this.#root=root;this.observer.
 observe(root);this.observer.observe(shell);const plots=shell.querySelector(".glid-plots-box");if(plots)
 this.observer.observe(plots);nameControls(root,this.signal);const[width=0]=this.model.get("room");this.#decides=
-room.width>width;root.addEventListener("pointerup",()=>this.#decide(),{signal:this.signal})}#decide(){
+room.width>width;root.addEventListener("pointerup",()=>this.#decide(),{signal:this.signal});const inspected=()=>this.
+toggleInspector(false);root.addEventListener("glid:inspect",inspected,{signal:this.signal})}#decide(){
 if(this.#decides)return;this.#decides=true;this.#last={width:0,height:0,alone:0};this.#measureSoon()}shrink(){
 const whole=this.pad.closest(".glid-deform");if(!whole||!this.#room)return;const panes=whole.querySelectorAll(
 ".glid-pane");const widths=[...panes].map(pane=>Number.parseFloat(pane.style.width)||0);const share=this.#room.
@@ -625,16 +654,16 @@ now();shapes.refresh();const moved=performance.now()-moving;await new Promise(go
 go));const canvas=drawnBelow(pad);const gl=canvas?.getContext("webgl")||canvas?.getContext("webgl2");
 if(!gl)continue;const start=performance.now();gl.readPixels(0,0,1,1,gl.RGBA,gl.UNSIGNED_BYTE,new Uint8Array(
 4));times.push(moved+performance.now()-start)}return times.length>1?Math.min(...times.slice(1)):0}var SAVE_VIEW_AFTER=250;var STILL={release(){},pause:()=>void 0};var Canvas=class{legend=new Legend;notices=new Notices;help=help(
-HELP);#chosen;#saving;#playing=STILL;#painted=false;#presses=false;constructor({model,el,signal}){this.
-model=model;this.interactive=model.get("interactive");const paper=make("canvas",{className:"glid-pap\
-er"});this.box=make("div",{className:"glid-pad",role:"application","aria-label":"Deformation canvas:\
- arrow keys move, Enter pins a point",inert:!this.interactive},paper,this.legend.element,this.notices.
-notice,this.notices.prepared);this.box.dataset.lmSuppressShortcuts="true";el.classList.add("glid-hos\
-t","glid-pad-host");el.append(this.box);this.view=new View(()=>this.#viewMoved(),{nearest:1e-4,farthest:1});
-this.shapes=new Shapes(model,this.view);this.shapes.led=()=>this.redraw();this.ahead=new Ahead(model,
-lead=>this.shapes.showLead(lead));this.redraw=painter(paper,this.view,signal,pen=>this.#draw(pen));this.
-link=new Link(model,this.box,signal,()=>this.#report());this.room=this.interactive?new Room(this.box,
-model,signal):null;this.behaviour=new PinBehaviour(this);this.pad=new Pad(this.box,this.view,this.#listener(
+HELP);ghosts=new Ghosts;#chosen;#saving;#playing=STILL;#painted=false;#presses=false;constructor({model,
+el,signal}){this.model=model;this.interactive=model.get("interactive");const paper=make("canvas",{className:"\
+glid-paper"});this.box=make("div",{className:"glid-pad",role:"application","aria-label":"Deformation\
+ canvas: arrow keys move, Enter pins a point",inert:!this.interactive},paper,this.legend.element,this.
+notices.notice,this.notices.prepared);this.box.dataset.lmSuppressShortcuts="true";el.classList.add("\
+glid-host","glid-pad-host");el.append(this.box);this.view=new View(()=>this.#viewMoved(),{nearest:1e-4,
+farthest:1});this.shapes=new Shapes(model,this.view);this.shapes.led=()=>this.redraw();this.ahead=new Ahead(
+model,lead=>this.shapes.showLead(lead));this.redraw=painter(paper,this.view,signal,pen=>this.#draw(pen));
+this.link=new Link(model,this.box,signal,()=>this.#report());this.room=this.interactive?new Room(this.
+box,model,signal):null;this.behaviour=new PinBehaviour(this);this.pad=new Pad(this.box,this.view,this.#listener(
 signal),this.behaviour);this.clipboard=new PoseClipboard(this);this.corner=this.#makeCorner();if(this.
 interactive){this.box.append(shield(this.corner),this.help.table,resizeGrip(model));keysAround(this.
 box,e=>this.pad.keydown(e),signal);this.box.addEventListener("glid:press",e=>this.#pressed(e))}this.#takeFirst()}close(){
@@ -684,10 +713,11 @@ pressed&&movedPin(pressed,marks,pad.held,model.get("picture_size"));if(!moved)re
 if(start&&keys?.axis)drawAxis(pen,view,start,moved.at);drawNumbers(pen,view,moved)}#draw(pen){const{
 model,view,pad,marks,brush}=this;const{motion}=this.shapes;const through=!motion&&knobInCorner(view,
 marks,pad.held);this.corner.classList.toggle("glid-through",through);if(motion)return;drawOnion(pen,
-view,model.get("onion"));drawStiff(pen,view,model.get("stiff"),this.painting);const cursor=pad.focused?
-model.get("cursor"):null;drawMarks(pen,view,marks,{hovered:pad.found?.mark,held:pad.held,cursor});if(brush)
-drawBrush(pen,view,brush,pad);else this.#drawNumbers(pen);if(pad.encloses&&pad.path.length>2)drawLasso(
-pen,view,pad.path)}};function render(context){const{model,signal}=context;const canvas=new Canvas(context);follow(model,{
+view,model.get("onion"));drawStiff(pen,view,model.get("stiff"),this.painting);if(this.interactive&&!this.
+painting){this.ghosts.draw(pen,view,model.get("outline").outline,marks.targets.length>0)}const cursor=pad.
+focused?model.get("cursor"):null;drawMarks(pen,view,marks,{hovered:pad.found?.mark,held:pad.held,cursor});
+if(brush)drawBrush(pen,view,brush,pad);else this.#drawNumbers(pen);if(pad.encloses&&pad.path.length>
+2)drawLasso(pen,view,pad.path)}};function render(context){const{model,signal}=context;const canvas=new Canvas(context);follow(model,{
 "change:width change:height change:view":()=>canvas.fit(),"change:coefficients":()=>canvas.shapes.lead||
 canvas.shapes.refresh(),"change:solver_script change:solver change:outline":()=>canvas.prepareSolver(),
 "change:rest":()=>canvas.rested(),"change:drawing_time":()=>model.get("drawn")&&!model.get("drawing_\

@@ -87,21 +87,22 @@ drag as keyframes",()=>act("record",{on:!this.recording}));this.onion=iconButton
 "onion",{on:!this.onionOn}));this.keep=make("button",{className:"glid-keep",title:KEY,onclick:keep},
 "Key");const copy=iconButton("copy","Duplicate this pose",()=>edit("duplicate_pose"));this.remove=iconButton(
 "trash","Delete this pose (Delete)",()=>edit("delete_pose"));this.save=iconButton("export","Export t\
-he motion",()=>act("export"));this.element=make("div",{className:"glid-bar",role:"toolbar","aria-lab\
-el":"Motion"},...[this.play,this.repeat,this.clock,gap()],...[this.record,this.onion,gap()],...[this.
-keep,copy,this.remove,gap(),this.save],make("span",{className:"glid-zoom"},gap(),iconButton("minus",
-"See more of the timeline (Ctrl and wheel)",()=>zoom(1/STEP)),iconButton("plus","See less of the tim\
-eline, larger (Ctrl and wheel)",()=>zoom(STEP))))}update({keyframes,repeat,recording,onion,exports}){
-const alone=keyframes.length<2;this.repeat.value=repeat;this.remove.disabled=alone;for(const control of[
-this.play,this.save,this.repeat]){control.disabled=alone}this.save.hidden=!exports;this.recording=recording;
-this.onionOn=onion;this.record.ariaPressed=String(recording);this.onion.ariaPressed=String(onion)}showTime(place,end,playing){
-const does=playing?"pause":"play";if(this.play.dataset.does!==does)this.play.innerHTML=icon(does);this.
-play.dataset.does=does;this.clock.textContent=`${place.toFixed(2)} / ${seconds(end)}`}};function legend(){
-const parts=LEGEND.map(([kind,label])=>{return make("span",{},make("i",{className:"glid-swatch","dat\
-a-kind":kind}),label)});return make("div",{className:"glid-proof-legend","aria-hidden":true},...parts)}
-function gap(){return make("span",{className:"glid-gap"})}function menu(label,choices,act){const options=choices.
-map(([value,text])=>new Option(text,value));const select=make("select",{"aria-label":label,title:label},
-...options);select.addEventListener("change",()=>act(select.value));return select}var Player=class{clock=null;time=0;seen=false;only=0;later=null;#intervals=[];#frame=0;constructor(show,moved,ended=()=>{}){
+he motion",()=>{this.save.dispatchEvent(new CustomEvent("glid:inspect",{bubbles:true}));act("export")});
+this.element=make("div",{className:"glid-bar",role:"toolbar","aria-label":"Motion"},...[this.play,this.
+repeat,this.clock,gap()],...[this.record,this.onion,gap()],...[this.keep,copy,this.remove,gap(),this.
+save],make("span",{className:"glid-zoom"},gap(),iconButton("minus","See more of the timeline (Ctrl a\
+nd wheel)",()=>zoom(1/STEP)),iconButton("plus","See less of the timeline, larger (Ctrl and wheel)",()=>zoom(
+STEP))))}update({keyframes,repeat,recording,onion,exports}){const alone=keyframes.length<2;this.repeat.
+value=repeat;this.remove.disabled=alone;for(const control of[this.play,this.save,this.repeat]){control.
+disabled=alone}this.save.hidden=!exports;this.recording=recording;this.onionOn=onion;this.record.ariaPressed=
+String(recording);this.onion.ariaPressed=String(onion)}showTime(place,end,playing){const does=playing?
+"pause":"play";if(this.play.dataset.does!==does)this.play.innerHTML=icon(does);this.play.dataset.does=
+does;this.clock.textContent=`${place.toFixed(2)} / ${seconds(end)}`}};function legend(){const parts=LEGEND.
+map(([kind,label])=>{return make("span",{},make("i",{className:"glid-swatch","data-kind":kind}),label)});
+return make("div",{className:"glid-proof-legend","aria-hidden":true},...parts)}function gap(){return make(
+"span",{className:"glid-gap"})}function menu(label,choices,act){const options=choices.map(([value,text])=>new Option(
+text,value));const select=make("select",{"aria-label":label,title:label},...options);select.addEventListener(
+"change",()=>act(select.value));return select}var Player=class{clock=null;time=0;seen=false;only=0;later=null;#intervals=[];#frame=0;constructor(show,moved,ended=()=>{}){
 this.show=show;this.moved=moved;this.ended=ended}set(intervals,repeat){this.#intervals=intervals.map(
 ({end,times:times2,floats})=>({end,motion:floats.length?new Motion({times:times2,repeat:"once"},floats):
 null}));const first=intervals[0];const last=intervals.at(-1);const times=first&&last?[first.start,last.

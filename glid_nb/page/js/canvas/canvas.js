@@ -12,6 +12,7 @@ import { View } from "../pad/view.js";
 import { Ahead, marksOf } from "./ahead.js";
 import { menuRows } from "./context_menu.js";
 import { drawBrush, drawLasso, drawMarks, drawOnion, drawStiff } from "./draw.js";
+import { Ghosts } from "./ghosts.js";
 import { HELP } from "./help_table.js";
 import { Legend } from "./legend.js";
 import { arrowAt, inSight, knobInCorner } from "./marks.js";
@@ -44,6 +45,7 @@ export class Canvas {
   legend = new Legend();
   notices = new Notices();
   help = help(HELP);
+  ghosts = new Ghosts();
 
   /** @type {number | undefined} the pin that was selected alone when marks came last */
   #chosen;
@@ -336,6 +338,9 @@ export class Canvas {
     if (motion) return; // pins belong to the pose that is edited
     drawOnion(pen, view, model.get("onion"));
     drawStiff(pen, view, model.get("stiff"), this.painting);
+    if (this.interactive && !this.painting) {
+      this.ghosts.draw(pen, view, model.get("outline").outline, marks.targets.length > 0);
+    }
     const cursor = pad.focused ? model.get("cursor") : null;
     drawMarks(pen, view, marks, { hovered: pad.found?.mark, held: pad.held, cursor });
     if (brush) drawBrush(pen, view, brush, pad);

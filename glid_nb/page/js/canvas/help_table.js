@@ -52,7 +52,8 @@ export const HELP = [
       ["Middle button, Space and drag", "move the view"],
       ["F", "see everything"],
       ["P", "the picture alone, for lectures; Esc brings the rest back"],
-      ["W", "the whole screen"],
+      ["W", "the whole screen, without the inspector"],
+      ["I", "hide the inspector, show it again"],
     ],
   ],
   [

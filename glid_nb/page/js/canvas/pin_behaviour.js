@@ -32,6 +32,7 @@ export class PinBehaviour {
     this.actions = {
       "?": canvas.help.toggle,
       contextmenu: () => canvas.openMenu(),
+      i: () => canvas.room?.toggleInspector(),
       k: () => void canvas.box.dispatchEvent(new CustomEvent("glid:key", { bubbles: true })),
       p: () => canvas.room?.alone(),
       w: () => canvas.room?.fullScreen(),

@@ -54,7 +54,10 @@ export class Bar {
     this.keep = make("button", { className: "glid-keep", title: KEY, onclick: keep }, "Key");
     const copy = iconButton("copy", "Duplicate this pose", () => edit("duplicate_pose"));
     this.remove = iconButton("trash", "Delete this pose (Delete)", () => edit("delete_pose"));
-    this.save = iconButton("export", "Export the motion", () => act("export"));
+    this.save = iconButton("export", "Export the motion", () => {
+      this.save.dispatchEvent(new CustomEvent("glid:inspect", { bubbles: true }));
+      act("export");
+    });
     this.element = make(
       "div",
       { className: "glid-bar", role: "toolbar", "aria-label": "Motion" },
