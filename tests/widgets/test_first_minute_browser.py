@@ -38,6 +38,7 @@ def test_pale_pins_invite_a_drag_until_there_is_a_pin(open_notebook: OpenNoteboo
         )
 
     wait_for_groups(3)
+    hand.pad.scroll_into_view_if_needed()
     book.screenshot("first-minute")
     assert book.value("len(model.pose)") == 0
     hand.drag([(-6.0, 0.0), (-6.0, 0.5), (-6.0, 1.0)])

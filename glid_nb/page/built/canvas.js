@@ -105,8 +105,8 @@ offsetWidth||1;return{across,down:height/element.offsetHeight||across}}function 
 clientY}){const{left,top}=element.getBoundingClientRect();const{across,down}=scaleOf(element);return[
 (clientX-left)/across,(clientY-top)/down]}var WHEEL_SPEED=.0015;var WHEEL_LINE=33;var LINES=1;var PINCH=5;function distance([x,y],[u,v]){return Math.
 hypot(x-u,y-v)}var View=class{x=0;y=0;unit=1;width=0;height=0;constructor(changed,{up=1,nearest:nearest2,
-farthest:farthest2}){this.changed=changed;this.up=up;this.nearest=nearest2;this.farthest=farthest2}toWorld([
-px,py]){const x=this.x+(px-this.width/2)*this.unit;const y=this.y-this.up*(py-this.height/2)*this.unit;
+farthest}){this.changed=changed;this.up=up;this.nearest=nearest2;this.farthest=farthest}toWorld([px,
+py]){const x=this.x+(px-this.width/2)*this.unit;const y=this.y-this.up*(py-this.height/2)*this.unit;
 return[x,y]}toScreen([x,y]){const px=(x-this.x)/this.unit+this.width/2;const py=this.up*(this.y-y)/this.
 unit+this.height/2;return[px,py]}line(points){return points.map(point=>this.toScreen(point))}centreOn([
 x,y]){this.x=x;this.y=y;this.changed()}pan(dx,dy){this.x-=dx*this.unit;this.y+=this.up*dy*this.unit;
@@ -235,8 +235,8 @@ ght","M",does.press("m")],["Select all pins","A",does.press("a")],["The undeform
 press},count){const pins=count>1?` ${count} pins`:"";return[[`Remove${pins}`,"Delete",press("Delete")],
 ["Remove, keep the shape","Shift+Delete",press("Delete",true)],null,["Bring forward","Page Up",press(
 "PageUp")],["Send back","Page Down",press("PageDown")],["Leave angle and scale free","X",press("x")],
-null]}function shapeRows({pin},covered){return covered?[["Add a pin here","Click",pin],null]:[]}function nearest(things,reach){let best=null;let least=Infinity;for(const thing of things){const far=thing.
-d+(thing.loss??0);if(thing.d>reach||far>=least)continue;best=thing;least=far}return best}function nearestEdge(loops,point,reach){const edges=loops.flatMap(loop=>loop.map((start,j)=>{const foot=footOn(
+null]}function shapeRows({pin},covered){return covered?[["Add a pin here","Click",pin],null]:[]}function nearest(things,reach){let best2=null;let least=Infinity;for(const thing of things){const far=thing.
+d+(thing.loss??0);if(thing.d>reach||far>=least)continue;best2=thing;least=far}return best2}function nearestEdge(loops,point,reach){const edges=loops.flatMap(loop=>loop.map((start,j)=>{const foot=footOn(
 start,loop[(j+1)%loop.length],point);return{foot,d:distance(foot,point)}}));return nearest(edges,reach)}
 function footOn(start,end,point){const along=[end[0]-start[0],end[1]-start[1]];const dot=(point[0]-start[0])*
 along[0]+(point[1]-start[1])*along[1];const share=Math.min(Math.max(dot/(distance(start,end)**2||1e-30),
@@ -298,20 +298,19 @@ x,y]=knob;const color=turned?WANTED:FREE;circle(pen,centre,radius,[[4,BORDER]]);
 const corner=(turn,radius)=>[at[0]+radius*Math.cos(angle+turn),at[1]+radius*Math.sin(angle+turn)];fillPath(
 pen,[[corner(0,11),corner(2.4,9),corner(-2.4,9)]],TARGET_FILL);strokePath(pen,[[1.6,TARGET_EDGE]])}}
 function drawCursor(pen,[x,y]){const arm=(dx,dy)=>[[x+4*dx,y+4*dy],[x+13*dx,y+13*dy]];lines(pen,[arm(
-1,0),arm(-1,0),arm(0,1),arm(0,-1)],[[4,PALE],[1.6,WANTED]])}var COUNT=3;var GRID=24;var CLEARANCE=.4;var USED="glid-nb-pinned";var RADIUS2=8;function ghostPins({
-cage,holes}){const loops=[cage,...holes];const inside=gridOver(cage).filter(point=>encloses(cage,point)&&
-!holes.some(hole=>encloses(hole,point)));const clear=inside.map(point=>nearestEdge(loops,point,Infinity)?.
-d??0);const least=CLEARANCE*Math.max(...clear);const free=inside.filter((_,i)=>clear[i]>=least);if(!free.
-length)return[];const[first]=farthest(free,[middleOf(free)]);const places=farthest(free,[first]);while(places.
-length<COUNT-1)places.push(...farthest(free,[first,...places]));return[first,...places]}function gridOver(loop){
-const xs=loop.map(([x])=>x);const ys=loop.map(([,y])=>y);const along=(values,i)=>{const[low,high]=[Math.
-min(...values),Math.max(...values)];return low+(i+.5)/GRID*(high-low)};return Array.from({length:GRID*
-GRID},(_,i)=>[along(xs,i%GRID),along(ys,Math.floor(i/GRID))])}function middleOf(points){const sum=points.
-reduce(([u,v],[x,y])=>[u+x,v+y],[0,0]);return[sum[0]/points.length,sum[1]/points.length]}function farthest(points,others){
-const apart=point=>Math.min(...others.map(other=>distance(point,other)));return[points.reduce((best,point)=>apart(
-point)>apart(best)?point:best)]}var Ghosts=class{#outline=null;#places=[];draw(pen,view,outline,pinned){
+1,0),arm(-1,0),arm(0,1),arm(0,-1)],[[4,PALE],[1.6,WANTED]])}var COUNT=3;var GRID=24;var USED="glid-nb-pinned";var RADIUS2=8;function ghostPins({cage,holes}){const loops=[
+cage,...holes];const candidates=gridOver(cage).filter(point=>encloses(cage,point)&&!holes.some(hole=>encloses(
+hole,point))).map(point=>({point,clearance:nearestEdge(loops,point,Infinity)?.d??0}));if(!candidates.
+length)return[];const places=[best(candidates,[middleOf(candidates)])];while(places.length<COUNT)places.
+push(best(candidates,places));return places}function gridOver(loop){const xs=loop.map(([x])=>x);const ys=loop.
+map(([,y])=>y);const along=(values,i)=>{const[low,high]=[Math.min(...values),Math.max(...values)];return low+
+(i+.5)/GRID*(high-low)};return Array.from({length:GRID*GRID},(_,i)=>[along(xs,i%GRID),along(ys,Math.
+floor(i/GRID))])}function middleOf(candidates){const sum=candidates.reduce(([u,v],{point:[x,y]})=>[u+
+x,v+y],[0,0]);return[sum[0]/candidates.length,sum[1]/candidates.length]}function best(candidates,others){
+const score=({point,clearance})=>Math.min(...others.map(other=>distance(point,other)))*Math.sqrt(clearance);
+return candidates.reduce((a,b)=>score(b)>score(a)?b:a).point}var Ghosts=class{#outline=null;#places=[];draw(pen,view,outline,pinned){
 if(pinned)remember();if(pinned||!outline||remembered())return;if(outline!==this.#outline){this.#outline=
-outline;this.#places=ghostPins(outline)}pen.globalAlpha=.6;for(const place of view.line(this.#places)){
+outline;this.#places=ghostPins(outline)}pen.globalAlpha=.75;for(const place of view.line(this.#places)){
 disk(pen,place,RADIUS2,"rgba(255,255,255,0.75)");const ring=[[2,"#067a82"]];circle(pen,place,RADIUS2,
 ring,[4,2.3]);disk(pen,place,2.5,"#067a82")}pen.globalAlpha=1}};var used=false;function remembered(){
 try{return used||sessionStorage.getItem(USED)!==null}catch{return used}}function remember(){if(used)

@@ -12,29 +12,26 @@ import { distance } from "../pad/view.js";
 
 const COUNT = 3;
 const GRID = 24; // candidates along each side of the shape
-const CLEARANCE = 0.4; // of the greatest distance from the boundary
 const USED = "glid-nb-pinned"; // in the page's session
 const RADIUS = 8; // CSS pixels
 
+/** @typedef {{ point: Point, clearance: number }} Candidate */
+
 /**
- * Places far from each other, and not too near to the boundary.
+ * Places far from each other and from the boundary.
  *
  * @param {Pick<Outline, "cage" | "holes">} outline
  * @returns {Point[]}
  */
 export function ghostPins({ cage, holes }) {
   const loops = [cage, ...holes];
-  const inside = gridOver(cage).filter(
-    (point) => encloses(cage, point) && !holes.some((hole) => encloses(hole, point)),
-  );
-  const clear = inside.map((point) => nearestEdge(loops, point, Infinity)?.d ?? 0);
-  const least = CLEARANCE * Math.max(...clear);
-  const free = inside.filter((_, i) => clear[i] >= least);
-  if (!free.length) return [];
-  const [first] = farthest(free, [middleOf(free)]);
-  const places = farthest(free, [first]);
-  while (places.length < COUNT - 1) places.push(...farthest(free, [first, ...places]));
-  return [first, ...places];
+  const candidates = gridOver(cage)
+    .filter((point) => encloses(cage, point) && !holes.some((hole) => encloses(hole, point)))
+    .map((point) => ({ point, clearance: nearestEdge(loops, point, Infinity)?.d ?? 0 }));
+  if (!candidates.length) return [];
+  const places = [best(candidates, [middleOf(candidates)])];
+  while (places.length < COUNT) places.push(best(candidates, places));
+  return places;
 }
 
 /**
@@ -55,24 +52,24 @@ function gridOver(loop) {
 }
 
 /**
- * @param {Point[]} points
+ * @param {Candidate[]} candidates
  * @returns {Point}
  */
-function middleOf(points) {
-  const sum = points.reduce(([u, v], [x, y]) => [u + x, v + y], [0, 0]);
-  return [sum[0] / points.length, sum[1] / points.length];
+function middleOf(candidates) {
+  const sum = candidates.reduce(([u, v], { point: [x, y] }) => [u + x, v + y], [0, 0]);
+  return [sum[0] / candidates.length, sum[1] / candidates.length];
 }
 
 /**
- * The point that is farthest from others, in a list.
+ * The place that is farthest from others, where the shape is wide rather than at its boundary.
  *
- * @param {Point[]} points
+ * @param {Candidate[]} candidates
  * @param {Point[]} others
  */
-function farthest(points, others) {
-  const apart = (/** @type {Point} */ point) =>
-    Math.min(...others.map((other) => distance(point, other)));
-  return [points.reduce((best, point) => (apart(point) > apart(best) ? point : best))];
+function best(candidates, others) {
+  const score = (/** @type {Candidate} */ { point, clearance }) =>
+    Math.min(...others.map((other) => distance(point, other))) * Math.sqrt(clearance);
+  return candidates.reduce((a, b) => (score(b) > score(a) ? b : a)).point;
 }
 
 export class Ghosts {
@@ -96,7 +93,7 @@ export class Ghosts {
       this.#outline = outline;
       this.#places = ghostPins(outline);
     }
-    pen.globalAlpha = 0.6;
+    pen.globalAlpha = 0.75;
     for (const place of view.line(this.#places)) {
       disk(pen, place, RADIUS, "rgba(255,255,255,0.75)");
       const ring = /** @type {import("../types.js").Strokes} */ ([[2, "#067a82"]]);
