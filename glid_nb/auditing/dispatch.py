@@ -19,7 +19,7 @@ from glid_nb.auditing.mesh import audit_mesh, checked_points, checked_triangles
 from glid_nb.auditing.result import Audit, AuditError
 from glid_nb.auditing.splines import closed_form
 from glid_nb.geometry import MeshMap
-from glid_nb.harmonic import HarmonicMap
+from glid_nb.harmonic import DisplacementField, HarmonicMap
 
 
 def audit(
@@ -42,6 +42,7 @@ def audit(
       (x + dx, y + dy), and the map is bilinear on the cells between pixels. The components are
       (dx, dy); ``order="yx"`` is for (dy, dx). ``spacing`` are the steps (x, y) between pixels if
       the displacements have another unit. The signs are exact.
+      A `DisplacementField` has its own spacing; cells are audited where it is known.
     - A mesh: the images (v, 2) of its vertices, with ``source``, the vertices (v, 2), and
       ``triangles`` (t, 3). A `MeshMap` has them all. The signs are exact.
     - A function from (k, 2) points to (k, 2) points, with ``bounds`` (xmin, ymin, xmax, ymax).
@@ -58,10 +59,16 @@ def audit(
     of_mesh, of_map = (source, triangles), (bounds, second_derivative, jacobian)
     if isinstance(warp, HarmonicMap):
         raise AuditError("a HarmonicMap has a proof of its own; use glid.certify(map)")
+    if isinstance(getattr(warp, "map", None), HarmonicMap):  # an inverse, a transform, a result
+        what = f"this {type(warp).__name__} belongs to a HarmonicMap, which has a proof of its own"
+        raise AuditError(f"{what}; use glid.certify(x.map)")
     if isinstance(warp, MeshMap):
         _refuse("a MeshMap", source=source, triangles=triangles, bounds=bounds)
         mesh = warp.triangulation
         return audit_mesh(mesh.vertices, mesh.triangles.astype(np.int64), warp.images)
+    if isinstance(warp, DisplacementField):
+        _refuse("a DisplacementField", source=source, triangles=triangles, bounds=bounds)
+        return audit_field(checked_field(warp.values), warp.spacing, warp.known)
     if callable(warp):
         _refuse("a function", source=source, triangles=triangles)
         return _audit_function(warp, bounds, second_derivative, jacobian, budget)

@@ -10,6 +10,7 @@ import math
 from typing import Any, Literal
 
 import numpy as np
+from numpy.typing import NDArray
 
 from glid_nb._arrays import Array, Floats
 from glid_nb.auditing import exact
@@ -24,7 +25,7 @@ def checked_field(value: Any, order: str = "xy") -> Array:
     """(h, w, 2) displacements (dx, dy) of their own type. Raises an AuditError for others."""
     if order not in ("xy", "yx"):
         raise AuditError(f'order must be "xy" for (dx, dy) or "yx" for (dy, dx), not {order!r:.40}')
-    if isinstance(value, np.ma.MaskedArray):
+    if isinstance(value, np.ma.MaskedArray) and np.ma.getmaskarray(value).any():
         raise AuditError("the field is masked; fill in the masked displacements, or cut them off")
     try:
         field = np.asarray(value)
@@ -72,27 +73,35 @@ def _planar(field: Array) -> Array:
     raise AuditError(wanted)
 
 
-def audit_field(field: Array, spacing: tuple[float, float] = (1.0, 1.0)) -> Audit:
+def audit_field(
+    field: Array, spacing: tuple[float, float] = (1.0, 1.0), known: Array | None = None
+) -> Audit:
     """Audit a checked field. The displacements are in the unit of ``spacing``, the steps between
-    pixels. A negative step is that of an axis which runs against its displacements."""
+    pixels. A negative step is that of an axis which runs against its displacements. Only cells are
+    audited whose four pixels are ``known``, (h, w) bool; by default all are."""
     if min(spacing) < 0:  # mirroring both the source and the image changes no determinant
         field = field.astype(np.float64) * np.sign(spacing)
         spacing = (abs(spacing[0]), abs(spacing[1]))
     h, w = field.shape[0] - 1, field.shape[1] - 1
-    least, area, folded, at_least = np.empty((h, w)), 0.0, 0, math.inf
+    cells = np.ones((h, w), dtype=bool) if known is None else _known_cells(known)
+    least, area, folded, at_least = np.full((h, w), np.nan), 0.0, 0, math.inf
     rows = max(1, _CELLS // w)
     for first in range(0, h, rows):
-        i, j = (one.ravel() for one in np.mgrid[first : min(first + rows, h), :w])
+        i, j = np.nonzero(cells[first : first + rows])
+        if not len(i):
+            continue
+        i += first
         found = exact.determinants(_corners(field, i, j), spacing)
         corners = found.values.reshape(4, -1)
-        least[first : first + rows] = corners.min(axis=0).reshape(-1, w)
+        least[i, j] = corners.min(axis=0)
         some = corners[:, (corners < 0).any(axis=0)]
         folded += some.shape[1]
         area += float(_negative_share(some).sum())
         with np.errstate(over="ignore"):
             at_least = min(at_least, float((found.values - found.errors).min()))
-    value, where = _smallest(field, least, spacing)
-    smallest, total = _per_area(value, spacing), h * w
+    total = int(cells.sum())
+    value, where = _smallest(field, least, total, spacing)
+    smallest = _per_area(value, spacing)
     verdict: Verdict = "folds" if folded else ("collapses" if value == 0 else "proved")
     if verdict == "folds":
         text = f"It folds: the determinant is {smallest:.3g} at the pixel {at(where)}; "
@@ -101,10 +110,11 @@ def audit_field(field: Array, spacing: tuple[float, float] = (1.0, 1.0)) -> Audi
         text = f"It collapses: the determinant is exactly 0 at the pixel {at(where)}, "
         text += "and nowhere negative."
     else:
-        text = f"It is free of folds, proved on {w + 1} x {h + 1} pixels; "
+        place = f"{w + 1} x {h + 1} pixels" if known is None else f"{total:,} cells"
+        text = f"It is free of folds, proved on {place}; "
         text += f"the smallest determinant is {smallest:.3g}, at the pixel {at(where)}."
     bound = max(_per_area(at_least, spacing) * (1 - 1e-15), 0.0)
-    signs = np.sign(least).astype(np.int8)
+    signs = np.sign(np.where(cells, least, 0)).astype(np.int8)
     with np.errstate(over="ignore", under="ignore"):
         least = least / spacing[0] / spacing[1]
     return Audit(
@@ -125,6 +135,14 @@ def audit_field(field: Array, spacing: tuple[float, float] = (1.0, 1.0)) -> Audi
     )
 
 
+def _known_cells(known: Array) -> NDArray[np.bool_]:
+    """(h - 1, w - 1) whether all four corners of a cell are known."""
+    cells = known[1:, 1:] & known[:-1, 1:] & known[1:, :-1] & known[:-1, :-1]
+    if not cells.any():
+        raise AuditError("no cell of the field has four known corners; sample it more finely")
+    return cells
+
+
 def _corners(field: Array, i: Array, j: Array) -> exact.Edges:
     """The edges of the cells (i, j) that meet at their corners: at (u, v) = (0, 0) for all cells,
     then at (1, 0), (0, 1) and (1, 1)."""
@@ -135,11 +153,11 @@ def _corners(field: Array, i: Array, j: Array) -> exact.Edges:
 
 
 def _smallest(
-    field: Array, least: Floats, spacing: exact.Pair
+    field: Array, least: Floats, total: int, spacing: exact.Pair
 ) -> tuple[float, tuple[float, float]]:
     """The smallest determinant of edges, and its pixel. Rounded values choose the cells that are
-    compared exactly."""
-    count = min(_CLOSEST, least.size)
+    compared exactly, of the ``total`` whose value is not NaN."""
+    count = min(_CLOSEST, total)
     few = np.sort(np.argpartition(least.ravel(), count - 1)[:count])
     i, j = np.unravel_index(few, least.shape)
     index, value = exact.smallest(_corners(field, i, j), spacing)

@@ -43,6 +43,8 @@ def checked_triangles(value: Any, count: int) -> NDArray[np.int64]:
 
 def _rows_of(value: Any, wanted: str, kinds: str, columns: int) -> NDArray[Any]:
     """An array (n, columns) of one of NumPy's ``kinds`` of numbers; the error begins ``wanted``."""
+    if isinstance(value, np.ma.MaskedArray) and (masked := np.argwhere(value.mask)).size:
+        raise AuditError(f"{wanted}, but row {masked[0][0]} is masked")
     try:
         rows = np.asarray(value)
     except ValueError as error:

@@ -50,11 +50,11 @@ class Audit(Rebuilt):
     """The area in the source where no sign is proved. It is 0 for fields and meshes."""
     determinants: Floats = field(repr=False)
     """The smallest determinant of each piece: (h - 1, w - 1) of a field, (p,) of others. For a
-    function, one determinant inside each box."""
+    function, one determinant inside each box. NaN where a `DisplacementField` is not known."""
     signs: NDArray[np.int8] = field(repr=False)
     """The proved sign of each piece: 1 if its determinant is positive everywhere, -1 if it is
     negative somewhere (of a box: everywhere). 0 is exact for fields and meshes; a box with 0 is
-    undecided."""
+    undecided, and a cell where a `DisplacementField` is not known has 0, too."""
     outlines: Floats | None = field(repr=False, default=None)
     """(p, k, 2) corners, in the source, of the pieces. None for a field, whose cells are a grid."""
 

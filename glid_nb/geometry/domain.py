@@ -11,7 +11,7 @@ import numpy as np
 import shapely
 from numpy.typing import ArrayLike, NDArray
 
-from glid_nb._arguments import check_type
+from glid_nb._arguments import check_type, unmet
 from glid_nb._arrays import Array, Rebuilt, frozen, number_pairs
 from glid_nb._errors import about
 from glid_nb.geometry._loops import GeometryError, Loops, loop_list, loop_name, place
@@ -26,6 +26,8 @@ _DEFAULT_OFFSET = 0.005
 _LONG, _LONG_SHARE, _VERY_LONG = 3.0, 0.3, 10.0
 # The pieces' length in widths, and their least length as a share of the cage's longer side.
 _PIECE, _LEAST_PIECE = 0.5, 0.02
+_MOST_PIECES = 100  # of a rectangle's side
+_CHANNELS = (1, 3, 4)  # of a picture
 _SAMPLES = 32  # points of an edge at which the width is measured
 
 
@@ -77,29 +79,34 @@ class Domain(Rebuilt):
         return cls(cage, outer, notes=notes)
 
     @classmethod
-    def rectangle(cls, image: Any, *, margin: float = 0.0) -> Self:
+    def rectangle(cls, image: Any, *, margin: float = 0.0, pieces: int = 4) -> Self:
         """A whole picture as a domain, in pixel coordinates as scikit-image has them.
 
         They are (x, y) = (column, row): x right, y down, whole numbers at the centres of pixels. So
         the picture covers -0.5 to width - 0.5, and ``skimage.transform.warp(image, map.inverse)``
         needs no conversion. ``image`` is an array (h, w) or (h, w, c), or the size (width, height).
         ``margin`` adds room on each side, in pixels. Raises a GeometryError otherwise.
+
+        The offset cage's longer sides are divided into this many ``pieces``, the shorter ones into
+        pieces about as long. With one, maps have so few coefficients that they miss most landmarks;
+        more follow more landmarks, and take longer to solve.
         """
-        shape = getattr(image, "shape", None)
-        if shape is not None and len(shape) in (2, 3):
-            height, width = shape[:2]
-        elif isinstance(image, tuple | list) and len(image) == 2:
-            width, height = image
-        else:
-            what = "a picture is an array (h, w) or (h, w, c), or its size (width, height)"
-            raise GeometryError(f"{what}, not {type(image).__name__}")
-        for name, value in (("width", width), ("height", height)):
-            if not (isinstance(value, int | np.integer) and value >= 1):
-                raise GeometryError(f"the picture's {name} must be a whole number, not {value!r}")
+        width, height = _size_of(image)
         if not (isinstance(margin, Real) and 0 <= margin < 1e100):
             raise GeometryError(f"margin must be a number of pixels, at least 0, not {margin!r}")
-        low, right, top = -0.5 - margin, width - 0.5 + margin, height - 0.5 + margin
-        return cls.from_cage(Cage([[low, low], [right, low], [right, top], [low, top]]))
+        low = -0.5 - margin
+        return cls.box((low, low), (width - 0.5 + margin, height - 0.5 + margin), pieces=pieces)
+
+    @classmethod
+    def box(cls, low: ArrayLike, high: ArrayLike, *, pieces: int = 4) -> Self:
+        """The rectangle between the corners ``low`` and ``high``; ``pieces`` as of `rectangle`."""
+        if unmet(int, pieces, {"least": 1, "most": _MOST_PIECES}):
+            known = f"a whole number from 1 to {_MOST_PIECES}"
+            raise GeometryError(f"pieces must be {known}, not {pieces!r:.40}")
+        (x0, y0), (x1, y1) = number_pairs([low, high], "corners are (x, y)", GeometryError)
+        cage = Cage([[x0, y0], [x1, y0], [x1, y1], [x0, y1]])
+        outer, notes = _chosen_offset(cage, None)
+        return cls(cage, _shortened(outer, outer.longer_side / pieces), notes=notes)
 
     @classmethod
     def from_dict(cls, data: Mapping[str, Any]) -> Self:
@@ -153,6 +160,39 @@ class Domain(Rebuilt):
     def hole_points_complex(self) -> NDArray[np.complex128]:
         """(N,) hole points as a read-only complex128 array."""
         return self.hole_points.view(np.complex128)[:, 0]
+
+
+def _size_of(image: Any) -> tuple[int, int]:
+    """The (width, height) of a picture or of a size."""
+    shape = getattr(image, "shape", None)
+    if shape is not None and len(shape) in (2, 3):
+        height, width = shape[:2]
+        if len(shape) == 3 and height in _CHANNELS and shape[2] not in _CHANNELS:
+            what = f"a picture of the shape {tuple(shape)} has its channels first"
+            raise GeometryError(f"{what}; np.moveaxis(image, 0, -1) puts them last")
+    elif isinstance(image, tuple | list) and len(image) == 2:
+        width, height = image
+    else:
+        what = "a picture is an array (h, w) or (h, w, c), or its size (width, height)"
+        hint = "; of a shape (h, w, c), give the size shape[1::-1]"
+        hint = hint if isinstance(image, tuple | list) and len(image) == 3 else ""
+        raise GeometryError(f"{what}, not {type(image).__name__}{hint}")
+    for name, value in (("width", width), ("height", height)):
+        if not (isinstance(value, int | np.integer) and value >= 1):
+            raise GeometryError(f"the picture's {name} must be a whole number, not {value!r}")
+    return int(width), int(height)
+
+
+def _shortened(cage: Cage, longest: float) -> Cage:
+    """The cage with edges divided evenly, until none is longer."""
+    loops = []
+    for loop in cage.loops:
+        along = np.roll(loop, -1, axis=0) - loop
+        # Rounding must not make one more piece.
+        counts = np.ceil(np.linalg.norm(along, axis=1) / longest * (1 - 1e-9)).astype(int)
+        steps = zip(loop, along, np.maximum(counts, 1), strict=True)
+        loops.append(np.concatenate([a + np.arange(n)[:, None] / n * by for a, by, n in steps]))
+    return Cage(loops[0], loops[1:])
 
 
 def _chosen_offset(cage: Cage, distance: float | None) -> tuple[Cage, tuple[str, ...]]:

@@ -7,13 +7,13 @@ contains no other (`docs/proof.md`, Lemma 29). Nothing rests on Newton's method.
 
 import functools
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, Literal, Protocol, overload
+from typing import TYPE_CHECKING, Any, Literal, Protocol, overload, runtime_checkable
 
 import numpy as np
 import scipy
 import shapely
 
-from glid_nb._arguments import unmet
+from glid_nb._arguments import check_type, unmet
 from glid_nb._arrays import Array, read_only
 from glid_nb.geometry import Domain, Overlay, Triangulation, as_points, triangulate
 from glid_nb.harmonic import transport
@@ -38,6 +38,7 @@ _SAME = 1e-9  # preimages of a point that are closer than this share of the cage
 _FAR = 1e3  # longer sides to the point that stands for no preimage
 
 
+@runtime_checkable
 class Bounds(Protocol):
     """What a certificate says of a map."""
 
@@ -146,10 +147,11 @@ class Inverse:
         preimage within R / (1 + S / s) of its middle. Raises a MapError for a certificate that
         proves nothing or belongs to another map.
         """
-        if certificate is not None and not (
-            certificate.certified and certificate.belongs_to(self.map)
-        ):
-            raise MapError("the certificate belongs to another map, or proves nothing")
+        check_type("all", all, bool, "write True for all preimages of each point", MapError)
+        if certificate is not None:
+            check_type("certificate", certificate, Bounds, "such as result.certificate", MapError)
+            if not (certificate.certified and certificate.belongs_to(self.map)):
+                raise MapError("the certificate belongs to another map, or proves nothing")
         w = as_complex(points)
         index, z, jets = self._searched(w, all)
         radius, alone = _proved(w[index], jets)
@@ -187,13 +189,6 @@ class Inverse:
             order = np.argsort(index)
             index, z, jets = index[order], z[order], jets.at(order)
         return index, z, jets, _proved(w[index], jets)[0]
-
-    def refined(self, points: Any, guesses: Any) -> tuple[Array, Array]:
-        """(k,) complex preimages of (k,) complex points, by Newton's method from guesses, and
-        (k,) bool: whether it found one in the domain."""
-        z, _, found = _newton(self.map, points, guesses)
-        found[found] = self._contains(z[found])
-        return z, found
 
     def _searched(self, w: Array, every: bool) -> tuple[Array, Array, Jets]:
         """Indices of points, their preimages in the domain, and the jets there."""

@@ -6,6 +6,7 @@ import numpy as np
 
 from glid_nb._arrays import Array, number_pairs
 from glid_nb._errors import InputError
+from glid_nb._features import is_traced
 
 
 class MapError(InputError):
@@ -17,15 +18,43 @@ def as_complex(points: Any) -> Array:
     listed = [points] if isinstance(points, complex) else points
     if isinstance(listed, list | tuple) and any(isinstance(one, complex) for one in listed):
         points = np.asarray(listed)
+    _check_unmasked(points)
     if hasattr(points, "dtype") and np.iscomplexobj(points):
-        z = np.asarray(np.ma.filled(points, np.nan), dtype=complex).ravel()
+        z = np.asarray(points, dtype=complex).ravel()
     else:
-        array = number_pairs(points, "points must be (k, 2) coordinates", MapError)
+        array = _pairs(points)
         z = array[:, 0] + 1j * array[:, 1]
     bad = np.flatnonzero(~np.isfinite(z))
     if bad.size:
-        raise MapError(f"point {bad[0]} is {z[bad[0]]}; coordinates must be finite")
+        x, y = z[bad[0]].real, z[bad[0]].imag
+        raise MapError(f"point {bad[0]} is ({x:g}, {y:g}); coordinates must be finite")
     return z
+
+
+def _pairs(points: Any) -> Array:
+    """(k, 2) numbers; a MapError if they are something else, or if they cannot be read."""
+    wanted = "points must be (k, 2) coordinates"
+    if is_traced(points):
+        raise MapError(f"{wanted} that are known, but JAX traces these; this runs outside of jit")
+    try:
+        return number_pairs(points, wanted, MapError)
+    except MapError as error:
+        if np.shape(points) == (2,):
+            raise MapError(f"{error}; write one point as [[x, y]]") from None
+        raise
+    except RuntimeError as error:  # such as PyTorch's, of a tensor that requires a gradient
+        raise MapError(f"{wanted} ({error})") from error
+
+
+def _check_unmasked(points: Any) -> None:
+    """Raise a MapError for the first point of a masked array that is masked."""
+    if not isinstance(points, np.ma.MaskedArray):
+        return
+    mask = np.ma.getmaskarray(points)
+    rows = mask.ravel() if np.iscomplexobj(points) else mask.reshape(len(mask), -1).any(axis=1)
+    if (masked := np.flatnonzero(rows)).size:
+        what = f"point {masked[0]} is masked, so it has no coordinates"
+        raise MapError(f"{what}; leave it out, as np.ma.compress_rows does")
 
 
 def complex_from_pairs(value: Any, name: str) -> Array:

@@ -27,6 +27,7 @@ _TOLERANCE = 1e-3  # of the cage's unit
 _MOST_POINTS = 20_000_000
 _ROUNDS = 60
 _FINER = 3  # how often what is not valid is divided anew, by a tenth of the tolerance
+_ON_EDGE = 1e-14  # of the cage's size; vertices this close to an edge touch it
 _RESOLUTION = 1e-9  # of the cage's size; what is left of a geometry inside is larger
 
 POINT, LINE, RING, POLYGON = 0, 1, 2, 3  # of shapely.get_type_id
@@ -82,28 +83,68 @@ def transport(
     back: bool = False,
 ) -> Transported:
     """See `HarmonicMap.transport`."""
-    if _is_labels(geometry):
-        return _labels(map, geometry, frame, back)
-    if frame is not None:
-        raise TransportError("frame is for label images; geometries are in the map's coordinates")
+    if frame is not None or _is_labels(geometry):
+        return _labels(map, _checked_labels(geometry), frame, back)
     tolerance = _checked_tolerance(map, tolerance)
     listed, rebuilt = _listed(geometry)
     side = _backward(map, tolerance) if back else _forward(map)
     inside, outside, cut = _clipped(listed, side, map.domain.cage.longer_side)
     made = _carried(inside, side, tolerance)
     invalid = np.flatnonzero(~shapely.is_valid(made))
+    if invalid.size:  # where rings touch, both must turn at the same point
+        inside[invalid] = [_noded(one, map.domain.cage.longer_side) for one in inside[invalid]]
+        made[invalid] = _carried(inside[invalid], _once_each(side), tolerance)
+        invalid = invalid[~shapely.is_valid(made[invalid])]
     finer = tolerance
     for _ in range(_FINER):
         if not invalid.size:
             break
         finer /= 10
-        made[invalid] = _carried(inside[invalid], side, finer)
+        made[invalid] = _carried(inside[invalid], _once_each(side), finer)
         invalid = invalid[~shapely.is_valid(made[invalid])]
     overlapping = np.union1d(invalid, _several(inside, side))
     outside, cut, overlapping = (
         read_only(np.asarray(part, dtype=int)) for part in (outside, cut, overlapping)
     )
     return Transported(rebuilt(made), outside, cut, overlapping, tolerance)
+
+
+def _once_each(side: _Side) -> _Side:
+    """The same direction, with one image for all copies of a point, to the last bit."""
+
+    def images(z: Array) -> tuple[Array, Array, Array, Array]:
+        distinct, which = np.unique(z, return_inverse=True)
+        value, error, second, radius = side.images(distinct)
+        return value[which], error[which], second[which], radius[which]
+
+    return side._replace(images=images)
+
+
+def _noded(geometry: Any, size: float) -> Any:
+    """A polygon, or several, with a vertex wherever another vertex of it lies on an edge."""
+    if shapely.get_type_id(geometry) not in (POLYGON, 6):
+        return geometry
+    corners = np.unique(shapely.get_coordinates(geometry), axis=0)
+    points: Any = shapely.points(corners)
+    tree = shapely.STRtree(points)
+
+    def noded(ring: Array) -> Array:
+        edges: Any = shapely.linestrings(np.stack([ring[:-1], ring[1:]], axis=1))
+        edge, corner = tree.query(edges, predicate="dwithin", distance=_ON_EDGE * size)
+        share = shapely.line_locate_point(edges[edge], points[corner])
+        within = (share > 0) & (share < shapely.length(edges[edge]))
+        edge, corner, share = edge[within], corner[within], share[within]
+        order = np.lexsort((share, edge))
+        return np.insert(ring, edge[order] + 1, corners[corner[order]], axis=0)
+
+    polygons: list[Any] = []
+    for part in shapely.get_parts(np.array([geometry])):
+        loops = [
+            noded(shapely.get_coordinates(ring)) for ring in np.atleast_1d(shapely.get_rings(part))
+        ]
+        polygons.append(shapely.Polygon(loops[0], loops[1:]))
+    whole = shapely.get_type_id(geometry) == POLYGON
+    return polygons[0] if whole else shapely.MultiPolygon(polygons)
 
 
 def _checked_tolerance(map: "HarmonicMap", tolerance: Any) -> float:
@@ -303,7 +344,18 @@ def divided(
 
 
 def _listed(given: Any) -> tuple[Array, Callable[[Array], Any]]:
-    """An array of geometries, and what makes the given kind of thing of an array."""
+    """An array of finite geometries, and what makes the given kind of thing of an array."""
+    geometries, rebuilt = _read(given)
+    xy, of = shapely.get_coordinates(geometries, return_index=True)
+    bad = np.flatnonzero(~np.isfinite(xy).all(axis=1))
+    if bad.size:
+        x, y = xy[bad[0]]
+        what = f"geometry {of[bad[0]]} has a corner at ({x:g}, {y:g})"
+        raise TransportError(f"{what}; coordinates must be finite")
+    return geometries, rebuilt
+
+
+def _read(given: Any) -> tuple[Array, Callable[[Array], Any]]:
     if isinstance(given, shapely.Geometry):
         return np.array([given], dtype=object), lambda made: made[0]
     if isinstance(given, Mapping):
@@ -329,11 +381,18 @@ def _listed(given: Any) -> tuple[Array, Callable[[Array], Any]]:
 
 
 def _polygon(ring: Any, number: int) -> Any:
+    wanted = f"polygon {number} must be a (k, 2) array of at least 3 points"
+    if isinstance(ring, np.ma.MaskedArray) and (masked := np.argwhere(ring.mask)).size:
+        raise TransportError(f"point {masked[0][0]} of polygon {number} is masked; leave it out")
     try:
-        return shapely.Polygon(np.asarray(ring, dtype=float).reshape(-1, 2))
-    except (TypeError, ValueError, shapely.errors.ShapelyError) as error:
-        what = f"polygon {number} must be a (k, 2) array of at least 3 points"
-        raise TransportError(f"{what} ({error})") from None
+        corners = np.asarray(ring, dtype=float)
+    except (TypeError, ValueError) as error:
+        raise TransportError(f"{wanted} ({error})") from None
+    if corners.ndim != 2 or corners.shape[1] != 2 or len(corners) < 3:
+        raise TransportError(f"{wanted}; the shape is {corners.shape}")
+    if not np.isfinite(corners).all():
+        raise TransportError(f"polygon {number} has coordinates that are not finite")
+    return shapely.Polygon(corners)
 
 
 def _of_geojson(data: Mapping[str, Any]) -> tuple[Array, Callable[[Array], Any]]:
@@ -344,6 +403,10 @@ def _of_geojson(data: Mapping[str, Any]) -> tuple[Array, Callable[[Array], Any]]
         features = [data]
     else:
         return np.array([_shape(data)], dtype=object), lambda made: _mapping(made[0])
+    for i, one in enumerate(features):
+        if not isinstance(one, Mapping):
+            kind = type(one).__name__
+            raise TransportError(f"feature {i} of the GeoJSON must be a mapping, not {kind}")
     shapes = np.empty(len(features), dtype=object)
     shapes[:] = [_shape(one.get("geometry")) for one in features]
 
@@ -359,8 +422,10 @@ def _of_geojson(data: Mapping[str, Any]) -> tuple[Array, Callable[[Array], Any]]
 def _shape(geometry: Any) -> Any:
     if geometry is None:
         return shapely.Polygon()
+    if not (isinstance(geometry, Mapping) and isinstance(geometry.get("type"), str)):
+        raise TransportError('the GeoJSON is not valid: a geometry is a mapping with a "type"')
     try:
-        return shapely.geometry.shape(geometry)
+        return shapely.geometry.shape(dict(geometry))
     except (TypeError, ValueError, KeyError, AttributeError, shapely.errors.ShapelyError) as error:
         raise TransportError(f"the GeoJSON is not valid: {error}") from None
 
@@ -374,7 +439,30 @@ def _mapping(geometry: Any) -> dict[str, Any] | None:
 
 
 def _is_labels(given: Any) -> bool:
-    return isinstance(given, np.ndarray) and given.ndim == 2 and given.dtype.kind in "iub"
+    kind = getattr(getattr(given, "dtype", None), "kind", "")
+    return getattr(given, "ndim", 0) == 2 and kind != "" and kind in "iub"
+
+
+def _checked_labels(given: Any) -> NDArray[Any]:
+    """(h, w) whole numbers of their own type."""
+    if isinstance(given, np.ma.MaskedArray) and np.ma.getmaskarray(given).any():
+        raise TransportError("the label image is masked; fill it, for example with 0")
+    try:
+        labels = np.asarray(given)
+    except ValueError as error:
+        raise TransportError(f"a label image is (h, w) whole numbers: {error}") from None
+    if labels.dtype.kind not in "iub" or labels.ndim != 2 or not labels.size:
+        what = f"{labels.dtype.name} values of the shape {labels.shape}"
+        wanted = "a frame is for a label image, (h, w) whole numbers"
+        hint = "geometries are in the map's coordinates and take none"
+        raise TransportError(f"{wanted}, not {what}; {hint}")
+    return labels
+
+
+def _check_frame(frame: Any) -> None:
+    if not all(hasattr(frame, one) for one in ("width", "height", "to_world", "to_pixel")):
+        wanted = "such as glid_nb.PixelFrame(width, height)"
+        raise TransportError(f"frame must be the place of pixels, {wanted}, not {frame!r:.40}")
 
 
 def _labels(map: "HarmonicMap", labels: NDArray[Any], frame: Any, back: bool) -> Transported:
@@ -383,6 +471,7 @@ def _labels(map: "HarmonicMap", labels: NDArray[Any], frame: Any, back: bool) ->
         raise TransportError(
             "a label image needs its place: give frame=glid_nb.PixelFrame(width, height)"
         )
+    _check_frame(frame)
     height, width = labels.shape
     if (frame.width, frame.height) != (width, height):
         given = f"the labels have {height} rows and {width} columns"
@@ -391,7 +480,8 @@ def _labels(map: "HarmonicMap", labels: NDArray[Any], frame: Any, back: bool) ->
         raise TransportError(
             f"{given}, the frame is {frame.width} wide and {frame.height} high{hint}"
         )
-    result, several = np.zeros_like(labels), np.zeros(labels.shape, dtype=bool)
+    # In the order of rows, which ravel() below relies on.
+    result, several = np.zeros(labels.shape, labels.dtype), np.zeros(labels.shape, dtype=bool)
     centres = frame.to_world(pixel_centres(width, height))
     if back:
         known = map.domain.cage.contains(centres)
@@ -425,7 +515,7 @@ def pixel_centres(width: int, height: int) -> Array:
 
 @dataclass(frozen=True, eq=False)
 class DisplacementField:
-    """A map or its inverse as displacements on a grid.
+    """A map or its inverse as displacements on a grid. `glid_nb.audit` says whether it folds.
 
     Coordinates are pixels of the frame, x right and y down from the picture's top left corner.
     """
@@ -471,7 +561,9 @@ def displacement_field(
     map: "HarmonicMap", frame: Any, shape: Any = None, *, inverse: bool = False
 ) -> DisplacementField:
     """See `HarmonicMap.displacement_field`."""
-    size = (frame.height, frame.width) if shape is None else tuple(shape)
+    _check_frame(frame)
+    listed = (frame.height, frame.width) if shape is None else shape
+    size: tuple[Any, ...] = tuple(listed) if isinstance(listed, list | tuple | np.ndarray) else ()
     whole = len(size) == 2 and not any(unmet(int, one, {"least": 2}) for one in size)
     if not whole:
         raise TransportError(f"shape must be (rows, columns), at least 2 each, not {shape!r:.40}")

@@ -1,7 +1,7 @@
 """The order in which parts of a shape cover each other, for canvas, picking, pictures and exports.
 
-`Sheets` inverts a map in this order, by `HarmonicMap.inverse`: it finds the source of what is drawn
-at a place, and the points that are hidden below others.
+`Sheets` finds the source of what is drawn at a place: of all preimages, which `HarmonicMap.inverse`
+finds, the one that covers the others. It also finds the points that are hidden below others.
 """
 
 import functools
@@ -20,7 +20,6 @@ from glid_nb.geometry import (
     MeshMap,
     Overlay,
     Triangulation,
-    as_points,
     triangulate,
 )
 from glid_nb.harmonic import FixedPoints, HarmonicMap
@@ -34,7 +33,6 @@ _TIE = 0.02  # range of the limbs' heights, which decide where depths are equal,
 _STIFFNESS = 1e6  # of a pin, relative to the mesh
 
 _SHEET_VERTICES = 2000
-_OVERHANG = 0.5  # straight triangles miss the map's image by less than this share of their size
 _NEAR = 0.02  # of the shape's size: sources closer than this are on the same sheet
 _OPAQUE = 128  # of 255
 
@@ -120,22 +118,15 @@ class Sheets:
 
     def __init__(self, map: DeformationMap, order: Order, image: Array | None = None) -> None:
         self._map, self._order, self._image = map, order, image
-        if isinstance(map, MeshMap):
-            self._mesh, images = map.triangulation, map.images
-        else:
-            self._mesh, images_of = _sheet_mesh(map.domain)
-            images = images_of(map)[0].astype(float)
-        self._overlay = Overlay(self._mesh, images)
-        self._near = _NEAR * float(np.ptp(self._mesh.vertices, axis=0).max())
 
     def source(self, point: Any) -> Array | None:
         """The source (2,) of the visible part at a point; None outside the shape. If all parts at
         the point are transparent, the source of the highest."""
-        curved = isinstance(self._map, HarmonicMap)
         place = np.reshape(np.asarray(point, dtype=float), (1, 2))
-        _, found, _ = self._overlay.sources(place, _OVERHANG if curved else 0.0)
-        if curved and len(found):
-            found = self._refined(complex(*point), found)
+        if isinstance(self._map, HarmonicMap):
+            found = self._map.inverse(place, all=True).points
+        else:
+            _, found, _ = self._overlay.sources(place)
         if not len(found):
             return None
         return found[np.lexsort((self._order(found), self._opaque(found)))[-1]]
@@ -162,12 +153,21 @@ class Sheets:
         result[which[above & self._opaque(found)]] = True
         return result
 
-    def _refined(self, place: complex, guess: Array) -> Array:
-        """The sources of a place in the domain, by Newton's method from (m, 2) guesses."""
-        assert isinstance(self._map, HarmonicMap)
-        starts = guess @ np.array([1, 1j])
-        z, found = self._map.inverse.refined(np.full(len(starts), place), starts)
-        return as_points(z[found])
+    @functools.cached_property
+    def _drawn(self) -> tuple[Triangulation, Array]:
+        """A mesh of the shape, and the images of its vertices."""
+        if isinstance(self._map, MeshMap):
+            return self._map.triangulation, self._map.images
+        mesh, images_of = _sheet_mesh(self._map.domain)
+        return mesh, images_of(self._map)[0].astype(float)
+
+    @functools.cached_property
+    def _overlay(self) -> Overlay:
+        return Overlay(*self._drawn)
+
+    @property
+    def _near(self) -> float:
+        return _NEAR * float(np.ptp(self._drawn[0].vertices, axis=0).max())
 
     def _opaque(self, points: Array) -> NDArray[np.bool_]:
         if self._image is None:

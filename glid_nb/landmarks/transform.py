@@ -8,7 +8,7 @@ import numpy as np
 from glid_nb._arguments import check_type
 from glid_nb._arrays import Array, number_pairs
 from glid_nb._errors import InputError
-from glid_nb.geometry import Cage, Domain, place
+from glid_nb.geometry import Domain, place
 from glid_nb.harmonic import HarmonicMap, Inverse
 from glid_nb.minima import solve
 from glid_nb.pose import Pose
@@ -43,6 +43,8 @@ class HarmonicTransform:
         met closely, not exactly: see :meth:`residuals`. Raises a LandmarkError for landmarks that
         are not pairs, lie outside the domain, or are given as (row, column).
         """
+        for name, value in (("src", src), ("dst", dst)):
+            _check_unmasked(name, value)
         pairs = "{} must be (k, 2) landmarks"
         given = [
             number_pairs(value, pairs.format(name), LandmarkError)
@@ -86,8 +88,14 @@ class HarmonicTransform:
         return self.map.residuals(src, dst)
 
 
+def _check_unmasked(name: str, points: Any) -> None:
+    if isinstance(points, np.ma.MaskedArray) and (masked := np.argwhere(points.mask)).size:
+        what = f"{name}[{masked[0][0]}] is masked, so it has no coordinates"
+        raise LandmarkError(f"{what}; leave the landmark out, in src and dst")
+
+
 def _around(points: Array) -> Domain:
+    """A rectangle around points, with the basis of `Domain.rectangle`."""
     low, high = points.min(axis=0), points.max(axis=0)
     room = _ROOM * float((high - low).max()) or 1.0
-    (x0, y0), (x1, y1) = low - room, high + room
-    return Domain.from_cage(Cage([[x0, y0], [x1, y0], [x1, y1], [x0, y1]]))
+    return Domain.box(low - room, high + room)

@@ -14,6 +14,7 @@ import numpy as np
 from glid_nb._arguments import check_type
 from glid_nb._arrays import Array
 from glid_nb._errors import InputError
+from glid_nb._features import is_traced
 from glid_nb._jax import jax, jnp, lax
 from glid_nb.energies import Energy, as_energy
 from glid_nb.geometry import Domain
@@ -45,7 +46,8 @@ class DifferentiableSolve:
         """The map for (h, 2) targets; and for (h, 2) handles, (h,) weights and the parameter ``s``.
 
         What is None is the pose's or the energy's own. Raises a SensitivityError if JAX computes in
-        single precision, if a shape is wrong, or if the energy has no parameter ``s``.
+        single precision, if a shape is wrong, or if the energy has no parameter ``s``; and a
+        PoseError for numbers that no pose has, unless JAX traces them.
         """
         if jnp.zeros((), float).dtype != np.float64:
             remedy = 'call jax.config.update("jax_enable_x64", True) before'
@@ -62,6 +64,8 @@ class DifferentiableSolve:
                 shapes = f"{array.shape}; they must have the shape {np.shape(default)}"
                 raise SensitivityError(f"the {name} have the shape {shapes}")
             numbers.append(array)
+        if not any(map(is_traced, numbers)):  # an error of the host's function loses its type
+            self._pose(targets=targets, handles=handles, weights=weights).check_inside(self.domain)
         return TracedMap(self.domain, self._coefficients(*numbers))
 
     @property
@@ -76,10 +80,14 @@ class DifferentiableSolve:
         self, targets: Any = None, *, handles: Any = None, weights: Any = None, s: Any = None
     ) -> Result:
         """The result of the solve behind the map of these numbers, outside JAX."""
-        given = {"targets": targets, "handles": handles, "weights": weights}
-        pose = replace(self.pose, **{k: np.asarray(v) for k, v in given.items() if v is not None})
+        pose = self._pose(targets=targets, handles=handles, weights=weights)
         energy = self.energy if s is None else replace(self.energy, s=float(s))  # type: ignore[type-var]
         return solve(self.domain, pose, energy, self.options, self.start)
+
+    def _pose(self, **given: Any) -> Pose:
+        """The pose with these numbers in place of its own; None keeps its own."""
+        known = {name: np.asarray(value) for name, value in given.items() if value is not None}
+        return replace(self.pose, **known)
 
     @functools.cached_property
     def _coefficients(self) -> Any:

@@ -219,6 +219,8 @@ class Sensitivity:
         if numbers.shape != (len(self.fields),):
             wanted = f"{len(self.fields)} number{'s' * (len(self.fields) > 1)}"
             raise SensitivityError(f"direction must be {wanted}, not {direction!r:.60}")
+        if not np.isfinite(numbers).all():
+            raise SensitivityError(f"direction must be finite, not {direction!r:.60}")
         phi = sum(c * one.phi for c, one in zip(numbers, self.fields, strict=True))
         psi = sum(c * one.psi for c, one in zip(numbers, self.fields, strict=True))
         return HarmonicMap(self.map.domain, phi, psi)

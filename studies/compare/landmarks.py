@@ -6,6 +6,7 @@ out; the other half is given to each method. Folds are what `glid_nb.audit` prov
 thin-plate spline and the triangles, and for the B-spline on its displacements at whole pixels.
 """
 
+import functools
 import time
 from collections.abc import Callable
 from typing import Any, NamedTuple
@@ -56,9 +57,9 @@ class Warp(NamedTuple):
     folds: Callable[[], bool]
 
 
-def harmonic(src: Array, dst: Array) -> Warp:
+def harmonic(src: Array, dst: Array, pieces: int = 4) -> Warp:
     """`glid_nb.HarmonicTransform` on the whole picture, by one descent without restarts."""
-    domain = glid_nb.Domain.rectangle((SIDE, SIDE))
+    domain = glid_nb.Domain.rectangle((SIDE, SIDE), pieces=pieces)
     transform = glid_nb.HarmonicTransform.from_estimate(
         src, dst, domain=domain, options=glid_nb.Options(restarts=0)
     )
@@ -108,6 +109,7 @@ def b_spline(src: Array, dst: Array) -> Warp:
 
 METHODS = {
     "harmonic map (ours)": harmonic,
+    "the same, `pieces=1`": functools.partial(harmonic, pieces=1),
     "thin-plate spline": thin_plate,
     "piecewise affine": piecewise_affine,
     "B-spline": b_spline,

@@ -196,6 +196,10 @@ def test_what_cannot_be_read(field: Any, message: str) -> None:
         glid.audit(field)
 
 
+def test_a_masked_array_without_a_masked_number_is_a_field() -> None:
+    assert glid.audit(np.ma.masked_array(np.zeros((3, 3, 2)))).proved
+
+
 def test_a_nan_of_swapped_components_is_named() -> None:
     with pytest.raises(glid.InputError, match="dx is nan"):
         glid.audit(with_value(np.nan), order="yx")
@@ -225,3 +229,30 @@ def test_the_result_is_a_value() -> None:
     assert "signs" not in data
     with pytest.raises(ValueError, match="read-only"):
         audit.determinants[0, 0] = 1
+
+
+@pytest.mark.parametrize("inverse", [False, True])
+def test_a_field_of_a_map_is_audited_where_it_is_known(inverse: bool) -> None:
+    """Beside the shape its values are 0, so the whole array folds at the shape's edge."""
+    turn = np.exp(0.5j)
+    shape = glid.Domain.from_cage(glid.Cage([[-6, -2], [6, -2], [6, 2], [-6, 2]]))
+    turned = glid.HarmonicMap(
+        shape, turn * shape.offset_cage.loops_complex[0], np.zeros(shape.n_coefficients)
+    )
+    field = turned.displacement_field(glid.PixelFrame(60, 50), (50, 40), inverse=inverse)
+    found = glid.audit(field)
+    assert found.proved
+    assert found.smallest == pytest.approx(1, abs=1e-9)
+    known = field.known
+    cells = known[1:, 1:] & known[:-1, 1:] & known[1:, :-1] & known[:-1, :-1]
+    assert found.pieces == cells.sum() == (found.signs == 1).sum()
+    assert (np.isfinite(found.determinants) == cells).all()
+    assert glid.audit(field.values, spacing=field.spacing).verdict == "folds"
+
+
+def test_a_field_without_a_known_cell_is_refused() -> None:
+    small = glid.HarmonicMap.identity(
+        glid.Domain.from_cage(glid.Cage([[0, 0], [1, 0], [1, 1], [0, 1]]))
+    )
+    with pytest.raises(glid.InputError, match="no cell of the field has four known corners"):
+        glid.audit(small.displacement_field(glid.PixelFrame(9, 9)))

@@ -200,8 +200,12 @@ def test_what_cannot_be_audited(function: Any, how: dict[str, Any], message: str
 
 def test_a_harmonic_map_is_sent_to_certify() -> None:
     domain = glid.Domain.from_cage(glid.Cage([[0, 0], [4, 0], [4, 2], [0, 2]]))
+    map = glid.HarmonicMap.identity(domain)
     with pytest.raises(glid.InputError, match=r"glid\.certify"):
-        glid.audit(glid.HarmonicMap.identity(domain))
+        glid.audit(map)
+    for its in (map.inverse, glid.HarmonicTransform(map)):
+        with pytest.raises(glid.InputError, match=f"this {type(its).__name__} belongs"):
+            glid.audit(its, bounds=BOX)
 
 
 def test_other_splines_are_functions_without_closed_form() -> None:

@@ -134,6 +134,7 @@ def test_a_map_of_this_package() -> None:
         ({"triangles": None}, "a mesh needs triangles, too"),
         ({"source": [[0, 0], [1, 0], [0, 1], [5, 5]]}, "4 vertices, and there are 3 images"),
         ({"source": [[0, 0], [1, 0], [0, np.nan]]}, r"source\[2, 1\] is nan"),
+        ({"source": np.ma.masked_equal(UNIT, 1)}, "source must be .* but row 1 is masked"),
         ({"source": [[0, 0, 0]] * 3}, r"source must be \(n, 2\)"),
     ],
 )

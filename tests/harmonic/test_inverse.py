@@ -5,6 +5,7 @@ from __future__ import annotations
 import functools
 import pickle
 
+import jax
 import numpy as np
 import pytest
 from flint import acb, arb, ctx
@@ -222,12 +223,42 @@ def test_bad_input_is_named() -> None:
     map = gentle("ell")
     with pytest.raises(MapError, match="point 1 is"):
         map.inverse([[0, 0], [np.nan, 0]])
+    with pytest.raises(MapError, match=r"point 1 is \(nan, 2\)"):
+        map([[0, 0], [np.nan, 2]])
+    for masked in (
+        np.ma.masked_equal([[0, 1], [2, 3]], 2),
+        np.ma.masked_equal([1, 2 + 1j], 2 + 1j),
+    ):
+        with pytest.raises(MapError, match="point 1 is masked"):
+            map(masked)
+        with pytest.raises(MapError, match="point 1 is masked"):
+            map.inverse(masked)
+    with pytest.raises(MapError, match=r"write one point as \[\[x, y\]\]"):
+        map.inverse([1, 0.1])
+    with pytest.raises(MapError, match="certificate must be"):
+        map.inverse.locate([[0, 0]], certificate=3)  # type: ignore[arg-type]
+    with pytest.raises(MapError, match="all must be bool"):
+        map.inverse([[0, 0]], all="yes")  # type: ignore[call-overload]
     with pytest.raises(MapError, match="'away' or 'nan'"):
         map.inverse([[0, 0]], outside="extend")  # type: ignore[call-overload]
     with pytest.raises(MapError, match="2 points src and 1 points dst"):
         map.residuals([[0, 0], [1, 1]], [[0, 0]])
     with pytest.raises(InputError, match="belongs to another map"):
         map.inverse.locate([[0, 0]], certificate=certify(gentle("ell", 2)))
+
+
+class NoNumbers:
+    """As a tensor of PyTorch that requires a gradient."""
+
+    def __array__(self, *given: object, **how: object) -> Array:
+        raise RuntimeError("Can't call numpy() on Tensor that requires grad.")
+
+
+def test_arrays_that_cannot_be_read_are_named() -> None:
+    with pytest.raises(MapError, match=r"points must be .*requires grad"):
+        gentle("ell").inverse(NoNumbers())
+    with pytest.raises(MapError, match="JAX traces these"):
+        jax.jit(gentle("ell").inverse)(np.zeros((1, 2)))
 
 
 def test_a_map_that_folds_proves_nothing_false() -> None:

@@ -79,6 +79,22 @@ def test_geojson_stays_geojson() -> None:
     assert len(map.transport([np.array([[2, 0], [2.2, 0], [2, 0.2]])]).geometry) == 1
 
 
+@pytest.mark.parametrize("corner", [(0.3, 0.0), (-0.3, 0.1), (0.02, -0.3)])
+def test_holes_that_touch_the_rim_stay_valid(corner: tuple[float, float]) -> None:
+    x, y = corner  # on an edge of the square, not at a vertex of it
+    bent = curled(2)
+    square = shapely.box(-0.3, -0.3, 0.3, 0.3).exterior
+    hole = shapely.Polygon(square, [[(x, y), (0.05, 0.1), (-0.05, -0.1)]])
+    several = shapely.MultiPolygon([hole, shapely.box(0.6, 0, 0.7, 0.1)])
+    assert shapely.is_valid([hole, several]).all()
+    there = bent.transport([hole, several])
+    assert shapely.is_valid(there.geometry).all()
+    assert not len(there.overlapping)
+    assert len(there.geometry[0].interiors) == 1
+    back = bent.inverse.transport(there.geometry)
+    assert shapely.hausdorff_distance(back.geometry[0], hole) < 10 * back.tolerance
+
+
 def test_an_overlap_is_named() -> None:
     map = curled(2.2 * np.pi)
     whole = map.transport([map.domain.cage.polygon, shapely.box(-1, -0.2, 1, 0.2)])
@@ -96,6 +112,14 @@ def test_labels_follow_the_picture() -> None:
     assert (made[y, x] == labels[v, u]).mean() > 0.7
     back = map.inverse.transport(made, frame=frame).geometry
     assert (back[v, u] == labels[v, u]).mean() > 0.7
+    assert (map.transport(np.asfortranarray(labels), frame=frame).geometry == made).all()
+    assert (map.transport(labels.tolist(), frame=frame).geometry == made).all()
+    with pytest.raises(TransportError, match="the label image is masked"):
+        map.transport(np.ma.masked_equal(labels, 3), frame=frame)
+    with pytest.raises(TransportError, match="whole numbers, not float64 values"):
+        map.transport(labels / 2, frame=frame)
+    with pytest.raises(TransportError, match="frame must be the place of pixels"):
+        map.transport(labels, frame="here")
     with pytest.raises(TransportError, match="swapped"):
         map.transport(labels, frame=PixelFrame(60, 80))
     with pytest.raises(TransportError, match="needs its place"):
@@ -124,8 +148,22 @@ def test_bad_input_is_named() -> None:
         map.transport([[[0, 0]]])
     with pytest.raises(TransportError, match="is no geometry"):
         map.transport(3)
+    for nothing, told in (
+        (shapely.Point(np.nan, 0), r"geometry 0 has a corner at \(nan, 0\)"),
+        ([[[0, 0], [np.inf, 0], [0, 1]]], "polygon 0 has coordinates that are not finite"),
+        ([np.zeros((4, 3))], r"polygon 0 must be .* the shape is \(4, 3\)"),
+        ([np.ma.masked_equal([[0, 1], [2, 1], [0, 5]], 2)], "point 1 of polygon 0 is masked"),
+        ({}, 'a geometry is a mapping with a "type"'),
+        ({"type": "FeatureCollection", "features": [3]}, "feature 0 .* must be a mapping, not int"),
+    ):
+        with pytest.raises(TransportError, match=told):
+            map.transport(nothing)
     bow = shapely.Polygon([[0, 0], [2, 2], [2, 0], [0, 2]])
     with pytest.raises(TransportError, match="geometry 0 is not valid"):
         map.transport(bow)
+    with pytest.raises(TransportError, match="frame must be the place of pixels"):
+        map.displacement_field(None)
+    with pytest.raises(TransportError, match="shape must be"):
+        map.displacement_field(PixelFrame(10, 10), 5)
     with pytest.raises(TransportError, match="shape must be"):
         map.displacement_field(PixelFrame(10, 10), (1, 5))

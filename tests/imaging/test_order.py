@@ -130,6 +130,17 @@ def test_transparent_parts_hide_nothing_and_are_not_picked() -> None:
     assert sheets.source([0.0, 2.4]) is None
 
 
+def test_a_click_is_answered_by_the_inverse() -> None:
+    """To the last bit: one of the preimages that a script gets, and none beside the shape."""
+    _, right = overlap()
+    sheets = Sheets(curled(), order_of(bar().cage))
+    for place in [*curled()(right[::9]), *curled()([[0.0, 0.0], [-9.9, 0.9]]), [0.0, 2.4]]:
+        found = curled().inverse([place], all=True).points
+        seen = sheets.source(place)
+        assert (seen is None) == (not len(found))
+        assert seen is None or (found == seen).all(axis=1).any()
+
+
 def test_maps_of_meshes_are_layered_by_the_same_order() -> None:
     mesh = triangulate(bar().cage, 1500)
     map, (left, right) = MeshMap(mesh, curled()(mesh.vertices)), overlap()

@@ -27,6 +27,25 @@ def test_code_for_a_thin_plate_spline_runs_with_another_name() -> None:
     assert HarmonicTransform.from_estimate(SRC, DST).residuals(SRC, DST).max() < 0.1
 
 
+def test_landmarks_of_a_symmetric_pattern_are_met() -> None:
+    """Four coefficients can only miss them: the middle is the mean of the corners, moved or not."""
+    src = np.array([[100.0, 100], [400, 100], [250, 250], [100, 400], [400, 400]])
+    dst = src + np.array([[0, 0], [0, 0], [30, -20], [0, 0], [0, 0]])
+    for domain in (Domain.rectangle((512, 512)), None):
+        transform = HarmonicTransform.from_estimate(src, dst, domain=domain)
+        assert transform.residuals(src, dst).max() < 0.1
+    coarse = Domain.rectangle((512, 512), pieces=1)
+    assert HarmonicTransform.from_estimate(src, dst, domain=coarse).residuals(src, dst).max() > 20
+
+
+def test_a_rectangles_pieces_are_about_as_long() -> None:
+    for width, height, pieces, count in ((60, 40, 4, 14), (50, 50, 1, 4), (50, 50, 9, 36)):
+        outer = Domain.rectangle((width, height), pieces=pieces).offset_cage.exterior
+        lengths = np.linalg.norm(np.roll(outer, -1, axis=0) - outer, axis=1)
+        assert len(outer) == count
+        assert lengths.max() < 1.02 * width / pieces + 1
+
+
 def test_the_identity_warps_nothing() -> None:
     map = HarmonicMap.identity(Domain.rectangle(PICTURE))
     assert np.allclose(warp(PICTURE, map.inverse), PICTURE, atol=1e-9)
@@ -43,6 +62,14 @@ def test_bad_landmarks_are_named() -> None:
         HarmonicTransform.from_estimate(SRC, DST[1:])
     with pytest.raises(LandmarkError, match=r"dst\[0\] is"):
         HarmonicTransform.from_estimate([[1, 1]], [[np.inf, 0]])
+    with pytest.raises(LandmarkError, match=r"dst\[1\] is masked"):
+        HarmonicTransform.from_estimate(SRC[:2], np.ma.masked_equal(DST[:2], 55))
+    with pytest.raises(GeometryError, match="channels first"):
+        Domain.rectangle(np.zeros((3, 40, 60)))
+    with pytest.raises(GeometryError, match=r"give the size shape\[1::-1\]"):
+        Domain.rectangle((40, 60, 3))
+    with pytest.raises(GeometryError, match="pieces must be a whole number from 1"):
+        Domain.rectangle((60, 40), pieces=0)
     with pytest.raises(GeometryError, match="a picture is an array"):
         Domain.rectangle("gecko.png")
     with pytest.raises(GeometryError, match="width must be a whole number"):

@@ -166,6 +166,8 @@ def test_what_there_is_not_is_refused(given: Any, told: str) -> None:
 def test_a_direction_has_as_many_numbers_as_fields() -> None:
     with pytest.raises(SensitivityError, match="direction must be 2 numbers"):
         case("turned")[0].sensitivity(0).along(1.0)
+    with pytest.raises(SensitivityError, match="direction must be finite"):
+        case("turned")[0].sensitivity(0).along([np.nan, 0])
 
 
 def test_a_map_that_is_no_isolated_minimum_has_no_derivative() -> None:

@@ -14,24 +14,19 @@ assign(table,{autofocus:true}));const title="Keys and gestures (?)";const look={
 -button",title,"aria-label":title};const button=shield(make("button",{...look,popoverTargetElement:table},
 "?"));return{table,button,toggle:()=>void table.togglePopover()}}function section([title,rows]){return make(
 "section",{},make("h4",{},title),make("table",{},...rows.map(row)))}function row([keys,what]){return make(
-"tr",{},make("th",{},keys),make("td",{},what))}var PATHS={edit:"M3 2l9.5 5.2-4 1.2 2.4 4.3-1.8 1-2.4-4.3L3 12z",foreground:"M13.5 2.5l-6 6 M6.7 9.2\
-c-1.6-.5-3 .6-3.1 2.1-.1 1-.7 1.7-1.6 2 2.2.9 5.6.4 5.9-2.2 .1-.8-.4-1.6-1.2-1.9z M9.5 12.5h5 M12 10\
-v5",background:"M13.5 2.5l-6 6 M6.7 9.2c-1.6-.5-3 .6-3.1 2.1-.1 1-.7 1.7-1.6 2 2.2.9 5.6.4 5.9-2.2 .\
-1-.8-.4-1.6-1.2-1.9z M9.5 12.5h5",brush:"M13.5 2.5l-6 6 M6.7 9.2c-1.6-.5-3 .6-3.1 2.1-.1 1-.7 1.7-1.\
-6 2 2.2.9 5.6.4 5.9-2.2 .1-.8-.4-1.6-1.2-1.9z",eraser:"M9.2 2.8l4 4-6.4 6.4H4.4L2.2 11z M5.5 6.6l4 4\
- M7 13.2h6.5",color:"M9 4l3 3 M10 3.2l1-1a1.6 1.6 0 0 1 2.8 2.2l-1.1 1.1 M9.6 5.2L3.4 11.4 2.5 13.5l\
-2.1-.9 6.2-6.2",component:"M8 1.5v3 M8 11.5v3 M1.5 8h3 M11.5 8h3 M8 5.2a2.8 2.8 0 1 0 0 5.6 2.8 2.8 \
-0 0 0 0-5.6z",polygon:"M8 2l5.5 4-2 7h-7l-2-7z",rectangle:"M2.5 4h11v8h-11z",undo:"M5.5 3L2.5 6l3 3 \
-M3 6h6.2a3.6 3.6 0 0 1 0 7.2H6",redo:"M10.5 3l3 3-3 3 M13 6H6.8a3.6 3.6 0 0 0 0 7.2H10",fit:"M2 5.5V\
-2h3.5 M10.5 2H14v3.5 M14 10.5V14h-3.5 M5.5 14H2v-3.5",screen:"M10 2h4v4 M14 2L9.5 6.5 M6 14H2v-4 M2 \
-14l4.5-4.5",eye:"M1.5 8S4 3.8 8 3.8 14.5 8 14.5 8 12 12.2 8 12.2 1.5 8 1.5 8z M8 6.2a1.8 1.8 0 1 0 0\
- 3.6 1.8 1.8 0 0 0 0-3.6z",plus:"M8 3v10 M3 8h10",minus:"M3 8h10",open:"M2 12.5v-9h4l1.5 2H14v7z",play:"\
+"tr",{},make("th",{},keys),make("td",{},what))}var PATHS={edit:"M3 2l9.5 5.2-4 1.2 2.4 4.3-1.8 1-2.4-4.3L3 12z",brush:"M13.5 2.5l-6 6 M6.7 9.2c-1.6\
+-.5-3 .6-3.1 2.1-.1 1-.7 1.7-1.6 2 2.2.9 5.6.4 5.9-2.2 .1-.8-.4-1.6-1.2-1.9z",eraser:"M9.2 2.8l4 4-6\
+.4 6.4H4.4L2.2 11z M5.5 6.6l4 4 M7 13.2h6.5",rectangle:"M2.5 4h11v8h-11z",undo:"M5.5 3L2.5 6l3 3 M3 \
+6h6.2a3.6 3.6 0 0 1 0 7.2H6",redo:"M10.5 3l3 3-3 3 M13 6H6.8a3.6 3.6 0 0 0 0 7.2H10",fit:"M2 5.5V2h3\
+.5 M10.5 2H14v3.5 M14 10.5V14h-3.5 M5.5 14H2v-3.5",screen:"M10 2h4v4 M14 2L9.5 6.5 M6 14H2v-4 M2 14l\
+4.5-4.5",eye:"M1.5 8S4 3.8 8 3.8 14.5 8 14.5 8 12 12.2 8 12.2 1.5 8 1.5 8z M8 6.2a1.8 1.8 0 1 0 0 3.\
+6 1.8 1.8 0 0 0 0-3.6z",plus:"M8 3v10 M3 8h10",minus:"M3 8h10",open:"M2 12.5v-9h4l1.5 2H14v7z",play:"\
 M5 3l8 5-8 5z",pause:"M5.5 3v10 M10.5 3v10",record:"M8 4.2a3.8 3.8 0 1 0 0 7.6 3.8 3.8 0 0 0 0-7.6z",
 onion:"M6.2 4a4 4 0 1 0 0 8 4 4 0 0 0 0-8z M9.8 4a4 4 0 1 1 0 8",copy:"M5.5 5.5h8v8h-8z M3 10.5v-8h8",
 export:"M8 2v8 M4.8 6.8L8 10l3.2-3.2 M3 13.5h10",trash:"M3 4.5h10 M6.5 4.5v-2h3v2 M4.5 4.5l.6 9h5.8l\
-.6-9"};function icon(name){return`<svg viewBox="0 0 16 16" aria-hidden="true"><path d="${PATHS[name]}\
-"/></svg>`}function iconButton(name,title,onclick,className="glid-icon"){return make("button",{title,
-"aria-label":title,className,onclick,innerHTML:icon(name)})}var TEXT="textarea, [contenteditable], input:not([type=checkbox], [type=range], [type=radio])";var LAST_LATIN="\
+.6-9"};function drawn(path){return`<svg viewBox="0 0 16 16" aria-hidden="true"><path d="${path}"/></svg>`}function iconButton(name,title,onclick,className="\
+glid-icon"){return drawnButton(PATHS[name],title,onclick,className)}function drawnButton(path,title,onclick,className="\
+glid-icon"){return make("button",{title,"aria-label":title,className,onclick,innerHTML:drawn(path)})}var TEXT="textarea, [contenteditable], input:not([type=checkbox], [type=range], [type=radio])";var LAST_LATIN="\
 ɏ";var LATIN={Comma:",<",Period:".>",Slash:"/?",Minus:"-_",Equal:"=+",BracketLeft:"[{",BracketRight:"\
 ]}"};function keyOf({key,code="",shiftKey=false}){if(key.length>1||key<=LAST_LATIN)return key;const[
 ,letter,digit]=code.match(/^(?:Key([A-Z])|(?:Digit|Numpad)([0-9]))$/)??[];if(letter)return shiftKey?
@@ -73,8 +68,8 @@ hidden)this.#release();else this.#drawing=requestAnimationFrame(()=>this.#releas
 this.#waiting=false;this.#flush()}#stop(){clearTimeout(this.#overdue);clearTimeout(this.#timeout);cancelAnimationFrame(
 this.#drawing)}};function connectNoMoreComms(kernel){const status=kernel?.statusChanged;const connect=status?.
 connect;if(!connect||Object.hasOwn(status,"connect"))return;status.connect=(slot,receiver)=>!String(
-slot).includes("_cleanSubshells")&&connect.call(status,slot,receiver)}function openMenu(element,[x,y],rows){const ending=new AbortController;let pressed=false;const close=()=>{
-ending.abort();menu.remove();element.focus({preventScroll:true})};const step=by=>{const items=[...menu.
+slot).includes("_cleanSubshells")&&connect.call(status,slot,receiver)}function openMenu(element,[x,y],rows){const ending2=new AbortController;let pressed=false;const close=()=>{
+ending2.abort();menu.remove();element.focus({preventScroll:true})};const step=by=>{const items=[...menu.
 querySelectorAll("button")];const focused=document.activeElement;const present=items.indexOf(focused);
 items.at((present+by)%items.length)?.focus()};const keys={ArrowDown:()=>step(1),ArrowUp:()=>step(-1),
 Escape:close,Tab:close};const item=row2=>{if(!row2)return make("hr");const[label,key,act]=row2;const onclick=e=>{
@@ -85,7 +80,7 @@ key]()}},...rows.map(item)));element.querySelector(".glid-menu")?.remove();eleme
 style.left=within(x,element.clientWidth-menu.offsetWidth);menu.style.top=within(y,element.clientHeight-
 menu.offsetHeight);const pressedElsewhere=e=>{const target=e.target;if(menu.contains(target))return;
 close();if(e.button===0&&element.contains(target))e.stopPropagation()};window.addEventListener("poin\
-terdown",pressedElsewhere,{capture:true,signal:ending.signal});step(1)}function within(at,room){return`${Math.
+terdown",pressedElsewhere,{capture:true,signal:ending2.signal});step(1)}function within(at,room){return`${Math.
 max(0,Math.min(at,room))}px`}var NEARLY_NOTHING="rgba(255, 255, 255, 0.004)";function painter(canvas,view,signal,draw){let due=0;
 signal.addEventListener("abort",()=>cancelAnimationFrame(due));return()=>{if(due)return;due=requestAnimationFrame(
 ()=>{due=0;draw(clearedPen(canvas,view))})}}function clearedPen(canvas,{width,height}){const ratio=window.
@@ -133,49 +128,49 @@ x,y]=this.view.toWorld(place);const{unit}=this.view;return this.link.put({type,x
 e.pointerType)*unit,button:e.button??0,shift:Boolean(e.shiftKey),alt:Boolean(e.altKey),time:e.timeStamp??
 performance.now(),...more})}press(key,e){this.send("key",[this.view.width/2,this.view.height/2],e,{key})}hover(place=this.
 rests){this.rests=place;if(this.mode!==null)return;this.found=place&&this.#find(place,"mouse");this.#showCursor();
-this.behaviour.changed()}keydown(e){const key=keyOf(e);const command=e.ctrlKey||e.metaKey;const action=command?
-void 0:this.behaviour.actions[key.toLowerCase()];const history=undoOrRedo(e);if(!history&&!action&&key!==
-" "){if(e.altKey||!this.behaviour.keys.test(key)||command&&key!=="a")return}e.preventDefault();e.stopPropagation();
-if(key===" "){if(!e.repeat)this.#tap=true;this.#setSpace(true)}else if(action){action()}else{if(key===
-"Escape"||history)this.#drop();this.press(history??key,e)}}#keyup(e){if(e.key!==" ")return;this.#setSpace(
-false);if(this.#tap)this.behaviour.tapped?.()}#reach(type){return this.behaviour.reach[type??"mouse"]??
-this.behaviour.reach.mouse}#find(place,type){return this.behaviour.find(this.view.toWorld(place),this.#reach(
-type)*this.view.unit)}#down(e){if(this.pointers.has(e.pointerId)||this.pointers.size>1)return;e.preventDefault();
-this.element.focus({preventScroll:true});this.#tap=false;const place=this.place(e);this.pointers.set(
-e.pointerId,place);this.element.setPointerCapture(e.pointerId);const second=this.pointers.size===2;if(second)
-this.#takeBack(e);this.#start=place;this.mode=second||e.button===1||e.button===0&&this.#space?"pan":
-"hand";if(this.mode==="hand")this.#handDown(place,e);this.#showCursor()}#handDown(place,e){const{behaviour}=this;
-const found=this.#find(place,e.pointerType);const left=e.button===0;const drags=left&&!e.altKey&&(behaviour.
-constrain||!e.shiftKey);if(drags&&found?.mark!==void 0){this.grip={from:this.view.toWorld(place),points:behaviour.
-held(found)}}this.#pans=left&&Boolean(behaviour.pans?.(found,e));this.encloses=left&&!behaviour.painting?
-behaviour.encloses?.(found,e):null;this.path=left?[this.view.toWorld(place)]:[];this.send("down",place,
-e,{part:found?.part,at:left?behaviour.pressedAt?.():void 0});if(e.pointerType==="touch"&&behaviour.menu&&
-!behaviour.painting){this.#longPress=setTimeout(()=>this.#pressedLong(e,place),LONG_PRESS)}behaviour.
-changed()}#pressedLong(e,place){this.#longPress=setTimeout(()=>{this.#takeBack(e);this.mode=null;this.#menu(
-place,"touch")},LONG_PRESS_GRACE)}#menu(place,type){this.behaviour.menu?.(place,this.#find(place,type))}#contextMenu(e){
-e.preventDefault();e.stopPropagation();const touch=e instanceof PointerEvent&&e.pointerType==="touch";
-if(e.button===2&&!touch)this.#menu(this.place(e),"mouse")}#takeBack(e){if(this.mode==="hand")this.send(
-"cancel",this.#start,e);this.#drop()}#move(e){const place=this.place(e);const touch=e.pointerType===
-"touch";if(!this.pointers.has(e.pointerId)){if(!touch)this.hover(place);return}if(!touch)this.rests=
-place;const far=distance(place,this.#start);if(far>LONG_PRESS_SLACK)clearTimeout(this.#longPress);if(this.
-mode==="hand"&&this.#pans&&far>CLICK){this.#takeBack(e);this.mode="pan";this.#showCursor()}if(this.mode===
-"pan"){this.view.follow(this.pointers,e.pointerId,place);return}this.pointers.set(e.pointerId,place);
-if(this.mode==="hand")this.#handMoved(place,e,far)}#handMoved(place,e,far){const free=this.view.toWorld(
-place);this.#lengthenPath(place,free,far);const[x,y]=this.behaviour.constrain?.(free,e)??free;if(!this.
-encloses&&!this.behaviour.painting){this.send("move",place,e,{x,y,replaces:`move ${e.pointerId}`})}if(this.
-grip){const dx=x-this.grip.from[0];const dy=y-this.grip.from[1];for(const[mark,[u,v]]of this.grip.points)
-this.held.set(mark,[u+dx,v+dy])}this.behaviour.changed()}#lengthenPath(place,point,far){if(this.encloses===
-"box"){const[corner]=this.path;this.path=far>CLICK?rectangle(corner,point):[corner];return}const last=this.
-path.at(-1);if(last&&distance(place,this.view.toScreen(last))>=PATH_STEP)this.path.push(point)}#up(e,type){
-if(!this.pointers.has(e.pointerId))return;const place=this.place(e);this.pointers.delete(e.pointerId);
-if(this.mode==="hand"){const{path}=this;this.send(type,place,e,{path,encloses:Boolean(this.encloses)}).
-then(()=>{if(!this.grip)this.held.clear();if(this.path===path)this.path=[];this.behaviour.changed()})}
-this.#letGo();if(!this.pointers.size)this.mode=null;this.#showCursor()}#letGo(){clearTimeout(this.#longPress);
-this.grip=null;this.behaviour.changed()}#drop(){this.#letGo();this.held.clear();this.path=[]}#wheel(e){
-if(!this.behaviour.ownsWheel&&!this.focused&&!e.ctrlKey)return;e.stopPropagation();this.view.wheel(e,
-this.place(e))}#setSpace(pressed){this.#space=pressed;this.#showCursor()}#showCursor(){this.element.
-style.cursor=this.#cursor()}#cursor(){if(this.mode==="pan"||this.grip)return"grabbing";return this.#space?
-"grab":this.behaviour.cursor(this.found)}};var Solving=class{#worker;#number=0;#asked=new Map;constructor(worker,onmap=()=>{}){this.#worker=worker;
+this.behaviour.changed()}keydown(e){const key=keyOf(e);const command=e.ctrlKey||e.metaKey;const action=command||
+e.altKey?void 0:this.behaviour.actions[key.toLowerCase()];const history=undoOrRedo(e);if(!history&&!action&&
+key!==" "){if(e.altKey||!this.behaviour.keys.test(key)||command&&key!=="a")return}e.preventDefault();
+e.stopPropagation();if(key===" "){if(!e.repeat)this.#tap=true;this.#setSpace(true)}else if(action){action()}else{
+if(key==="Escape"||history)this.#drop();this.press(history??key,e)}}#keyup(e){if(e.key!==" ")return;
+this.#setSpace(false);if(this.#tap)this.behaviour.tapped?.()}#reach(type){return this.behaviour.reach[type??
+"mouse"]??this.behaviour.reach.mouse}#find(place,type){return this.behaviour.find(this.view.toWorld(
+place),this.#reach(type)*this.view.unit)}#down(e){if(this.pointers.has(e.pointerId)||this.pointers.size>
+1)return;e.preventDefault();this.element.focus({preventScroll:true});this.#tap=false;const place=this.
+place(e);this.pointers.set(e.pointerId,place);this.element.setPointerCapture(e.pointerId);const second=this.
+pointers.size===2;if(second)this.#takeBack(e);this.#start=place;this.mode=second||e.button===1||e.button===
+0&&this.#space?"pan":"hand";if(this.mode==="hand")this.#handDown(place,e);this.#showCursor()}#handDown(place,e){
+const{behaviour}=this;const found=this.#find(place,e.pointerType);const left=e.button===0;const drags=left&&
+!e.altKey&&(behaviour.constrain||!e.shiftKey);if(drags&&found?.mark!==void 0){this.grip={from:this.view.
+toWorld(place),points:behaviour.held(found)}}this.#pans=left&&Boolean(behaviour.pans?.(found,e));this.
+encloses=left&&!behaviour.painting?behaviour.encloses?.(found,e):null;this.path=left?[this.view.toWorld(
+place)]:[];this.send("down",place,e,{part:found?.part,at:left?behaviour.pressedAt?.():void 0});if(e.
+pointerType==="touch"&&behaviour.menu&&!behaviour.painting){this.#longPress=setTimeout(()=>this.#pressedLong(
+e,place),LONG_PRESS)}behaviour.changed()}#pressedLong(e,place){this.#longPress=setTimeout(()=>{this.#takeBack(
+e);this.mode=null;this.#menu(place,"touch")},LONG_PRESS_GRACE)}#menu(place,type){this.behaviour.menu?.(
+place,this.#find(place,type))}#contextMenu(e){e.preventDefault();e.stopPropagation();const touch=e instanceof
+PointerEvent&&e.pointerType==="touch";if(e.button===2&&!touch)this.#menu(this.place(e),"mouse")}#takeBack(e){
+if(this.mode==="hand")this.send("cancel",this.#start,e);this.#drop()}#move(e){const place=this.place(
+e);const touch=e.pointerType==="touch";if(!this.pointers.has(e.pointerId)){if(!touch)this.hover(place);
+return}if(!touch)this.rests=place;const far=distance(place,this.#start);if(far>LONG_PRESS_SLACK)clearTimeout(
+this.#longPress);if(this.mode==="hand"&&this.#pans&&far>CLICK){this.#takeBack(e);this.mode="pan";this.#showCursor()}
+if(this.mode==="pan"){this.view.follow(this.pointers,e.pointerId,place);return}this.pointers.set(e.pointerId,
+place);if(this.mode==="hand")this.#handMoved(place,e,far)}#handMoved(place,e,far){const free=this.view.
+toWorld(place);this.#lengthenPath(place,free,far);const[x,y]=this.behaviour.constrain?.(free,e)??free;
+if(!this.encloses&&!this.behaviour.painting){this.send("move",place,e,{x,y,replaces:`move ${e.pointerId}`})}
+if(this.grip){const dx=x-this.grip.from[0];const dy=y-this.grip.from[1];for(const[mark,[u,v]]of this.
+grip.points)this.held.set(mark,[u+dx,v+dy])}this.behaviour.changed()}#lengthenPath(place,point,far){
+if(this.encloses==="box"){const[corner]=this.path;this.path=far>CLICK?rectangle(corner,point):[corner];
+return}const last=this.path.at(-1);if(last&&distance(place,this.view.toScreen(last))>=PATH_STEP)this.
+path.push(point)}#up(e,type){if(!this.pointers.has(e.pointerId))return;const place=this.place(e);this.
+pointers.delete(e.pointerId);if(this.mode==="hand"){const{path}=this;this.send(type,place,e,{path,encloses:Boolean(
+this.encloses)}).then(()=>{if(!this.grip)this.held.clear();if(this.path===path)this.path=[];this.behaviour.
+changed()})}this.#letGo();if(!this.pointers.size)this.mode=null;this.#showCursor()}#letGo(){clearTimeout(
+this.#longPress);this.grip=null;this.behaviour.changed()}#drop(){this.#letGo();this.held.clear();this.
+path=[]}#wheel(e){if(!this.behaviour.ownsWheel&&!this.focused&&!e.ctrlKey)return;e.stopPropagation();
+this.view.wheel(e,this.place(e))}#setSpace(pressed){this.#space=pressed;this.#showCursor()}#showCursor(){
+this.element.style.cursor=this.#cursor()}#cursor(){if(this.mode==="pan"||this.grip)return"grabbing";
+return this.#space?"grab":this.behaviour.cursor(this.found)}};var Solving=class{#worker;#number=0;#asked=new Map;constructor(worker,onmap=()=>{}){this.#worker=worker;
 this.onmap=onmap;worker.onmessage=({data})=>this.#answered(data)}ask(request){const id=this.#send(request);
 return new Promise((resolve,reject)=>this.#asked.set(id,{resolve,reject}))}async map(request){const answer=await this.
 ask(request);if(answer.type!=="map")throw new Error(`the answer is no map but of type ${answer.type}`);
@@ -592,27 +587,26 @@ width;let x1=0;let y1=0;let x2=0;let y2=0;for(let e=0;e<width;e+=2){const a1=row
 e];const a2=rowRe[first+e+1];const b2=rowIm[first+e+1];const c1=re[e];const d1=im[e];const c2=re[e+1];
 const d2=im[e+1];x1+=a1*c1-b1*d1;y1+=a1*d1+b1*c1;x2+=a2*c2-b2*d2;y2+=a2*d2+b2*c2}intoRe[i]=x1+x2;intoIm[i]=
 y1+y2}}function quarters(values){const n=values.length/4;return[values.subarray(0,n),values.subarray(n,2*n),
-values.subarray(2*n,3*n),values.subarray(3*n)]}var FieldPoints=class{#domain;#coordinates;#rows;constructor(domain,points){const{columns}=domain;this.#domain=
-domain;this.count=points.length;this.#coordinates=zeros(points.length*columns);for(const[i,point]of points.
-entries()){const c=coordinatesAt(domain,point);this.#coordinates.re.set(c.re,i*columns);this.#coordinates.
-im.set(c.im,i*columns)}this.#rows=rowsAt(domain,complexOf(points))}evaluate(coefficients){const slopes=slopesOf(
-this.#domain,coefficients);return{images:imagesAt(this.#coordinates,this.count,coefficients),samples:samplesAt(
-this.#rows,slopes)}}};function imagesAt({re,im},count,coefficients){const images=new Float64Array(2*
-count);const n=coefficients.length/4;const[pr,pi,qr,qi]=quarters(coefficients);const sum={re:pr.map(
-(value,j)=>value+qr[j]),im:pi.map((value,j)=>value+qi[j])};const less={re:pr.map((value,j)=>value-qr[j]),
-im:pi.map((value,j)=>value-qi[j])};for(let i=0;i<count;i++){const first=i*n;let x=0;let y=0;for(let j=0;j<
-n;j++){x+=re[first+j]*sum.re[j]-im[first+j]*sum.im[j];y+=re[first+j]*less.im[j]+im[first+j]*less.re[j]}
-images[2*i]=x;images[2*i+1]=y}return images}var MOVED_BY_PAGE="moved by the page";var Vertices=class{#domain;#wire;#points=new WeakMap;constructor({
+values.subarray(2*n,3*n),values.subarray(3*n)]}var FieldPoints=class{#domain;#points;#coordinates;#rows=null;constructor(domain,points){const{columns}=domain;
+this.#domain=domain;this.#points=complexOf(points);this.count=points.length;this.#coordinates=emptyRows(
+points.length,columns);for(const[i,point]of points.entries()){const c=coordinatesAt(domain,point);this.#coordinates.
+re.set(c.re,i*evenly(columns));this.#coordinates.im.set(c.im,i*evenly(columns))}}evaluate(coefficients){
+return{images:this.images(coefficients),samples:this.samples(coefficients)}}images(coefficients){const[
+fr,fi,gr,gi]=quarters(samplesAt(this.#coordinates,coefficients));const images=new Float64Array(2*this.
+count);for(let i=0;i<this.count;i++){images[2*i]=fr[i]+gr[i];images[2*i+1]=fi[i]-gi[i]}return images}samples(coefficients){
+this.#rows??=rowsAt(this.#domain,this.#points);return samplesAt(this.#rows,slopesOf(this.#domain,coefficients))}};var MOVED_BY_PAGE="moved by the page";var Vertices=class{#domain;#wire;#points=new WeakMap;constructor({
 outline,...sizes}){this.#domain=new Domain(outline);this.#wire=new Wire(outline,sizes)}move(meshes,wire){
 const moved=meshes.filter(({name,visible})=>name===MOVED_BY_PAGE&&visible);if(!moved.length||wire.length!==
-this.#wire.length)return;const coefficients=this.#wire.coefficients(wire);for(const geometry of new Set(
-moved.map(mesh=>mesh.geometry))){const{images,samples}=this.#pointsOf(geometry).evaluate(coefficients);
-const{image,derivatives}=geometry.attributes;image.array.set(images);const count=image.count;for(let part=0;part<
-4;part++){for(let i=0;i<count;i++)derivatives.array[4*i+part]=samples[part*count+i]}geometry.userData.
-wire=wire;image.needsUpdate=true;derivatives.needsUpdate=true}}#pointsOf(geometry){const known=this.#points.
-get(geometry);if(known)return known;const{array,count}=geometry.attributes.position;const places=Array.
-from({length:count},(_,i)=>[array[3*i],array[3*i+1]]);const points=new FieldPoints(this.#domain,places);
-this.#points.set(geometry,points);return points}};var NEAR=8;var LEAD="glid:lead";var N_TIMED=3;var Shapes=class{motion=null;lead=null;led=()=>{};#vertices=null;#materials=[];#camera=null;#renderer=null;#loading=0;#lifted=null;#resting=null;constructor(model,view){
+this.#wire.length)return;const coefficients=this.#wire.coefficients(wire);const distorted=new Set(moved.
+filter(showsDerivatives).map(mesh=>mesh.geometry));for(const geometry of new Set(moved.map(mesh=>mesh.
+geometry))){const points=this.#pointsOf(geometry);const{image,derivatives}=geometry.attributes;image.
+array.set(points.images(coefficients));image.needsUpdate=true;if(distorted.has(geometry)){interleave(
+points.samples(coefficients),derivatives.array);derivatives.needsUpdate=true}geometry.userData.wire=
+wire}}#pointsOf(geometry){const known=this.#points.get(geometry);if(known)return known;const{array,count}=geometry.
+attributes.position;const places=Array.from({length:count},(_,i)=>[array[3*i],array[3*i+1]]);const points=new FieldPoints(
+this.#domain,places);this.#points.set(geometry,points);return points}};function showsDerivatives({material}){
+return material.uniforms?.overlay?.value!==0}function interleave(samples,into){const count=samples.length/
+4;for(let part=0;part<4;part++){for(let i=0;i<count;i++)into[4*i+part]=samples[part*count+i]}}var NEAR=8;var LEAD="glid:lead";var N_TIMED=3;var MOST_FRAMES=100;var Shapes=class{motion=null;lead=null;led=()=>{};#vertices=null;#materials=[];#camera=null;#renderer=null;#loading=0;#lifted=null;#resting=null;constructor(model,view){
 this.model=model;this.view=view;model.on("change:outline",()=>this.#takeOutline());this.#takeOutline();
 model.on("change:materials change:camera change:renderer",()=>this.load())}async load(){this.#loading+=
 1;const turn=this.#loading;const{model}=this;const references=[model.get("camera"),model.get("render\
@@ -620,7 +614,7 @@ er"),...model.get("materials")];const[camera,renderer,...materials]=await Promis
 one=>model.widget_manager.get_model(one.replace("IPY_MODEL_",""))));await Promise.all([camera,renderer,
 ...materials].map(one=>one.initPromise));if(turn!==this.#loading)return;this.#forget();this.#camera=
 camera;this.#renderer=renderer;this.#materials=materials;for(const material of materials)material.on(
-"change",this.refresh,this);renderer.get("scene").off("beforeRender",clearLists).on("beforeRender",clearLists);
+"change",this.refresh,this);renderer.get("scene").off("beforeRender",keepLittle).on("beforeRender",keepLittle);
 for(const view of Object.values(renderer.views))view.then(drawNoMore);renderer.on(LEAD,this.#takeLead,
 this);this.refresh()}#forget(){this.#renderer?.off(null,null,this);for(const material of this.#materials)
 material.off(null,null,this);this.#materials=[]}#takeOutline(){const outlined=this.model.get("outlin\
@@ -639,19 +633,21 @@ array===resting)position.setArray(lifted);this.#lifted=lifted}else{if(position.a
 position.setArray(resting)}position.needsUpdate=true}see(){const{x,y,unit,width,height}=this.view;const w=width/
 2*unit;const h=height/2*unit;for(const{obj}of this.#materials){if(obj?.uniforms?.pixel)obj.uniforms.
 pixel.value=unit}this.#camera?.set({left:x-w,right:x+w,top:y+h,bottom:y-h})}redraw(){this.#renderer?.
-trigger("rerender",this.#renderer,{})}close(){this.#loading+=1;this.#forget()}};function clearLists(_scene,{
-renderLists}){renderLists.dispose()}function drawNoMore(view){view.once("remove",()=>{view.renderScene=
-()=>{}})}function drawnBelow(pad){return pad.closest(".glid-pane")?.querySelector(".jupyter-threejs \
-canvas")}function coveredNear(pad,[x,y]){const drawn=drawnBelow(pad);if(!drawn)return false;const size=2*
-NEAR;const pen=penOf(make("canvas",{width:size,height:size}));const ratio=drawn.width/pad.clientWidth;
-pen.drawImage(drawn,NEAR-Math.floor(x*ratio),NEAR-Math.floor(y*ratio));const{data}=pen.getImageData(
-0,0,size,size);return data.some((value,i)=>i%4===3&&value>0)}function uniformVectors(){const canvas=make(
-"canvas");const gl=canvas.getContext("webgl2")||canvas.getContext("webgl");if(!gl)return 0;const count=gl.
-getParameter(gl.MAX_VERTEX_UNIFORM_VECTORS);gl.getExtension("WEBGL_lose_context")?.loseContext();return count}
-async function drawingTime(pad,shapes){const times=[];for(let i=0;i<=N_TIMED;i++){const moving=performance.
-now();shapes.refresh();const moved=performance.now()-moving;await new Promise(go=>requestAnimationFrame(
-go));const canvas=drawnBelow(pad);const gl=canvas?.getContext("webgl")||canvas?.getContext("webgl2");
-if(!gl)continue;const start=performance.now();gl.readPixels(0,0,1,1,gl.RGBA,gl.UNSIGNED_BYTE,new Uint8Array(
+trigger("rerender",this.#renderer,{})}close(){this.#loading+=1;this.#forget()}};var ending=new WeakSet;
+function keepLittle(_scene,renderer){renderer.renderLists.dispose();if(ending.has(renderer))return;ending.
+add(renderer);const{dispose}=renderer;renderer.dispose=()=>{dispose.call(renderer);renderer.forceContextLoss()}}
+function drawNoMore(view){view.once("remove",()=>{view.renderScene=()=>{}})}function drawnBelow(pad){
+return pad.closest(".glid-pane")?.querySelector(".jupyter-threejs canvas")}function coveredNear(pad,[
+x,y]){const drawn2=drawnBelow(pad);if(!drawn2)return false;const size=2*NEAR;const pen=penOf(make("c\
+anvas",{width:size,height:size}));const ratio=drawn2.width/pad.clientWidth;pen.drawImage(drawn2,NEAR-
+Math.floor(x*ratio),NEAR-Math.floor(y*ratio));const{data}=pen.getImageData(0,0,size,size);return data.
+some((value,i)=>i%4===3&&value>0)}function uniformVectors(){const canvas=make("canvas");const gl=canvas.
+getContext("webgl2")||canvas.getContext("webgl");if(!gl)return 0;const count=gl.getParameter(gl.MAX_VERTEX_UNIFORM_VECTORS);
+gl.getExtension("WEBGL_lose_context")?.loseContext();return count}async function drawingTime(pad,shapes){
+const times=[];for(let i=0;i<MOST_FRAMES&&times.length<=N_TIMED;i++){const moving=performance.now();
+shapes.refresh();const moved=performance.now()-moving;await new Promise(go=>requestAnimationFrame(go));
+const canvas=drawnBelow(pad);const gl=canvas?.getContext("webgl")||canvas?.getContext("webgl2");if(!gl)
+continue;const start=performance.now();gl.readPixels(0,0,1,1,gl.RGBA,gl.UNSIGNED_BYTE,new Uint8Array(
 4));times.push(moved+performance.now()-start)}return times.length>1?Math.min(...times.slice(1)):0}var SAVE_VIEW_AFTER=250;var STILL={release(){},pause:()=>void 0};var Canvas=class{legend=new Legend;notices=new Notices;help=help(
 HELP);ghosts=new Ghosts;#chosen;#saving;#playing=STILL;#painted=false;#presses=false;constructor({model,
 el,signal}){this.model=model;this.interactive=model.get("interactive");const paper=make("canvas",{className:"\

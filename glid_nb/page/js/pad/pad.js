@@ -173,7 +173,7 @@ export class Pad {
   keydown(e) {
     const key = keyOf(e);
     const command = e.ctrlKey || e.metaKey;
-    const action = command ? undefined : this.behaviour.actions[key.toLowerCase()];
+    const action = command || e.altKey ? undefined : this.behaviour.actions[key.toLowerCase()];
     const history = undoOrRedo(e);
     if (!history && !action && key !== " ") {
       if (e.altKey || !this.behaviour.keys.test(key) || (command && key !== "a")) return;
