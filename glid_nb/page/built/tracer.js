@@ -225,36 +225,37 @@ place),this.#reach(type)*this.view.unit)}#down(e){if(this.pointers.has(e.pointer
 place(e);this.pointers.set(e.pointerId,place);this.element.setPointerCapture(e.pointerId);const second=this.
 pointers.size===2;if(second)this.#takeBack(e);this.#start=place;this.mode=second||e.button===1||e.button===
 0&&this.#space?"pan":"hand";if(this.mode==="hand")this.#handDown(place,e);this.#showCursor()}#handDown(place,e){
-const{behaviour}=this;const found=this.#find(place,e.pointerType);const left=e.button===0;if(left&&!e.
-shiftKey&&!e.altKey&&found?.mark!==void 0){this.grip={from:this.view.toWorld(place),points:behaviour.
-held(found)}}this.#pans=left&&Boolean(behaviour.pans?.(found,e));this.encloses=left&&!behaviour.painting?
-behaviour.encloses?.(found,e):null;this.path=left?[this.view.toWorld(place)]:[];this.send("down",place,
-e,{part:found?.part,at:left?behaviour.pressedAt?.():void 0});if(e.pointerType==="touch"&&behaviour.menu&&
-!behaviour.painting){this.#longPress=setTimeout(()=>this.#pressedLong(e,place),LONG_PRESS)}behaviour.
-changed()}#pressedLong(e,place){this.#longPress=setTimeout(()=>{this.#takeBack(e);this.mode=null;this.#menu(
-place,"touch")},LONG_PRESS_GRACE)}#menu(place,type){this.behaviour.menu?.(place,this.#find(place,type))}#contextMenu(e){
-e.preventDefault();e.stopPropagation();const touch=e instanceof PointerEvent&&e.pointerType==="touch";
-if(e.button===2&&!touch)this.#menu(this.place(e),"mouse")}#takeBack(e){if(this.mode==="hand")this.send(
-"cancel",this.#start,e);this.#drop()}#move(e){const place=this.place(e);const touch=e.pointerType===
-"touch";if(!this.pointers.has(e.pointerId)){if(!touch)this.hover(place);return}if(!touch)this.rests=
-place;const far=distance(place,this.#start);if(far>LONG_PRESS_SLACK)clearTimeout(this.#longPress);if(this.
-mode==="hand"&&this.#pans&&far>CLICK){this.#takeBack(e);this.mode="pan";this.#showCursor()}if(this.mode===
-"pan"){this.view.follow(this.pointers,e.pointerId,place);return}this.pointers.set(e.pointerId,place);
-if(this.mode==="hand")this.#handMoved(place,e,far)}#handMoved(place,e,far){const point=this.view.toWorld(
-place);this.#lengthenPath(place,point,far);if(!this.encloses&&!this.behaviour.painting){this.send("m\
-ove",place,e,{replaces:`move ${e.pointerId}`})}if(this.grip){const dx=point[0]-this.grip.from[0];const dy=point[1]-
-this.grip.from[1];for(const[mark,[x,y]]of this.grip.points)this.held.set(mark,[x+dx,y+dy])}this.behaviour.
-changed()}#lengthenPath(place,point,far){if(this.encloses==="box"){const[corner]=this.path;this.path=
-far>CLICK?rectangle(corner,point):[corner];return}const last=this.path.at(-1);if(last&&distance(place,
-this.view.toScreen(last))>=PATH_STEP)this.path.push(point)}#up(e,type){if(!this.pointers.has(e.pointerId))
-return;const place=this.place(e);this.pointers.delete(e.pointerId);if(this.mode==="hand"){const{path}=this;
-this.send(type,place,e,{path,encloses:Boolean(this.encloses)}).then(()=>{if(!this.grip)this.held.clear();
-if(this.path===path)this.path=[];this.behaviour.changed()})}this.#letGo();if(!this.pointers.size)this.
-mode=null;this.#showCursor()}#letGo(){clearTimeout(this.#longPress);this.grip=null;this.behaviour.changed()}#drop(){
-this.#letGo();this.held.clear();this.path=[]}#wheel(e){if(!this.behaviour.ownsWheel&&!this.focused&&
-!e.ctrlKey)return;e.stopPropagation();this.view.wheel(e,this.place(e))}#setSpace(pressed){this.#space=
-pressed;this.#showCursor()}#showCursor(){this.element.style.cursor=this.#cursor()}#cursor(){if(this.
-mode==="pan"||this.grip)return"grabbing";return this.#space?"grab":this.behaviour.cursor(this.found)}};var HALO="rgba(255, 255, 255, 0.9)";var SPECK=12;var CHECK=8;function drawStage(pen,stage,scene,hover){
+const{behaviour}=this;const found=this.#find(place,e.pointerType);const left=e.button===0;const drags=left&&
+!e.altKey&&(behaviour.constrain||!e.shiftKey);if(drags&&found?.mark!==void 0){this.grip={from:this.view.
+toWorld(place),points:behaviour.held(found)}}this.#pans=left&&Boolean(behaviour.pans?.(found,e));this.
+encloses=left&&!behaviour.painting?behaviour.encloses?.(found,e):null;this.path=left?[this.view.toWorld(
+place)]:[];this.send("down",place,e,{part:found?.part,at:left?behaviour.pressedAt?.():void 0});if(e.
+pointerType==="touch"&&behaviour.menu&&!behaviour.painting){this.#longPress=setTimeout(()=>this.#pressedLong(
+e,place),LONG_PRESS)}behaviour.changed()}#pressedLong(e,place){this.#longPress=setTimeout(()=>{this.#takeBack(
+e);this.mode=null;this.#menu(place,"touch")},LONG_PRESS_GRACE)}#menu(place,type){this.behaviour.menu?.(
+place,this.#find(place,type))}#contextMenu(e){e.preventDefault();e.stopPropagation();const touch=e instanceof
+PointerEvent&&e.pointerType==="touch";if(e.button===2&&!touch)this.#menu(this.place(e),"mouse")}#takeBack(e){
+if(this.mode==="hand")this.send("cancel",this.#start,e);this.#drop()}#move(e){const place=this.place(
+e);const touch=e.pointerType==="touch";if(!this.pointers.has(e.pointerId)){if(!touch)this.hover(place);
+return}if(!touch)this.rests=place;const far=distance(place,this.#start);if(far>LONG_PRESS_SLACK)clearTimeout(
+this.#longPress);if(this.mode==="hand"&&this.#pans&&far>CLICK){this.#takeBack(e);this.mode="pan";this.#showCursor()}
+if(this.mode==="pan"){this.view.follow(this.pointers,e.pointerId,place);return}this.pointers.set(e.pointerId,
+place);if(this.mode==="hand")this.#handMoved(place,e,far)}#handMoved(place,e,far){const free=this.view.
+toWorld(place);this.#lengthenPath(place,free,far);const[x,y]=this.behaviour.constrain?.(free,e)??free;
+if(!this.encloses&&!this.behaviour.painting){this.send("move",place,e,{x,y,replaces:`move ${e.pointerId}`})}
+if(this.grip){const dx=x-this.grip.from[0];const dy=y-this.grip.from[1];for(const[mark,[u,v]]of this.
+grip.points)this.held.set(mark,[u+dx,v+dy])}this.behaviour.changed()}#lengthenPath(place,point,far){
+if(this.encloses==="box"){const[corner]=this.path;this.path=far>CLICK?rectangle(corner,point):[corner];
+return}const last=this.path.at(-1);if(last&&distance(place,this.view.toScreen(last))>=PATH_STEP)this.
+path.push(point)}#up(e,type){if(!this.pointers.has(e.pointerId))return;const place=this.place(e);this.
+pointers.delete(e.pointerId);if(this.mode==="hand"){const{path}=this;this.send(type,place,e,{path,encloses:Boolean(
+this.encloses)}).then(()=>{if(!this.grip)this.held.clear();if(this.path===path)this.path=[];this.behaviour.
+changed()})}this.#letGo();if(!this.pointers.size)this.mode=null;this.#showCursor()}#letGo(){clearTimeout(
+this.#longPress);this.grip=null;this.behaviour.changed()}#drop(){this.#letGo();this.held.clear();this.
+path=[]}#wheel(e){if(!this.behaviour.ownsWheel&&!this.focused&&!e.ctrlKey)return;e.stopPropagation();
+this.view.wheel(e,this.place(e))}#setSpace(pressed){this.#space=pressed;this.#showCursor()}#showCursor(){
+this.element.style.cursor=this.#cursor()}#cursor(){if(this.mode==="pan"||this.grip)return"grabbing";
+return this.#space?"grab":this.behaviour.cursor(this.found)}};var HALO="rgba(255, 255, 255, 0.9)";var SPECK=12;var CHECK=8;function drawStage(pen,stage,scene,hover){
 const{shown,colors,loops}=scene;const{view}=stage;const[width,height]=shown.size??[0,0];const corner=view.
 toScreen([0,0]);drawPicture(pen,stage,colors,corner,[width/view.unit,height/view.unit]);if(loops.length&&
 !stage.painting){const frame=rectangle(corner,view.toScreen([width,height]));fillPath(pen,[...loops,
