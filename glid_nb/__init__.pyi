@@ -4,6 +4,7 @@
 # Shapes
 from .geometry import Cage as Cage
 from .geometry import Domain as Domain
+from .geometry import cut as cut
 from .geometry import offset_cage as offset_cage
 from .geometry import triangulate as triangulate
 

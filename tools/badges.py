@@ -36,7 +36,7 @@ def main() -> None:
     repository = sys.argv[1] if len(sys.argv) > 1 else None
     if repository and not re.fullmatch(r"[\w.-]+/[\w.-]+", repository):
         raise SystemExit(f"{repository} is not OWNER/NAME\n\n{__doc__}")
-    for path in sorted(FOLDER.glob("[0-9][0-9]_*.ipynb")):
+    for path in sorted(FOLDER.glob("[0-9][0-9]*_*.ipynb")):
         book = nbformat.read(path, as_version=4)
         with_buttons(book, path.name, repository)
         nbformat.write(book, path)

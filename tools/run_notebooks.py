@@ -48,7 +48,7 @@ def run(path: Path) -> None:
 
 
 def main(numbers: list[str]) -> None:
-    found = (sorted(FOLDER.glob(f"{number}_*.ipynb")) for number in numbers or ["[0-9][0-9]"])
+    found = (sorted(FOLDER.glob(f"{number}_*.ipynb")) for number in numbers or ["[0-9][0-9]*"])
     paths = list(itertools.chain.from_iterable(found))
     if not paths:
         raise SystemExit(f"no chapter has the number {' or '.join(numbers)}\n\n{__doc__}")

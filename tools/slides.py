@@ -28,7 +28,7 @@ LECTURES = {
     "2-the-space-of-maps": ("04", "05"),
     "3-distortion": ("06",),
     "4-newton": ("07", "08"),
-    "5-the-certificate": ("09",),
+    "5-the-certificate": ("09", "09b"),
     "6-others-speed-motion": ("10", "11", "12"),
 }
 """The chapters of each lecture, by the name of its file."""
@@ -167,7 +167,7 @@ def page(title: str, chapters: list[NotebookNode]) -> str:
     parts = []
     for book in chapters:
         for slide in slides(book):
-            number, words = re.fullmatch(r"(\d\d\. )?(.*)", slide.heading).groups("")  # type: ignore[union-attr]
+            number, words = re.fullmatch(r"(\d\d[a-z]?\. )?(.*)", slide.heading).groups("")  # type: ignore[union-attr]
             words = re.sub(r"</?p>", "", rendered(words))
             heading = f"<h{slide.level}>{number}{words}</h{slide.level}>"
             points = "".join(f'<div class="point">{one}</div>' for one in slide.points)

@@ -64,7 +64,7 @@ def student_edition(book: NotebookNode, chapter: str) -> tuple[NotebookNode, str
 
 def main(folder: Path) -> None:
     (folder / "checks").mkdir(parents=True, exist_ok=True)
-    paths = sorted(FOLDER.glob("[0-9][0-9]_*.ipynb"))
+    paths = sorted(FOLDER.glob("[0-9][0-9]*_*.ipynb"))
     for path in paths:
         book, checks = student_edition(nbformat.read(path, as_version=4), path.stem)
         nbformat.write(book, folder / path.name)

@@ -23,7 +23,7 @@ def chapter(path: Path) -> tuple[str, str, str]:
         return found[1].strip(" *_.") if found else ""
 
     question = stated(r"(?i)^\W*the question:?\W*:?\s*(.+?)$")
-    title = re.sub(r"^\d+\W+", "", stated(r"^# +(.+)$"))
+    title = re.sub(r"^\d+[a-z]?\W+", "", stated(r"^# +(.+)$"))
     return (
         title,
         question[:1].upper() + question[1:],
@@ -49,7 +49,8 @@ class Course(SphinxDirective):
             question = f"<br>{question}" if question else ""
             link = f"[{title or path.stem}](/notebooks/{path.name})"
             file = f"{{download}}`download </notebooks/{path.name}>`"
-            lines.append(f"| {path.stem[:2]} | {link}{question} | {minutes} | {file} |")
+            number = path.stem.partition("_")[0]
+            lines.append(f"| {number} | {link}{question} | {minutes} | {file} |")
         self.content = StringList(lines)
         return self.parse_content_to_nodes()
 

@@ -20,7 +20,6 @@ from glid_nb._errors import InputError
 from glid_nb.grading.chapters import Notebook, answers
 from glid_nb.grading.verdicts import CRASHED, RIGHT, SLOW, UNTOUCHED
 
-_CHAPTER = re.compile(r"\d\d_\w+")
 _MOODLE = re.compile(r"_\d+_assignsubmission_file_?$")
 _OTHER_FILES = 50_000_000  # bytes of pictures and other files beside a notebook
 _OWN_SECONDS = 900  # that a chapter's own cells may take
@@ -59,7 +58,7 @@ class Grade:
 
 def chapters_in(folder: Path) -> dict[str, Chapter]:
     """The course's own chapters, by name. Raises an InputError if there is none."""
-    paths = sorted(folder.glob("[0-9][0-9]_*.ipynb"))
+    paths = sorted(folder.glob("[0-9][0-9]*_*.ipynb"))
     if not paths:
         raise InputError(f"{folder} has no chapter such as 07_newton.ipynb")
     return {path.stem: Chapter(path.stem, path.read_text(encoding="utf-8")) for path in paths}

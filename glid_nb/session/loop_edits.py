@@ -64,6 +64,15 @@ def drawn(points: ArrayLike, size: tuple[int, int]) -> Floats:
     return shapely.get_coordinates(ring.segmentize(_LONGEST * ring.length))[:-1]
 
 
+def drawn_line(points: ArrayLike, size: tuple[int, int]) -> Floats:
+    """The (k, 2) points, in pixels, of a line drawn over a picture of ``size``, without the
+    trembling of the hand."""
+    line = number_pairs(points, "a cut must be a line of pixels (x, y)", GeometryError)
+    if len(line) < 2 or not np.isfinite(line).all():
+        return line  # `geometry.cut` says what is wrong
+    return shapely.get_coordinates(shapely.LineString(line).simplify(_DRAWN * max(size)))
+
+
 def nearest_edge(loops: AnyLoops, point: ArrayLike) -> tuple[int, int, Floats]:
     """The edge (loop, index) nearest to a point, and the nearest point on this edge."""
     p, whole = shapely.Point(checked_point(point)), Loops.of(loops)

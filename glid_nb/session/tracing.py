@@ -12,7 +12,7 @@ import shapely
 from numpy.typing import ArrayLike, NDArray
 
 from glid_nb._arrays import Array, number_pairs, read_only
-from glid_nb.geometry import Cage, Domain, GeometryError
+from glid_nb.geometry import Cage, Domain, GeometryError, cut
 from glid_nb.geometry.cage import check_distinct
 from glid_nb.imaging import Hole, PixelFrame, Scribbles, TraceError, TraceOptions, Tracer, Tracing
 from glid_nb.imaging.options import Point
@@ -261,9 +261,7 @@ class TracingModel(Undoable[TracingState]):
     def insert_vertex(self, at: Point) -> tuple[int, int]:
         """Add a vertex on the edge nearest to a point. Returns its (loop, index)."""
         with self.locked():
-            loops = self.outcome.loops
-            if not loops:
-                raise GeometryError("there is no loop yet to add a vertex to")
+            loops = self._shown_loops()
             loop, edge, foot = loop_edits.nearest_edge(loops, self._world(at))
             self._edit(lambda loops: loop_edits.insert_vertex(loops, loop, edge, foot))
         return loop, edge + 1
@@ -280,9 +278,9 @@ class TracingModel(Undoable[TracingState]):
             if self.edited:
                 self._step(replace(self.state, loops=None))
 
-    def set_loops(self, loops: AnyLoops) -> None:
+    def set_loops(self, loops: AnyLoops, gesture: Any = None) -> None:
         """Replace the loops (world coordinates, exterior first) as an edit by hand."""
-        self._edit(lambda _: loops)
+        self._edit(lambda _: loops, gesture)
 
     def draw(self, outline: ArrayLike | None = None) -> None:
         """Use an outline drawn by hand, (k, 2) pixels, as the cage; None: the whole picture."""
@@ -295,6 +293,22 @@ class TracingModel(Undoable[TracingState]):
         """Cut a hole drawn by hand, (k, 2) pixels, out of the shown shape."""
         hole = self._drawn(outline)
         self._edit(lambda loops: (*loops, hole))
+
+    def cut(
+        self, line: ArrayLike, width: float | None = None, gesture: Any = None
+    ) -> tuple[Cage, ...]:
+        """Cut the shown shape along a line drawn by hand, (k, 2) pixels, as `glid_nb.cut` does.
+
+        The largest piece becomes the cage. Returns all pieces, the largest first: `set_loops` with
+        another one's loops keeps that one instead. ``width`` is in pixels.
+        """
+        with self.locked():
+            frame, cage = self._frame_of_picture(), _cage_of(self._shown_loops())
+            path = frame.to_world(loop_edits.drawn_line(line, (frame.width, frame.height)))
+            world = None if width is None else width * frame.units_per_pixel
+            pieces = cut(cage, path, world)
+            self.set_loops(pieces[0].loops, gesture)
+        return pieces
 
     def holds(self, outline: ArrayLike) -> bool:
         """Whether an outline drawn by hand, (k, 2) pixels, lies inside the shape, which is no
@@ -383,6 +397,11 @@ class TracingModel(Undoable[TracingState]):
         frame = self._frame_of_picture()
         size = frame.width, frame.height
         return read_only(frame.to_world(loop_edits.drawn(outline, size)))
+
+    def _shown_loops(self) -> AnyLoops:
+        if not (loops := self.outcome.loops):
+            raise GeometryError("there is no outline yet; trace or draw one first")
+        return loops
 
     def _frame_of_picture(self) -> PixelFrame:
         if (frame := self.frame) is None:

@@ -40,9 +40,9 @@ class DeformCanvas(ClosingWidget, ipywidgets.HBox):
     """A picture that follows its pins.
 
     A click on the shape adds a pin, and a drag moves its target (cyan). The pinned point (black)
-    follows as far as a certified map allows. Right click, long touch and the Menu key show more
-    actions. The ``?`` on the canvas shows a table of all keys and gestures. The keyboard alone is
-    enough: arrow keys move a cursor, and Enter adds or selects a pin there.
+    follows as far as a certified map allows. Right click, long touch, the Menu key and Shift+F10
+    show more actions. The ``?`` on the canvas shows a table of all keys and gestures. The keyboard
+    alone is enough: arrow keys move a cursor, and Enter adds or selects a pin there.
 
     The image is as in `glid_nb.read_image`. ``deformation`` is the model to show, or the domain of
     a new model. The canvas is ``width`` by ``height`` CSS pixels, at least 100 each; by default 600
@@ -96,6 +96,7 @@ class DeformCanvas(ClosingWidget, ipywidgets.HBox):
         """The model of this view."""
         self._mesh: dict[str, Any] = {"n_vertices": n_vertices, "evaluated_in": evaluated_in}
         self.pane = self._pane(size, interactive=True)
+        self.pane.stage.picture_size = self.image.shape[1::-1]
         self._page_solver = PageSolver(self.pane.stage)
         self.source: Pane | None = None
         self.gestures = BrushGestures(model, self.fit, self.image)

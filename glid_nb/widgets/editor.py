@@ -422,6 +422,8 @@ class Editor(ClosingWidget, ipywidgets.VBox):
                     self._boxes[name].children = [ipywidgets.HTML(what)]
                     raise
                 self._boxes[name].children = [part]
+                if isinstance(part, FilePanel) and part.motion is not None:
+                    ipywidgets.dlink((part.motion.rate, "value"), (self.timeline, "rate"))
             return self._parts[name]
 
     def _bars(self) -> ipywidgets.VBox:

@@ -28,6 +28,7 @@ _DEPTHS = {"PageUp": 1, "]": 1, "PageDown": -1, "[": -1}
 _TURNS = {"<": (np.radians(5), 1.0), ">": (np.radians(-5), 1.0)}  # angle and scale
 _TURNS |= {"+": (0.0, 1.05), "=": (0.0, 1.05), "-": (0.0, 1 / 1.05)}
 _LEAST_SCALE, _LARGEST_SCALE = 0.05, 20.0  # limits of scales set by dragging
+_TURN = np.radians(15)  # to multiples of this, Shift turns
 _LEVER = 12.0  # pixels from a pin: nearer to it, the pointer gives no direction
 # A knob's drag turns, or scales, only beyond these: an angle, and the logarithm of a ratio.
 _LEAST_TURN, _LEAST_SCALING = 0.06, 0.12
@@ -79,6 +80,8 @@ class _PinPress:
     """Angles and scales of the selected handles when the pointer was at ``start``."""
     turns: bool = False
     scales: bool = False
+    toggled: int | None = None
+    """The handle that a click with Shift adds to the selection, or takes from it."""
 
 
 class PinGestures(Gestures):
@@ -154,9 +157,10 @@ class PinGestures(Gestures):
         elif hit is None:
             source = None if event["shift"] else self._source(point)
             self._press = _PinPress(point, source, None)
-        elif event["shift"]:
-            chosen = model.selection
-            model.select([i for i in chosen if i != hit] if hit in chosen else [*chosen, hit])
+        elif event["shift"] and not event.get("alt"):
+            # A click selects several; a drag moves along an axis.
+            moved = model.selection if hit in model.selection else (hit,)
+            self._press = _PinPress(point, None, model.pose.targets[list(moved)], toggled=hit)
         else:
             if hit not in model.selection:
                 model.select([hit])
@@ -182,7 +186,7 @@ class PinGestures(Gestures):
         if not press.dragging and np.linalg.norm(point - press.start) <= slop * event["unit"]:
             return
         if press.part:
-            self._turn(press, point, _LEVER * event["unit"])
+            self._turn(press, point, _LEVER * event["unit"], event["shift"])
             return
         if press.targets is None and press.source is not None:
             # Dragging the shape itself pins the point below the pointer.
@@ -197,6 +201,10 @@ class PinGestures(Gestures):
     def _drags(self, press: _PinPress) -> bool:
         """Begin or continue the drag of the selected handles. False if it cannot continue."""
         model = self.deformation
+        if press.toggled is not None:
+            if press.toggled not in model.selection:
+                model.select([press.toggled])
+            press.toggled = None
         if not press.dragging and model.selection:
             model.begin_drag(model.selection)
             press.dragging = True
@@ -204,8 +212,9 @@ class PinGestures(Gestures):
             self._press = None
         return self._press is not None
 
-    def _turn(self, press: _PinPress, point: Array, lever: float) -> None:
-        """Turn and scale the selected handles when the pointer moves around the last of them."""
+    def _turn(self, press: _PinPress, point: Array, lever: float, whole: bool) -> None:
+        """Turn and scale the selected handles when the pointer moves around the last of them.
+        ``whole`` turns that one to a multiple of 15 degrees."""
         model = self.deformation
         if not self._drags(press):
             return
@@ -221,6 +230,8 @@ class PinGestures(Gestures):
         if press.part == "knob":
             press.turns |= abs(angle) > _LEAST_TURN
             press.scales |= abs(np.log(ratio)) > _LEAST_SCALING
+        if whole:
+            angle = np.round((angles[-1] + angle) / _TURN) * _TURN - angles[-1]
         wanted = {"angles": wrapped(angles + angle)} if press.turns else {}
         if press.scales:
             wanted["scales"] = (scales * ratio).clip(_LEAST_SCALE, _LARGEST_SCALE)
@@ -244,6 +255,10 @@ class PinGestures(Gestures):
             return
         if press.dragging:
             self.deformation.end_drag()
+        elif press.toggled is not None:
+            hit, chosen = press.toggled, self.deformation.selection
+            rest = [i for i in chosen if i != hit]
+            self.deformation.select(rest if hit in chosen else [*chosen, hit])
         elif press.targets is None:
             if press.source is not None:
                 self._pin_at(press.source)

@@ -5,6 +5,7 @@ from typing import Any
 
 import anywidget
 import ipywidgets
+import traitlets
 
 from glid_nb.page import bundle
 from glid_nb.session.model import Observed
@@ -22,6 +23,9 @@ class Pad(ClosingWidget, anywidget.AnyWidget):
     """
 
     _esm = bundle("loader")  # loads `_script`, a trait of each class
+
+    picture_size = traitlets.List(traitlets.Int(), []).tag(sync=True)
+    """Width and height of the picture in its pixels; empty if nobody asks for pixels."""
 
     def serve(
         self,

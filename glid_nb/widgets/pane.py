@@ -18,7 +18,14 @@ from glid_nb.widgets.closing import ClosingWidget
 from glid_nb.widgets.layers import BackdropMesh, EvaluatedIn, picture_texture
 from glid_nb.widgets.overlays import PANEL_LEGEND, legend
 from glid_nb.widgets.pad import Pad
-from glid_nb.widgets.scene import N_VERTICES, UNIFORM_VECTORS, Drawing, Scene, renderer
+from glid_nb.widgets.scene import (
+    N_VERTICES,
+    UNIFORM_VECTORS,
+    Drawing,
+    Scene,
+    renderer,
+    replacement,
+)
 
 CORNERS = ("bottom right", "bottom left", "top right", "top left")  # the default first
 
@@ -115,7 +122,7 @@ class Pane(ClosingWidget, ipywidgets.GridBox):
         self._times: dict[str, float] = {}  # ms for a vertex, by who evaluates
         self.scene = self._new_scene(0)  # what pythreejs draws
         self._backdrop = self._new_backdrop(background)
-        self._renderer = renderer(self._meshes)
+        self._renderer = renderer(self._meshes, self._multisamples)
         self.stage = Stage(
             width=size[0],
             height=size[1],
@@ -126,11 +133,12 @@ class Pane(ClosingWidget, ipywidgets.GridBox):
             coefficients=self._wire(),
             outline=_outlined(self.scene),
         )
-        super().__init__([self._renderer, self.stage])
+        super().__init__([self.stage, self._renderer])  # a new renderer leaves the stage's views
         self.add_class("glid-pane")
         for side in ("width", "height"):
-            ipywidgets.dlink((self.stage, side), (self._renderer, side))
             ipywidgets.dlink((self.stage, side), (self.layout, side), "{}px".format)
+        self._size_renderer()
+        self.stage.observe(self._size_renderer, ["width", "height"])
         self.fit()
         self._endings = (self._free,)
 
@@ -167,6 +175,8 @@ class Pane(ClosingWidget, ipywidgets.GridBox):
             self._most = wanted
         self.scene = self._new_scene(stage.uniform_vectors)
         self._show(scene)
+        if self._multisamples != self._renderer.get_state("_antialias")["_antialias"]:
+            self._replace_renderer()
         if where not in self._times:
             stage.drawing_time = 0.0  # it was the old scene's; the page measures the new one
 
@@ -266,6 +276,22 @@ class Pane(ClosingWidget, ipywidgets.GridBox):
         vectors = uniform_vectors or UNIFORM_VECTORS  # 0 before a page has reported the number
         mesh = self._n_vertices, self._evaluated_in, vectors
         return Scene(*self._picture, self._drawing.map, *mesh)
+
+    @property
+    def _multisamples(self) -> bool:
+        """Whether edges of the mesh are smooth. Without a graphics processor that takes most of the
+        time, and soft edges of a picture, and lines, are smooth without."""
+        return self._evaluated_in != "page"
+
+    def _replace_renderer(self) -> None:
+        old, self._renderer = self._renderer, replacement(self._renderer, self._multisamples)
+        self.children = [self.stage, self._renderer]
+        self.stage.renderer = self._renderer
+        old.layout.close()
+        old.close()
+
+    def _size_renderer(self, _: Any = None) -> None:
+        self._renderer.width, self._renderer.height = self.stage.width, self.stage.height
 
     def _new_backdrop(self, background: Backdrop) -> BackdropMesh | None:
         return None if background is None else BackdropMesh(background, self._picture[0])

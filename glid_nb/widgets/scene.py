@@ -269,9 +269,19 @@ def drawing_order(mesh: Triangulation) -> Array:
     return mesh.triangles[np.lexsort((x, np.searchsorted(rows, y), np.floor(x / width)))]
 
 
-def renderer(meshes: list[Any]) -> Any:
+def renderer(meshes: list[Any], antialias: bool) -> Any:
     """A pythreejs renderer of meshes. The page sets its camera's frame."""
     camera = three.OrthographicCamera(-10, 10, 10, -10, 0, 10, position=[0, 0, 5])
-    drawn = three.Scene(children=meshes, background=None)
-    look = {"antialias": True, "alpha": True, "background_opacity": 0, "clearOpacity": 0}
-    return three.Renderer(camera=camera, scene=drawn, controls=[], sortObject=False, **look)
+    return _renderer(camera, three.Scene(children=meshes, background=None), antialias)
+
+
+def replacement(old: Any, antialias: bool) -> Any:
+    """Another renderer of what an old one draws: with or without multisampling is decided once."""
+    parts = {"shadowMap": old.shadowMap, "width": old.width, "height": old.height}
+    return _renderer(old.camera, old.scene, antialias, **parts)
+
+
+def _renderer(camera: Any, drawn: Any, antialias: bool, **parts: Any) -> Any:
+    look = {"alpha": True, "background_opacity": 0, "clearOpacity": 0, "antialias": antialias}
+    look |= {"controls": [], "sortObject": False, **parts}
+    return three.Renderer(camera=camera, scene=drawn, **look)

@@ -43,6 +43,8 @@ class TimelinePanel(Pad):
 
     stage = traitlets.Unicode("").tag(sync=True)
     """The identity of the canvas's stage, to which the page gives coefficients."""
+    rate = traitlets.Float(25.0).tag(sync=True)
+    """Frames in a second of an export, which the ruler counts."""
     shown = traitlets.Dict({}).tag(sync=True)
     """``keyframes`` (``name``, ``time``, ``easing``, ``thumbnail``), the index ``active``, the
     timeline's ``repeat`` and ``back``, and the states of the switches."""

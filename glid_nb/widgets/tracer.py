@@ -18,7 +18,7 @@ from glid_nb.page import bundle, stylesheet
 from glid_nb.session.tracing import TracingModel
 from glid_nb.widgets.gestures import Event
 from glid_nb.widgets.pad import Pad
-from glid_nb.widgets.tracer_gestures import REACH_SHARES, TraceGestures
+from glid_nb.widgets.tracer_gestures import REACH_SHARES, Cut, TraceGestures
 
 _LONGEST_SIDE = 1600  # of the page's picture; the cage is traced on the original
 _LISTED_HOLES = 40
@@ -165,8 +165,18 @@ def _of_hand(gestures: TraceGestures) -> dict[str, Any]:
         "tool": gestures.tool,
         "corners": [list(corner) for corner in gestures.corners],
         "inside": gestures.inside,
+        "cut": _cut(gestures.cut),
         "selected": [list(vertex) for vertex in gestures.selected],
     }
+
+
+def _cut(cut: Cut | None) -> dict[str, Any] | None:
+    """The last cut for the page: the pieces as shares of the shape, and the kept one."""
+    if cut is None:
+        return None
+    areas = np.array([piece.area for piece in cut.pieces])
+    shares = (areas / areas.sum()).tolist()
+    return {"shares": shares, "kept": cut.kept, "in_middle": cut.in_middle}
 
 
 def displayed(image: NDArray[np.uint8] | None) -> bytes:

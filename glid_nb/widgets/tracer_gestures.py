@@ -1,15 +1,16 @@
 """The meaning of pointers and keys on the tracer, without a browser."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
 
 from glid_nb._arrays import Array
+from glid_nb.geometry import Cage
 from glid_nb.imaging import TraceError, read_image
 from glid_nb.session import loop_edits
-from glid_nb.session.tracing import TracingModel
+from glid_nb.session.tracing import TracingModel, TracingState
 from glid_nb.widgets.gestures import ARROWS, LEFT, OF_A_HAND, RIGHT, Event, Gestures, asked, place
 
 Vertex = tuple[int, int]  # index of the loop, and index of the vertex in it
@@ -21,8 +22,7 @@ _NUDGE, _NUDGE_SHIFT = 1.0, 10.0  # pixels of the picture
 REACH_SHARES = {"in_hole": 0.6, "edge": 0.8}  # the page gets them from here
 """Shares of the reach. It is smaller in a hole, so that the middle of a small hole can be clicked.
 """
-_TOOLS = {"v": "edit", "b": "foreground", "n": "background", "i": "color", "c": "component"}
-_TOOLS |= {"p": "polygon", "r": "rectangle"}
+_TOOLS = ("edit", "foreground", "background", "color", "component", "polygon", "rectangle", "knife")
 _FREEHAND = 30.0  # CSS pixels; a longer path is drawn freehand, not a click
 _LARGEST_UPLOAD = 64 << 20
 
@@ -47,6 +47,17 @@ class _TracerPress:
     moved: bool = False
 
 
+@dataclass(frozen=True, eq=False)
+class Cut:
+    """What the knife did last."""
+
+    pieces: tuple[Cage, ...]  # the largest first
+    kept: int  # which of them is the cage now
+    in_middle: bool  # whether the slit is a hole
+    state: TracingState  # of the model after it, to see whether something else has happened since
+    gesture: object  # cutting and choosing a piece are one step for undo
+
+
 class TraceGestures(Gestures):
     """Gestures that edit and paint a tracing, also for the panel. Places are in picture pixels."""
 
@@ -56,14 +67,16 @@ class TraceGestures(Gestures):
         actions = {kind: getattr(self, f"_{kind}") for kind in own}
         actions |= {kind: asked(getattr(model, kind)) for kind in plain}
         actions["drawn_as"] = self._drawn_as
+        actions["keep_piece"] = asked(self._keep_piece, "number")
         actions["toggle_hole"] = asked(model.toggle_hole, "number")
         actions["set_options"] = lambda e: model.set_options(e.get("gesture"), **e["changes"])
         super().__init__(model, actions)
         self.model = model
-        self.tool = "edit"  # the tool of the left button, one of the values of _TOOLS
+        self.tool = "edit"  # the tool of the left button, one of _TOOLS
         self.corners: tuple[tuple[float, float], ...] = ()  # of an unfinished polygon
         self.inside: list[Any] = []
         """An outline that was drawn inside the shape; the page asks what it should be."""
+        self._cut: Cut | None = None
         self._selected: tuple[Vertex, ...] = ()
         self._press: _TracerPress | None = None
         self._last_click = (-np.inf, np.zeros(2))
@@ -76,6 +89,11 @@ class TraceGestures(Gestures):
         """The vertices that keys act on."""
         sizes = [len(loop) for loop in self.model.outcome.loops]
         return tuple((i, j) for i, j in self._selected if i < len(sizes) and j < sizes[i])
+
+    @property
+    def cut(self) -> Cut | None:
+        """What the knife did last, if nothing else has happened since."""
+        return self._cut if self._cut and self._cut.state is self.model.state else None
 
     def find(self, point: Array, reach: float) -> Found:
         """The objects at a point."""
@@ -139,6 +157,8 @@ class TraceGestures(Gestures):
             self._draw([(left, top), (right, top), (right, bottom), (left, bottom)])
         elif press.tool == "polygon":
             self._corner(event)
+        elif press.tool == "knife":
+            self._slit(event.get("path") or [place(event)])
         else:
             self._click(press.found, event)
 
@@ -173,6 +193,20 @@ class TraceGestures(Gestures):
             self.model.draw_hole(outline)
         elif outline and event["what"] == "outline":
             self.model.draw(outline)
+
+    def _slit(self, line: Sequence[Any]) -> None:
+        """Cut along a line. If the shape falls apart, the page offers the other pieces."""
+        gesture, before = object(), len(self.model.outcome.loops)
+        pieces = self.model.cut(line, gesture=gesture)
+        in_middle = len(pieces) == 1 and len(pieces[0].loops) > before
+        self._cut = Cut(pieces, 0, in_middle, self.model.state, gesture)
+
+    def _keep_piece(self, number: int) -> None:
+        """Keep another piece of the last cut."""
+        if (cut := self.cut) is None or not 0 <= number < len(cut.pieces):
+            raise TraceError("there is no such piece; cut again")
+        self.model.set_loops(cut.pieces[number].loops, cut.gesture)
+        self._cut = replace(cut, kept=number, state=self.model.state)
 
     def _click(self, found: Found, event: Event) -> None:
         point, (before, at) = place(event), self._last_click
@@ -222,8 +256,6 @@ class TraceGestures(Gestures):
             self._undo(event)
         elif key == "redo":
             self.model.redo()
-        elif key.lower() in _TOOLS:
-            self.tool, self.corners, self.inside = _TOOLS[key.lower()], (), []
 
     def _nudge(self, event: Event) -> None:
         """Move the selected vertex. Keys in quick succession are one step for undo."""
@@ -246,7 +278,7 @@ class TraceGestures(Gestures):
     # The toolbar and the panel
 
     def _tool(self, event: Event) -> None:
-        if event["name"] not in _TOOLS.values():
+        if event["name"] not in _TOOLS:
             raise TraceError(f"there is no tool {event['name']!r}")
         self.tool, self.corners, self.inside = event["name"], (), []
 

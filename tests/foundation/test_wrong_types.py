@@ -28,6 +28,7 @@ CALLS: list[tuple[str, Callable[[Any], Any]]] = [
     ("domain must be", lambda value: glid.HarmonicMap.identity(value)),
     ("cage must be", lambda value: glid.Domain.from_cage(value)),
     ("cage must be", lambda value: glid.Domain(value, SQUARE)),
+    ("cage must be", lambda value: glid.cut(value, [[-1, 0], [1, 0]])),
     ("offset_cage must be", lambda value: glid.Domain(SQUARE, value)),
     ("result must be", lambda value: glid.io.build_report(value)),
     ("domain must be", lambda value: glid.suggest_pose(value)),

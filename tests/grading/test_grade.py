@@ -246,6 +246,21 @@ def test_students_are_named_by_folders_or_by_files(folder: Path) -> None:
     assert sorted(one.student for one in found) == ["Dee Doe", "ada", "bob", "cy"]
 
 
+def test_the_second_half_of_a_chapter_is_a_chapter_of_its_own(folder: Path) -> None:
+    """Such as 09b beside 09."""
+    for name in ("07b_small", "other"):
+        (folder / "course" / f"{name}.ipynb").write_text(json.dumps(notebook()), encoding="utf-8")
+    chapters = chapters_in(folder / "course")
+    assert list(chapters) == [NAME, "07b_small"]
+    for name in chapters:
+        path = folder / "handed-in" / f"ada_{name}.ipynb"
+        path.write_text(json.dumps(notebook()), encoding="utf-8")
+    found = hand_ins(folder / "handed-in", chapters)
+    assert {(one.student, one.chapter.name) for one in found} == {
+        ("ada", name) for name in chapters
+    }
+
+
 def test_a_notebook_of_no_chapter_is_named(folder: Path) -> None:
     (folder / "handed-in" / "poem.ipynb").write_text("{}", encoding="utf-8")
     with pytest.raises(InputError, match=r"poem\.ipynb: its name contains no chapter such as 07_s"):

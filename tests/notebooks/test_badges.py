@@ -46,6 +46,6 @@ def test_without_a_public_repository_there_are_none() -> None:
     badges.with_buttons(book, "03_x.ipynb", "owner/name")
     badges.with_buttons(book, "03_x.ipynb")
     assert [cell.source for cell in book.cells] == ["# Title", "1 + 1"]
-    for path in FOLDER.glob("[0-9][0-9]_*.ipynb"):
+    for path in FOLDER.glob("[0-9][0-9]*_*.ipynb"):
         ids = [cell.id for cell in nbformat.read(path, as_version=4).cells]
         assert not {"run-it", "colab"} & set(ids), path.name

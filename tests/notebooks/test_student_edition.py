@@ -14,7 +14,7 @@ from glid_nb.course import CHECK_HEADING, run_check
 from glid_nb.grading.chapters import Notebook, answers
 
 CHECKOUT = Path(__file__).parents[2]
-CHAPTERS = sorted((CHECKOUT / "notebooks").glob("[0-9][0-9]_*.ipynb"))
+CHAPTERS = sorted((CHECKOUT / "notebooks").glob("[0-9][0-9]*_*.ipynb"))
 
 
 @pytest.fixture(scope="module")

@@ -16,7 +16,7 @@ from .environments import CHECKOUT, copy_of_the_checkout, run
 
 PAGE = CHECKOUT / "docs" / "course.md"
 LECTURERS = CHECKOUT / "docs" / "lecturers.md"
-CHAPTERS = sorted((CHECKOUT / "notebooks").glob("[0-9][0-9]_*.ipynb"))
+CHAPTERS = sorted((CHECKOUT / "notebooks").glob("[0-9][0-9]*_*.ipynb"))
 
 
 def commands() -> list[str]:

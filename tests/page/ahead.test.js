@@ -49,7 +49,8 @@ function meshAt(name, at) {
   const image = { array: new Float32Array(2 * at.length), count: at.length, needsUpdate: false };
   const derivatives = { array: new Float32Array(4 * at.length), needsUpdate: false };
   const geometry = { attributes: { position, image, derivatives }, userData: {} };
-  return { name, visible: true, geometry };
+  const material = { uniforms: { overlay: { value: 2 } } };
+  return { name, visible: true, geometry, material };
 }
 
 test("the page moves the vertices of its meshes, and of no other ones", () => {
@@ -67,6 +68,22 @@ test("the page moves the vertices of its meshes, and of no other ones", () => {
   for (const { geometry } of others) {
     assert.ok(geometry.attributes.image.array.every((value) => value === 0));
   }
+});
+
+test("derivatives are computed where something shows them", () => {
+  const outlined = outlinedOf(outline);
+  const wire = new Wire(outline, outlined).of(Float64Array.from(coefficients));
+  const mesh = meshAt("moved by the page", points);
+  const { image, derivatives } = mesh.geometry.attributes;
+  const { overlay } = mesh.material.uniforms;
+  overlay.value = 0; // the plain picture
+  const vertices = new Vertices(outlined);
+  vertices.move([mesh], wire);
+  assert.ok(image.needsUpdate && !derivatives.needsUpdate);
+  overlay.value = 1; // the grid
+  vertices.move([mesh], wire);
+  assert.ok(derivatives.needsUpdate);
+  assert.ok(fz.every(([re], i) => Math.abs(re - derivatives.array[4 * i]) < 1e-4));
 });
 
 /** A solver in this thread, and what a canvas sees of it. */

@@ -245,3 +245,12 @@ test("keys of other scripts go to the kernel by their places", () => {
     ["a", "undo"],
   );
 });
+
+test("a drag goes where its behaviour puts it, also with shift", () => {
+  const { pointer, sent, pad } = padWith({ constrain: ([x]) => [x, 0] });
+  pointer("down", 200, 150, { shiftKey: true });
+  pointer("move", 230, 120, { shiftKey: true });
+  const move = sent.at(-1);
+  assert.deepEqual([move?.type, move?.x, move?.y], ["move", 3, 0]);
+  assert.deepEqual(pad.held.get(0), [3, 0]);
+});

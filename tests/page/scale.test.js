@@ -3,6 +3,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import {
+  frameAt,
   keyAt,
   labelledTimes,
   landing,
@@ -12,6 +13,7 @@ import {
   withReturn,
 } from "../../glid_nb/page/js/timeline/scale.js";
 import { noteOn } from "../../glid_nb/page/js/timeline/words.js";
+import { scrolledTo } from "../../glid_nb/page/js/timeline/zoom.js";
 
 /** @import { Shown, Span } from "../../glid_nb/page/js/timeline/traits.js" */
 
@@ -81,6 +83,19 @@ test("labels have room beside each other", () => {
     }
   }
   assert.equal(labelledTimes(1.15, 0).length, labelledTimes(1.15).length); // not measured yet
+});
+
+test("a zoomed track has more labels, with frames where a time has one", () => {
+  assert.ok(labelledTimes(2.5, 4000, 4).length > 2 * labelledTimes(2.5, 1000).length);
+  assert.equal(frameAt(0.4, 25), 10);
+  assert.equal(frameAt(0.1, 25), null);
+  assert.equal(frameAt(0.3, 10), 3);
+});
+
+test("what a zoom is about stays below the pointer", () => {
+  assert.equal(scrolledTo(0.5, 100, 2000), 900);
+  assert.equal(scrolledTo(0.25, 100, 2068), 434);
+  assert.equal(scrolledTo(0.02, 100, 2000), 0);
 });
 
 test("keyframes are found by their times", () => {

@@ -42,6 +42,7 @@ function shown(changes = {}) {
     tool: "edit",
     corners: [],
     inside: [],
+    cut: null,
     selected: [],
     ...changes,
   };
@@ -73,6 +74,24 @@ test("a guess says why it is one, an invalid cage is bad", () => {
   assert.equal(statusOf(shown({ problems }), null, false).kind, "bad");
 });
 
+test("a cut says what it did, in front of what the cage is", () => {
+  const after = (/** @type {Shown["cut"]} */ cut) => statusOf(shown({ cut }), null, false).text;
+  const cage = "Cage with 3 vertices and no holes";
+  assert.equal(
+    after({ shares: [1], kept: 0, in_middle: false }),
+    `Cut open along the line · ${cage}`,
+  );
+  assert.match(after({ shares: [1], kept: 0, in_middle: true }), /^Cut inside .* thin hole · Cage/);
+  assert.match(
+    after({ shares: [0.75, 0.25], kept: 1, in_middle: false }),
+    /^Cut into 2 pieces: 25 % of the shape is kept, the other one is left out · Cage/,
+  );
+  assert.match(
+    after({ shares: [0.6, 0.3, 0.1], kept: 0, in_middle: false }),
+    /^Cut into 3 pieces: 60 % of the shape is kept, the others are left out · Cage/,
+  );
+});
+
 test("holes are counted in words", () => {
   assert.deepEqual([-1, 0, 1, 2].map(holesIn), ["no holes", "no holes", "1 hole", "2 holes"]);
 });
@@ -84,6 +103,14 @@ test("a slider's place and its value belong together", () => {
     assert.equal(shareAt(2 * most, most, option), 1);
     const value = valueAt(0.7, most, option);
     assert.ok(Math.abs(valueAt(shareAt(value, most, option), most, option) - value) < 1e-9);
+  }
+});
+
+test("every tool has a key of its own, which its title names", () => {
+  const keys = Object.values(TOOLS).map(({ key }) => key);
+  assert.equal(new Set(keys).size, keys.length);
+  for (const { key, label } of Object.values(TOOLS)) {
+    assert.ok(label.endsWith(`(${key.toUpperCase()})`));
   }
 });
 

@@ -112,6 +112,16 @@ def test_options_energy_and_edits_are_written() -> None:
     assert scope["map"].distance(pose.map) < 1e-6
 
 
+def test_a_cut_cage_is_written_out() -> None:
+    cut = TracingModel(DRAWING)
+    cut.cut([(60, 5), (60, 100)])
+    assert cut.domain is not None
+    map = HarmonicMap.identity(cut.domain)
+    code = python_code(document_of(cut, map=map), "nowhere.png", exact=True)
+    assert "read_image" not in code
+    np.testing.assert_array_equal(run(code)["cage"].exterior, cut.domain.cage.exterior)
+
+
 def test_depths_and_angles_are_written(model: TracingModel, picture: str) -> None:
     assert model.domain is not None
     point = model.domain.cage.polygon.representative_point()

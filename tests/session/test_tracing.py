@@ -579,3 +579,101 @@ class TestDrawnOutlines:
         again = TracingModel.from_document(load_document(tmp_path / "drawn.glid"))
         assert again.problems == ()
         assert cage_of(again).equals(domain.cage)
+
+
+class TestCuts:
+    """The disc of the drawing: radius 50 around (60, 60), with holes around (45, 60), (80, 60)."""
+
+    def test_a_slit_is_an_edit_by_hand_that_undo_takes_back(self, model: TracingModel) -> None:
+        before = model.state
+        assert len(model.cut([(60, 5), (60, 40), (60, 100)])) == 1
+        assert model.problems == ()
+        assert model.edited
+        assert cage_of(model).n_holes == 2
+        assert model.frame is not None
+        on_the_line, beside = cage_of(model).contains(model.frame.to_world([(60, 50), (58, 50)]))
+        assert beside
+        assert not on_the_line
+        assert model.outcome.tracing is not None  # whose matte and holes are still used
+        model.undo()
+        assert model.state is before
+        model.redo()
+        assert model.edited
+
+    def test_a_line_across_keeps_the_largest_piece_and_another_one_can_be_chosen(
+        self, model: TracingModel
+    ) -> None:
+        before, gesture = model.state, object()
+        pieces = model.cut([(95, -5), (95, 125)], gesture=gesture)
+        assert len(pieces) == 2
+        assert cage_of(model).equals(pieces[0])
+        model.set_loops(pieces[1].loops, gesture)
+        assert cage_of(model).equals(pieces[1])
+        assert cage_of(model).area < pieces[0].area
+        model.undo()
+        assert model.state is before
+
+    def test_a_trembling_line_gets_few_vertices(self, model: TracingModel) -> None:
+        count = cage_of(model).n_vertices
+        y = np.linspace(5, 90, 200)
+        x = 62 + 0.1 * np.sin(40 * y)
+        model.cut(np.stack([x, y], axis=1))
+        straight = TracingModel(DRAWING)
+        straight.cut([(62, 5), (62, 90)])
+        assert cage_of(model).n_vertices == cage_of(straight).n_vertices > count
+
+    def test_the_width_is_in_pixels(self, model: TracingModel) -> None:
+        area = cage_of(model).area
+        model.cut([(55, 100), (65, 90)], width=2)
+        lost = area - cage_of(model).area
+        assert lost == pytest.approx(2 * np.hypot(10, 10) * (20 / 160) ** 2)
+
+    @pytest.mark.parametrize(
+        ("line", "culprit"),
+        [
+            ([(150, 5), (155, 5)], "misses the shape"),
+            ([(60, 100)], "two different points"),
+            ([(10, 60), (60, 90), (60, 20), (30, 95)], "crosses itself"),
+            ([(10, np.nan), (60, 90)], "finite"),
+        ],
+    )
+    def test_a_wrong_cut_changes_nothing(
+        self, model: TracingModel, line: list, culprit: str
+    ) -> None:
+        before = model.state
+        with pytest.raises(GeometryError, match=culprit):
+            model.cut(line)
+        assert model.state is before
+
+    def test_an_outline_that_is_no_cage_is_not_cut(self, model: TracingModel) -> None:
+        model.move_vertex(0, far_vertex(model), (150.0, 60.0))
+        before = model.state
+        with pytest.raises(GeometryError, match="cross"):
+            model.cut([(60, 5), (60, 100)])
+        assert model.state is before
+        with pytest.raises(GeometryError, match="no outline yet"):
+            TracingModel(np.full((60, 80, 3), 7, np.uint8)).cut([(60, 5), (60, 100)])
+
+    def test_other_options_discard_it_and_a_hole_that_is_toggled_does_not(
+        self, model: TracingModel
+    ) -> None:
+        model.cut([(60, 5), (60, 100)])
+        count = cage_of(model).n_vertices
+        model.toggle_hole(1)
+        assert cage_of(model).n_holes == 1
+        model.toggle_hole(1)
+        assert cage_of(model).n_vertices == count
+        model.set_options(offset=4)
+        assert model.has_discarded_edits
+        model.undo()
+        assert cage_of(model).n_vertices == count
+
+    def test_it_is_saved_and_opened(self, model: TracingModel, tmp_path: Path) -> None:
+        model.cut([(60, 5), (60, 100)])
+        domain = model.domain
+        assert domain is not None
+        document = Document(model.image, domain.cage, domain, model.options, None, (), 0)
+        save_document(document, tmp_path / "cut.glid")
+        again = TracingModel.from_document(load_document(tmp_path / "cut.glid"))
+        assert again.edited
+        assert cage_of(again).equals(domain.cage)

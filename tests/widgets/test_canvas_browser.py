@@ -247,9 +247,14 @@ def test_by_keyboard_alone(open_notebook: OpenNotebook) -> None:
     keys.press(",")
     book.wait_for("model.selection == (0,)")
     keys.press("ContextMenu")
-    for _ in range(2):
-        keys.press("ArrowDown")
-    keys.press("Enter")  # on "Remove"
+    hand.pad.get_by_role("menuitem", name="Copy the pose").wait_for()
+    keys.press("Escape")
+    assert hand.pad.get_by_role("menu").count() == 0
+    keys.press("Shift+F10")
+    assert hand.page.evaluate("document.activeElement.firstChild.data") == "Remove"
+    keys.press("ArrowUp")
+    keys.press("ArrowDown")
+    keys.press("Enter")
     book.wait_for("len(model.pose) == 1")
     assert hand.pad.evaluate("pad => pad === document.activeElement")
     keys.press("0")

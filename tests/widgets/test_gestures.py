@@ -183,6 +183,27 @@ def test_shift_selects_several_that_move_together(hand: Hand) -> None:
     assert hand.model.selection == (2,)
 
 
+def test_a_drag_with_shift_moves_the_pin_and_selects_no_other(hand: Hand) -> None:
+    for place in ((2, 0), (-2, 0), (0, 2)):
+        hand.click(*place)
+    hand.drag((2, 0), (2.5, 0), shift=True)  # the page keeps it on an axis
+    assert hand.model.selection == (0,)
+    np.testing.assert_allclose(hand.model.pose.targets, [[2.5, 0], [-2, 0], [0, 2]], atol=1e-6)
+    hand.click(0, 2, shift=True)
+    hand.drag((0, 2), (0, 2.5), shift=True)  # those that are selected move together
+    assert hand.model.selection == (0, 2)
+    np.testing.assert_allclose(hand.model.pose.targets, [[2.5, 0.5], [-2, 0], [0, 2.5]], atol=1e-6)
+
+
+@pytest.mark.slow
+def test_shift_turns_the_ring_to_multiples_of_15_degrees(hand: Hand) -> None:
+    hand.click(2, 0)
+    hand.drag((3, 0), (2, 1), (1, 0.01), part="turn")
+    hand.drag((3, 0), (2.95, -0.3), (2.9, -0.4), part="turn", shift=True)
+    # By 24 degrees less than nearly 180.
+    np.testing.assert_allclose(np.degrees(hand.model.pose.angles), [150])
+
+
 @pytest.mark.slow
 def test_the_ring_turns_and_scales_in_one_step_each(hand: Hand) -> None:
     model = hand.model

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ipywidgets
 import numpy as np
 import pytest
 
@@ -84,6 +85,35 @@ def test_where_the_page_moves_vertices_more_slowly_the_shader_stays() -> None:
     pane.stage.drawing_time = 30.0
     assert (pane.scene.evaluated_in, pane.stage.drawing_time) == ("shader", 30.0)
     canvas.close()
+
+
+def _renderers() -> list[str]:
+    """The kinds of all widgets that a renderer has."""
+    kinds = [type(one).__name__ for one in ipywidgets.widgets.widget._instances.values()]
+    parts = "Layout", "OrthographicCamera", "Renderer", "Scene", "WebGLShadowMap"
+    return sorted(kind for kind in kinds if kind in parts)
+
+
+@pytest.mark.parametrize("asked", [None, "shader", "page", "kernel"])
+def test_there_is_multisampling_but_where_a_processor_would_do_it(asked: str | None) -> None:
+    canvas = _canvas(evaluated_in=asked)
+    pane = canvas.pane
+    old = pane.stage.renderer
+    made = _renderers()
+    assert old.get_state()["_antialias"] == (asked != "page")
+    for time in (30.0, 10.0):  # the page's script is quicker
+        pane.stage.drawing_time = time
+    new = pane.stage.renderer
+    assert pane.children == (pane.stage, new)
+    assert new.get_state()["_antialias"] == (pane.scene.evaluated_in != "page")
+    assert (new is old) == (asked is not None)
+    assert (new.scene, new.camera) == (old.scene, pane.stage.camera)
+    pane.resize(500, 300)
+    assert (new.width, new.height) == (500, 300)
+    assert (old.comm is None) == (new is not old)
+    assert _renderers() == made
+    canvas.close()
+    assert new.comm is None
 
 
 def test_a_mesh_that_was_asked_for_stays() -> None:

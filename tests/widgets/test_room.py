@@ -27,7 +27,7 @@ def canvas(request: pytest.FixtureRequest) -> Iterator[DeformCanvas]:
 def size(canvas: DeformCanvas) -> tuple[int, int]:
     stage = canvas.pane.stage
     assert canvas.layout.height == f"{stage.height}px"
-    assert canvas.pane.children[0].width == stage.width  # the renderer
+    assert canvas.pane.stage.renderer.width == stage.width
     return stage.width, stage.height
 
 

@@ -110,7 +110,10 @@ def test_the_canvas_takes_the_room_that_there_is(open_notebook: OpenNotebook) ->
     assert settle("(lambda w, h, alone: not alone and w < 500)({})")[2:] == at_first[2:]
     page.mouse.click(*center(tools.get_by_role("button", name="Full screen")))
     page.wait_for_function("!!document.fullscreenElement")
+    page.locator(".glid-side").wait_for(state="hidden")
     book.screenshot("editor-full-screen")
+    page.keyboard.press("i")
+    page.locator(".glid-side").wait_for()
     buttons = [box(button)[1] for button in page.locator(".glid-bars button").all()]
     assert len(set(buttons)) > 1  # buttons stay beside their numbers
     page.evaluate("document.exitFullscreen()")

@@ -202,7 +202,7 @@ def test_a_walk_cycle_made_by_hand(open_notebook: OpenNotebook) -> None:
     for key in ("ArrowRight", "ArrowRight", "ArrowLeft"):
         before = timeline.time
         page.keyboard.press(key)
-        assert abs(timeline.time - before) == pytest.approx(1 / 30)
+        assert abs(timeline.time - before) == pytest.approx(1 / 25)
     timeline.assert_shows_the_motion()
     assert book.value("id(model.state)") == state
 

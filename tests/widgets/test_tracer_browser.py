@@ -23,6 +23,13 @@ CELLS = (
 
 SHORT = "model = tracer.tracing_model"
 
+# The tool after a key was pressed, before the kernel can have answered.
+_TOOL_AFTER = """(canvas, key) => {
+  canvas.dispatchEvent(new KeyboardEvent('keydown', {key, bubbles: true, cancelable: true}));
+  const root = canvas.closest('.glid-tracer');
+  return root.querySelector('[data-tool][aria-pressed=true]').dataset.tool;
+}"""
+
 
 class Hand:
     """A tracer on the page, and where its picture's pixels are."""
@@ -390,8 +397,10 @@ def test_an_outline_inside_the_shape_is_asked_about(open_notebook: OpenNotebook)
 
     def draw_inside() -> None:
         assert question.is_hidden()
-        hand.stage.locator("canvas").last.focus()
-        hand.page.keyboard.press("r")
+        canvas = hand.stage.locator("canvas").last
+        canvas.focus()
+        # A hand that drags at once does not move the view.
+        assert canvas.evaluate(_TOOL_AFTER, "r") == "rectangle"
         hand.drag((left + 0.4 * wide, top + 0.4 * high), (left + 0.6 * wide, top + 0.6 * high))
         hand.settle()
         question.wait_for()

@@ -155,15 +155,15 @@ def test_brackets_walk_through_the_vertices(hand: Hand) -> None:
     assert hand.gestures.selected == ((0, 1),)
 
 
-def test_tools_by_keys(hand: Hand) -> None:
-    hand.key("c")
+def test_tools(hand: Hand) -> None:
+    hand.send("tool", name="component")
     assert hand.gestures.tool == "component"
     hand.click(*IN_SMALL_DISC)
     assert hand.gestures.tool == "edit"
     assert hand.model.outcome.tracing is not None
     assert hand.model.outcome.tracing.component.rank == 1
     hand.model.undo()
-    hand.key("B")
+    hand.send("tool", name="foreground")
     hand.send("down", 60, 20)
     hand.send("up", 60, 100, path=[[60, 20], [60, 60], [60, 100]])
     scribbles = hand.model.state.scribbles
@@ -179,13 +179,13 @@ def test_tools_by_keys(hand: Hand) -> None:
 
 
 def test_a_refusal_is_told_in_plain_words(hand: Hand) -> None:
-    hand.key("i")
+    hand.send("tool", name="color")
     assert hand.click(-5, 0) == "That place lies outside the picture"
     assert hand.gestures.handle([{"type": "format_disk"}]) is not None
 
 
 def test_a_polygon_is_drawn_corner_by_corner(hand: Hand) -> None:
-    hand.key("p")
+    hand.send("tool", name="polygon")
     for corner in ((20, 20), (140, 20), (140, 100), (150, 110)):
         hand.click(*corner)
     hand.key("undo")
@@ -216,7 +216,7 @@ def test_other_ways_to_draw_an_outline(hand: Hand, how: str) -> None:
 
 
 def test_escape_gives_a_polygon_up_and_too_few_corners_are_refused(hand: Hand) -> None:
-    hand.key("p")
+    hand.send("tool", name="polygon")
     hand.click(20, 20)
     hand.key("Escape")
     assert (hand.gestures.corners, hand.gestures.tool) == ((), "polygon")
@@ -231,7 +231,7 @@ def test_an_outline_inside_the_shape_is_a_hole_or_a_new_one(hand: Hand, what: st
     count = len(model.loops)
     middle = shapely.Polygon(model.loops[0], model.loops[1:]).buffer(-12).representative_point()
     x, y = middle.x, middle.y
-    hand.key("r")
+    hand.send("tool", name="rectangle")
     hand.send("down", x - 8, y - 8)
     hand.send("up", x + 8, y + 8)
     assert model.state is before  # nothing yet: the page asks
@@ -250,3 +250,69 @@ def test_an_outline_inside_the_shape_is_a_hole_or_a_new_one(hand: Hand, what: st
         np.testing.assert_allclose(model.loops[0].max(axis=0), [x + 8, y + 8])
     else:
         assert model.state is before
+
+
+def cut(hand: Hand, *path: tuple[float, float]) -> str | None:
+    return hand.send("down", *path[0]) or hand.send("up", *path[-1], path=path)
+
+
+def test_the_knife_cuts_along_its_path_and_stays_in_the_hand(hand: Hand) -> None:
+    model, before = hand.model, hand.model.state
+    hand.send("tool", name="knife")
+    assert cut(hand, (60, 5), (61, 50), (60, 100)) is None
+    assert hand.gestures.tool == "knife"
+    assert hand.gestures.cut is not None
+    assert not hand.gestures.cut.in_middle
+    assert len(hand.gestures.cut.pieces) == 1
+    first = model.state
+    assert cut(hand, (30, 90), (50, 95)) is None
+    assert hand.gestures.cut.in_middle
+    hand.key("undo")
+    assert model.state is first
+    assert hand.gestures.cut is None  # what it said is over
+    hand.key("undo")
+    assert model.state is before
+    hand.key("Escape")
+    assert hand.gestures.tool == "edit"
+
+
+def test_another_piece_of_the_cut_can_be_kept_in_the_same_step(hand: Hand) -> None:
+    model, before = hand.model, hand.model.state
+    hand.send("tool", name="knife")
+    cut(hand, (95, 0), (95, 120))
+    assert hand.gestures.cut is not None
+    large, small = hand.gestures.cut.pieces
+    assert (hand.gestures.cut.kept, model.cage.n_vertices) == (0, large.n_vertices)
+    assert hand.send("keep_piece", number=1) is None
+    assert hand.gestures.cut.kept == 1
+    assert model.cage.equals(small)
+    assert "no such piece" in str(hand.send("keep_piece", number=2))
+    hand.send("keep_piece", number=0)
+    assert model.cage.equals(large)
+    hand.key("undo")
+    assert model.state is before
+    assert "no such piece" in str(hand.send("keep_piece", number=0))
+    hand.key("redo")
+    assert model.cage.equals(large)
+
+
+@pytest.mark.parametrize("how", ["Escape", "cancel"])
+def test_a_cut_that_is_cancelled_never_was(hand: Hand, how: str) -> None:
+    before = hand.model.state
+    hand.send("tool", name="knife")
+    hand.send("down", 60, 5)
+    hand.send("cancel") if how == "cancel" else hand.key(how)
+    hand.send("up", 60, 100, path=[(60, 5), (60, 100)])
+    assert hand.model.state is before
+    assert hand.gestures.tool == "knife"
+
+
+def test_a_cut_that_is_refused_says_why(hand: Hand) -> None:
+    before = hand.model.state
+    hand.send("tool", name="knife")
+    assert cut(hand, (150, 5), (155, 5)) == (
+        "The cut misses the shape; draw it across the part that should come loose"
+    )
+    assert "two different points" in str(hand.click(60, 60))
+    assert "crosses itself" in str(cut(hand, (10, 60), (60, 90), (60, 20), (30, 95)))
+    assert hand.model.state is before

@@ -14,24 +14,19 @@ assign(table,{autofocus:true}));const title="Keys and gestures (?)";const look={
 -button",title,"aria-label":title};const button=shield(make("button",{...look,popoverTargetElement:table},
 "?"));return{table,button,toggle:()=>void table.togglePopover()}}function section([title,rows]){return make(
 "section",{},make("h4",{},title),make("table",{},...rows.map(row)))}function row([keys,what]){return make(
-"tr",{},make("th",{},keys),make("td",{},what))}var PATHS={edit:"M3 2l9.5 5.2-4 1.2 2.4 4.3-1.8 1-2.4-4.3L3 12z",foreground:"M13.5 2.5l-6 6 M6.7 9.2\
-c-1.6-.5-3 .6-3.1 2.1-.1 1-.7 1.7-1.6 2 2.2.9 5.6.4 5.9-2.2 .1-.8-.4-1.6-1.2-1.9z M9.5 12.5h5 M12 10\
-v5",background:"M13.5 2.5l-6 6 M6.7 9.2c-1.6-.5-3 .6-3.1 2.1-.1 1-.7 1.7-1.6 2 2.2.9 5.6.4 5.9-2.2 .\
-1-.8-.4-1.6-1.2-1.9z M9.5 12.5h5",brush:"M13.5 2.5l-6 6 M6.7 9.2c-1.6-.5-3 .6-3.1 2.1-.1 1-.7 1.7-1.\
-6 2 2.2.9 5.6.4 5.9-2.2 .1-.8-.4-1.6-1.2-1.9z",eraser:"M9.2 2.8l4 4-6.4 6.4H4.4L2.2 11z M5.5 6.6l4 4\
- M7 13.2h6.5",color:"M9 4l3 3 M10 3.2l1-1a1.6 1.6 0 0 1 2.8 2.2l-1.1 1.1 M9.6 5.2L3.4 11.4 2.5 13.5l\
-2.1-.9 6.2-6.2",component:"M8 1.5v3 M8 11.5v3 M1.5 8h3 M11.5 8h3 M8 5.2a2.8 2.8 0 1 0 0 5.6 2.8 2.8 \
-0 0 0 0-5.6z",polygon:"M8 2l5.5 4-2 7h-7l-2-7z",rectangle:"M2.5 4h11v8h-11z",undo:"M5.5 3L2.5 6l3 3 \
-M3 6h6.2a3.6 3.6 0 0 1 0 7.2H6",redo:"M10.5 3l3 3-3 3 M13 6H6.8a3.6 3.6 0 0 0 0 7.2H10",fit:"M2 5.5V\
-2h3.5 M10.5 2H14v3.5 M14 10.5V14h-3.5 M5.5 14H2v-3.5",screen:"M10 2h4v4 M14 2L9.5 6.5 M6 14H2v-4 M2 \
-14l4.5-4.5",eye:"M1.5 8S4 3.8 8 3.8 14.5 8 14.5 8 12 12.2 8 12.2 1.5 8 1.5 8z M8 6.2a1.8 1.8 0 1 0 0\
- 3.6 1.8 1.8 0 0 0 0-3.6z",plus:"M8 3v10 M3 8h10",minus:"M3 8h10",open:"M2 12.5v-9h4l1.5 2H14v7z",play:"\
+"tr",{},make("th",{},keys),make("td",{},what))}var PATHS={edit:"M3 2l9.5 5.2-4 1.2 2.4 4.3-1.8 1-2.4-4.3L3 12z",brush:"M13.5 2.5l-6 6 M6.7 9.2c-1.6\
+-.5-3 .6-3.1 2.1-.1 1-.7 1.7-1.6 2 2.2.9 5.6.4 5.9-2.2 .1-.8-.4-1.6-1.2-1.9z",eraser:"M9.2 2.8l4 4-6\
+.4 6.4H4.4L2.2 11z M5.5 6.6l4 4 M7 13.2h6.5",rectangle:"M2.5 4h11v8h-11z",undo:"M5.5 3L2.5 6l3 3 M3 \
+6h6.2a3.6 3.6 0 0 1 0 7.2H6",redo:"M10.5 3l3 3-3 3 M13 6H6.8a3.6 3.6 0 0 0 0 7.2H10",fit:"M2 5.5V2h3\
+.5 M10.5 2H14v3.5 M14 10.5V14h-3.5 M5.5 14H2v-3.5",screen:"M10 2h4v4 M14 2L9.5 6.5 M6 14H2v-4 M2 14l\
+4.5-4.5",eye:"M1.5 8S4 3.8 8 3.8 14.5 8 14.5 8 12 12.2 8 12.2 1.5 8 1.5 8z M8 6.2a1.8 1.8 0 1 0 0 3.\
+6 1.8 1.8 0 0 0 0-3.6z",plus:"M8 3v10 M3 8h10",minus:"M3 8h10",open:"M2 12.5v-9h4l1.5 2H14v7z",play:"\
 M5 3l8 5-8 5z",pause:"M5.5 3v10 M10.5 3v10",record:"M8 4.2a3.8 3.8 0 1 0 0 7.6 3.8 3.8 0 0 0 0-7.6z",
 onion:"M6.2 4a4 4 0 1 0 0 8 4 4 0 0 0 0-8z M9.8 4a4 4 0 1 1 0 8",copy:"M5.5 5.5h8v8h-8z M3 10.5v-8h8",
 export:"M8 2v8 M4.8 6.8L8 10l3.2-3.2 M3 13.5h10",trash:"M3 4.5h10 M6.5 4.5v-2h3v2 M4.5 4.5l.6 9h5.8l\
-.6-9"};function icon(name){return`<svg viewBox="0 0 16 16" aria-hidden="true"><path d="${PATHS[name]}\
-"/></svg>`}function iconButton(name,title,onclick,className="glid-icon"){return make("button",{title,
-"aria-label":title,className,onclick,innerHTML:icon(name)})}var TEXT="textarea, [contenteditable], input:not([type=checkbox], [type=range], [type=radio])";var LAST_LATIN="\
+.6-9"};function drawn(path){return`<svg viewBox="0 0 16 16" aria-hidden="true"><path d="${path}"/></svg>`}function iconButton(name,title,onclick,className="\
+glid-icon"){return drawnButton(PATHS[name],title,onclick,className)}function drawnButton(path,title,onclick,className="\
+glid-icon"){return make("button",{title,"aria-label":title,className,onclick,innerHTML:drawn(path)})}var TEXT="textarea, [contenteditable], input:not([type=checkbox], [type=range], [type=radio])";var LAST_LATIN="\
 ɏ";var LATIN={Comma:",<",Period:".>",Slash:"/?",Minus:"-_",Equal:"=+",BracketLeft:"[{",BracketRight:"\
 ]}"};function keyOf({key,code="",shiftKey=false}){if(key.length>1||key<=LAST_LATIN)return key;const[
 ,letter,digit]=code.match(/^(?:Key([A-Z])|(?:Digit|Numpad)([0-9]))$/)??[];if(letter)return shiftKey?
@@ -73,8 +68,8 @@ hidden)this.#release();else this.#drawing=requestAnimationFrame(()=>this.#releas
 this.#waiting=false;this.#flush()}#stop(){clearTimeout(this.#overdue);clearTimeout(this.#timeout);cancelAnimationFrame(
 this.#drawing)}};function connectNoMoreComms(kernel){const status=kernel?.statusChanged;const connect=status?.
 connect;if(!connect||Object.hasOwn(status,"connect"))return;status.connect=(slot,receiver)=>!String(
-slot).includes("_cleanSubshells")&&connect.call(status,slot,receiver)}function openMenu(element,[x,y],rows){const ending=new AbortController;let pressed=false;const close=()=>{
-ending.abort();menu.remove();element.focus({preventScroll:true})};const step=by=>{const items=[...menu.
+slot).includes("_cleanSubshells")&&connect.call(status,slot,receiver)}function openMenu(element,[x,y],rows){const ending2=new AbortController;let pressed=false;const close=()=>{
+ending2.abort();menu.remove();element.focus({preventScroll:true})};const step=by=>{const items=[...menu.
 querySelectorAll("button")];const focused=document.activeElement;const present=items.indexOf(focused);
 items.at((present+by)%items.length)?.focus()};const keys={ArrowDown:()=>step(1),ArrowUp:()=>step(-1),
 Escape:close,Tab:close};const item=row2=>{if(!row2)return make("hr");const[label,key,act]=row2;const onclick=e=>{
@@ -85,7 +80,7 @@ key]()}},...rows.map(item)));element.querySelector(".glid-menu")?.remove();eleme
 style.left=within(x,element.clientWidth-menu.offsetWidth);menu.style.top=within(y,element.clientHeight-
 menu.offsetHeight);const pressedElsewhere=e=>{const target=e.target;if(menu.contains(target))return;
 close();if(e.button===0&&element.contains(target))e.stopPropagation()};window.addEventListener("poin\
-terdown",pressedElsewhere,{capture:true,signal:ending.signal});step(1)}function within(at,room){return`${Math.
+terdown",pressedElsewhere,{capture:true,signal:ending2.signal});step(1)}function within(at,room){return`${Math.
 max(0,Math.min(at,room))}px`}var NEARLY_NOTHING="rgba(255, 255, 255, 0.004)";function painter(canvas,view,signal,draw){let due=0;
 signal.addEventListener("abort",()=>cancelAnimationFrame(due));return()=>{if(due)return;due=requestAnimationFrame(
 ()=>{due=0;draw(clearedPen(canvas,view))})}}function clearedPen(canvas,{width,height}){const ratio=window.
@@ -133,48 +128,49 @@ x,y]=this.view.toWorld(place);const{unit}=this.view;return this.link.put({type,x
 e.pointerType)*unit,button:e.button??0,shift:Boolean(e.shiftKey),alt:Boolean(e.altKey),time:e.timeStamp??
 performance.now(),...more})}press(key,e){this.send("key",[this.view.width/2,this.view.height/2],e,{key})}hover(place=this.
 rests){this.rests=place;if(this.mode!==null)return;this.found=place&&this.#find(place,"mouse");this.#showCursor();
-this.behaviour.changed()}keydown(e){const key=keyOf(e);const command=e.ctrlKey||e.metaKey;const action=command?
-void 0:this.behaviour.actions[key.toLowerCase()];const history=undoOrRedo(e);if(!history&&!action&&key!==
-" "){if(e.altKey||!this.behaviour.keys.test(key)||command&&key!=="a")return}e.preventDefault();e.stopPropagation();
-if(key===" "){if(!e.repeat)this.#tap=true;this.#setSpace(true)}else if(action){action()}else{if(key===
-"Escape"||history)this.#drop();this.press(history??key,e)}}#keyup(e){if(e.key!==" ")return;this.#setSpace(
-false);if(this.#tap)this.behaviour.tapped?.()}#reach(type){return this.behaviour.reach[type??"mouse"]??
-this.behaviour.reach.mouse}#find(place,type){return this.behaviour.find(this.view.toWorld(place),this.#reach(
-type)*this.view.unit)}#down(e){if(this.pointers.has(e.pointerId)||this.pointers.size>1)return;e.preventDefault();
-this.element.focus({preventScroll:true});this.#tap=false;const place=this.place(e);this.pointers.set(
-e.pointerId,place);this.element.setPointerCapture(e.pointerId);const second=this.pointers.size===2;if(second)
-this.#takeBack(e);this.#start=place;this.mode=second||e.button===1||e.button===0&&this.#space?"pan":
-"hand";if(this.mode==="hand")this.#handDown(place,e);this.#showCursor()}#handDown(place,e){const{behaviour}=this;
-const found=this.#find(place,e.pointerType);const left=e.button===0;if(left&&!e.shiftKey&&!e.altKey&&
-found?.mark!==void 0){this.grip={from:this.view.toWorld(place),points:behaviour.held(found)}}this.#pans=
-left&&Boolean(behaviour.pans?.(found,e));this.encloses=left&&!behaviour.painting?behaviour.encloses?.(
-found,e):null;this.path=left?[this.view.toWorld(place)]:[];this.send("down",place,e,{part:found?.part,
-at:left?behaviour.pressedAt?.():void 0});if(e.pointerType==="touch"&&behaviour.menu&&!behaviour.painting){
-this.#longPress=setTimeout(()=>this.#pressedLong(e,place),LONG_PRESS)}behaviour.changed()}#pressedLong(e,place){
-this.#longPress=setTimeout(()=>{this.#takeBack(e);this.mode=null;this.#menu(place,"touch")},LONG_PRESS_GRACE)}#menu(place,type){
-this.behaviour.menu?.(place,this.#find(place,type))}#contextMenu(e){e.preventDefault();e.stopPropagation();
-const touch=e instanceof PointerEvent&&e.pointerType==="touch";if(e.button===2&&!touch)this.#menu(this.
-place(e),"mouse")}#takeBack(e){if(this.mode==="hand")this.send("cancel",this.#start,e);this.#drop()}#move(e){
-const place=this.place(e);const touch=e.pointerType==="touch";if(!this.pointers.has(e.pointerId)){if(!touch)
-this.hover(place);return}if(!touch)this.rests=place;const far=distance(place,this.#start);if(far>LONG_PRESS_SLACK)
-clearTimeout(this.#longPress);if(this.mode==="hand"&&this.#pans&&far>CLICK){this.#takeBack(e);this.mode=
-"pan";this.#showCursor()}if(this.mode==="pan"){this.view.follow(this.pointers,e.pointerId,place);return}
-this.pointers.set(e.pointerId,place);if(this.mode==="hand")this.#handMoved(place,e,far)}#handMoved(place,e,far){
-const point=this.view.toWorld(place);this.#lengthenPath(place,point,far);if(!this.encloses&&!this.behaviour.
-painting){this.send("move",place,e,{replaces:`move ${e.pointerId}`})}if(this.grip){const dx=point[0]-
-this.grip.from[0];const dy=point[1]-this.grip.from[1];for(const[mark,[x,y]]of this.grip.points)this.
-held.set(mark,[x+dx,y+dy])}this.behaviour.changed()}#lengthenPath(place,point,far){if(this.encloses===
-"box"){const[corner]=this.path;this.path=far>CLICK?rectangle(corner,point):[corner];return}const last=this.
-path.at(-1);if(last&&distance(place,this.view.toScreen(last))>=PATH_STEP)this.path.push(point)}#up(e,type){
-if(!this.pointers.has(e.pointerId))return;const place=this.place(e);this.pointers.delete(e.pointerId);
-if(this.mode==="hand"){const{path}=this;this.send(type,place,e,{path,encloses:Boolean(this.encloses)}).
-then(()=>{if(!this.grip)this.held.clear();if(this.path===path)this.path=[];this.behaviour.changed()})}
-this.#letGo();if(!this.pointers.size)this.mode=null;this.#showCursor()}#letGo(){clearTimeout(this.#longPress);
-this.grip=null;this.behaviour.changed()}#drop(){this.#letGo();this.held.clear();this.path=[]}#wheel(e){
-if(!this.behaviour.ownsWheel&&!this.focused&&!e.ctrlKey)return;e.stopPropagation();this.view.wheel(e,
-this.place(e))}#setSpace(pressed){this.#space=pressed;this.#showCursor()}#showCursor(){this.element.
-style.cursor=this.#cursor()}#cursor(){if(this.mode==="pan"||this.grip)return"grabbing";return this.#space?
-"grab":this.behaviour.cursor(this.found)}};var Solving=class{#worker;#number=0;#asked=new Map;constructor(worker,onmap=()=>{}){this.#worker=worker;
+this.behaviour.changed()}keydown(e){const key=keyOf(e);const command=e.ctrlKey||e.metaKey;const action=command||
+e.altKey?void 0:this.behaviour.actions[key.toLowerCase()];const history=undoOrRedo(e);if(!history&&!action&&
+key!==" "){if(e.altKey||!this.behaviour.keys.test(key)||command&&key!=="a")return}e.preventDefault();
+e.stopPropagation();if(key===" "){if(!e.repeat)this.#tap=true;this.#setSpace(true)}else if(action){action()}else{
+if(key==="Escape"||history)this.#drop();this.press(history??key,e)}}#keyup(e){if(e.key!==" ")return;
+this.#setSpace(false);if(this.#tap)this.behaviour.tapped?.()}#reach(type){return this.behaviour.reach[type??
+"mouse"]??this.behaviour.reach.mouse}#find(place,type){return this.behaviour.find(this.view.toWorld(
+place),this.#reach(type)*this.view.unit)}#down(e){if(this.pointers.has(e.pointerId)||this.pointers.size>
+1)return;e.preventDefault();this.element.focus({preventScroll:true});this.#tap=false;const place=this.
+place(e);this.pointers.set(e.pointerId,place);this.element.setPointerCapture(e.pointerId);const second=this.
+pointers.size===2;if(second)this.#takeBack(e);this.#start=place;this.mode=second||e.button===1||e.button===
+0&&this.#space?"pan":"hand";if(this.mode==="hand")this.#handDown(place,e);this.#showCursor()}#handDown(place,e){
+const{behaviour}=this;const found=this.#find(place,e.pointerType);const left=e.button===0;const drags=left&&
+!e.altKey&&(behaviour.constrain||!e.shiftKey);if(drags&&found?.mark!==void 0){this.grip={from:this.view.
+toWorld(place),points:behaviour.held(found)}}this.#pans=left&&Boolean(behaviour.pans?.(found,e));this.
+encloses=left&&!behaviour.painting?behaviour.encloses?.(found,e):null;this.path=left?[this.view.toWorld(
+place)]:[];this.send("down",place,e,{part:found?.part,at:left?behaviour.pressedAt?.():void 0});if(e.
+pointerType==="touch"&&behaviour.menu&&!behaviour.painting){this.#longPress=setTimeout(()=>this.#pressedLong(
+e,place),LONG_PRESS)}behaviour.changed()}#pressedLong(e,place){this.#longPress=setTimeout(()=>{this.#takeBack(
+e);this.mode=null;this.#menu(place,"touch")},LONG_PRESS_GRACE)}#menu(place,type){this.behaviour.menu?.(
+place,this.#find(place,type))}#contextMenu(e){e.preventDefault();e.stopPropagation();const touch=e instanceof
+PointerEvent&&e.pointerType==="touch";if(e.button===2&&!touch)this.#menu(this.place(e),"mouse")}#takeBack(e){
+if(this.mode==="hand")this.send("cancel",this.#start,e);this.#drop()}#move(e){const place=this.place(
+e);const touch=e.pointerType==="touch";if(!this.pointers.has(e.pointerId)){if(!touch)this.hover(place);
+return}if(!touch)this.rests=place;const far=distance(place,this.#start);if(far>LONG_PRESS_SLACK)clearTimeout(
+this.#longPress);if(this.mode==="hand"&&this.#pans&&far>CLICK){this.#takeBack(e);this.mode="pan";this.#showCursor()}
+if(this.mode==="pan"){this.view.follow(this.pointers,e.pointerId,place);return}this.pointers.set(e.pointerId,
+place);if(this.mode==="hand")this.#handMoved(place,e,far)}#handMoved(place,e,far){const free=this.view.
+toWorld(place);this.#lengthenPath(place,free,far);const[x,y]=this.behaviour.constrain?.(free,e)??free;
+if(!this.encloses&&!this.behaviour.painting){this.send("move",place,e,{x,y,replaces:`move ${e.pointerId}`})}
+if(this.grip){const dx=x-this.grip.from[0];const dy=y-this.grip.from[1];for(const[mark,[u,v]]of this.
+grip.points)this.held.set(mark,[u+dx,v+dy])}this.behaviour.changed()}#lengthenPath(place,point,far){
+if(this.encloses==="box"){const[corner]=this.path;this.path=far>CLICK?rectangle(corner,point):[corner];
+return}const last=this.path.at(-1);if(last&&distance(place,this.view.toScreen(last))>=PATH_STEP)this.
+path.push(point)}#up(e,type){if(!this.pointers.has(e.pointerId))return;const place=this.place(e);this.
+pointers.delete(e.pointerId);if(this.mode==="hand"){const{path}=this;this.send(type,place,e,{path,encloses:Boolean(
+this.encloses)}).then(()=>{if(!this.grip)this.held.clear();if(this.path===path)this.path=[];this.behaviour.
+changed()})}this.#letGo();if(!this.pointers.size)this.mode=null;this.#showCursor()}#letGo(){clearTimeout(
+this.#longPress);this.grip=null;this.behaviour.changed()}#drop(){this.#letGo();this.held.clear();this.
+path=[]}#wheel(e){if(!this.behaviour.ownsWheel&&!this.focused&&!e.ctrlKey)return;e.stopPropagation();
+this.view.wheel(e,this.place(e))}#setSpace(pressed){this.#space=pressed;this.#showCursor()}#showCursor(){
+this.element.style.cursor=this.#cursor()}#cursor(){if(this.mode==="pan"||this.grip)return"grabbing";
+return this.#space?"grab":this.behaviour.cursor(this.found)}};var Solving=class{#worker;#number=0;#asked=new Map;constructor(worker,onmap=()=>{}){this.#worker=worker;
 this.onmap=onmap;worker.onmessage=({data})=>this.#answered(data)}ask(request){const id=this.#send(request);
 return new Promise((resolve,reject)=>this.#asked.set(id,{resolve,reject}))}async map(request){const answer=await this.
 ask(request);if(answer.type!=="map")throw new Error(`the answer is no map but of type ${answer.type}`);
@@ -231,11 +227,17 @@ hypot(x,y),turned,scaled]}function menuRows(does,pin,covered){return[...pin?pinR
 ght","M",does.press("m")],["Select all pins","A",does.press("a")],["The undeformed shape","0",does.press(
 "0")],["See everything","F",does.press("f")],["Paint stiff areas","B",does.press("b")],["The picture\
  alone","P",does.alone],["Full screen","W",does.fullScreen],["All keys","?",does.showKeys]]}function pinRows({
-press},count){const pins=count>1?` ${count} pins`:"";return[["Bring forward","Page Up",press("PageUp")],
-["Send back","Page Down",press("PageDown")],null,[`Remove${pins}`,"Delete",press("Delete")],["Remove\
-, keep the shape","Shift+Delete",press("Delete",true)],["Leave angle and scale free","X",press("x")],
-null]}function shapeRows({pin},covered){return covered?[["Add a pin here","Click",pin],null]:[]}function nearest(things,reach){let best=null;let least=Infinity;for(const thing of things){const far=thing.
-d+(thing.loss??0);if(thing.d>reach||far>=least)continue;best=thing;least=far}return best}var KNOB=6;var KNOB_REACH=4;var RADIUS=42;var LEAST_RADIUS=24;var EDGE=14;var CORNER=[36,112];var ARROW_REACH=12;
+press},count){const pins=count>1?` ${count} pins`:"";return[[`Remove${pins}`,"Delete",press("Delete")],
+["Remove, keep the shape","Shift+Delete",press("Delete",true)],null,["Bring forward","Page Up",press(
+"PageUp")],["Send back","Page Down",press("PageDown")],["Leave angle and scale free","X",press("x")],
+null]}function shapeRows({pin},covered){return covered?[["Add a pin here","Click",pin],null]:[]}function nearest(things,reach){let best2=null;let least=Infinity;for(const thing of things){const far=thing.
+d+(thing.loss??0);if(thing.d>reach||far>=least)continue;best2=thing;least=far}return best2}function nearestEdge(loops,point,reach){const edges=loops.flatMap(loop=>loop.map((start,j)=>{const foot=footOn(
+start,loop[(j+1)%loop.length],point);return{foot,d:distance(foot,point)}}));return nearest(edges,reach)}
+function footOn(start,end,point){const along=[end[0]-start[0],end[1]-start[1]];const dot=(point[0]-start[0])*
+along[0]+(point[1]-start[1])*along[1];const share=Math.min(Math.max(dot/(distance(start,end)**2||1e-30),
+0),1);return[start[0]+share*along[0],start[1]+share*along[1]]}function encloses(loop,[x,y]){let winding=0;loop.forEach(([x0,y0],i)=>{const[x1,y1]=loop[(i+1)%loop.
+length];const left=(x1-x0)*(y-y0)-(x-x0)*(y1-y0);if(y0<=y&&y1>y&&left>0)winding+=1;if(y0>y&&y1<=y&&left<
+0)winding-=1});return winding!==0}var KNOB=6;var KNOB_REACH=4;var RADIUS=42;var LEAST_RADIUS=24;var EDGE=14;var CORNER=[36,112];var ARROW_REACH=12;
 function dial(view,marks,held){const last=marks.selected.at(-1);const[angle,scale]=marks.ring;if(angle===
 void 0||scale===void 0)return null;if(last===void 0||!marks.targets[last])return null;const centre=view.
 toScreen(held?.get(last)??marks.targets[last]);const radius=RADIUS*Math.min(2.5,Math.max(.5,scale));
@@ -291,23 +293,42 @@ x,y]=knob;const color=turned?WANTED:FREE;circle(pen,centre,radius,[[4,BORDER]]);
 const corner=(turn,radius)=>[at[0]+radius*Math.cos(angle+turn),at[1]+radius*Math.sin(angle+turn)];fillPath(
 pen,[[corner(0,11),corner(2.4,9),corner(-2.4,9)]],TARGET_FILL);strokePath(pen,[[1.6,TARGET_EDGE]])}}
 function drawCursor(pen,[x,y]){const arm=(dx,dy)=>[[x+4*dx,y+4*dy],[x+13*dx,y+13*dy]];lines(pen,[arm(
-1,0),arm(-1,0),arm(0,1),arm(0,-1)],[[4,PALE],[1.6,WANTED]])}var HELP=[["Pins",[["Click the shape","pin a point"],["Drag a pin, or the shape","move it there; the\
- shape follows, and never folds"],["Right-click, long touch, Menu key","a menu for the pin or the sh\
-ape there"],["Delete","remove the selected pins; with Shift keep the shape"],["Ring around a pin; Al\
-t on the pin","turn the shape there; the ring's knob scales it too"],["< >, + -, X","turn, scale; fr\
-ee both again"],["Page Down, Page Up, [ ]","send selected pins and their surroundings back, forward"],
-["Arrow keys","nudge selected pins, with Shift farther; else move a cursor"],["Enter","show the curs\
-or; pin or select there"]]],["Selecting",[["Shift-click, A","select several pins, all pins"],["Shift\
- and drag, Ctrl and drag","select the pins in a box, in a lasso"],[", .","select the pin before, the\
- next pin, and bring it into view; so does a click on an arrow at the edge"],["Esc","cancel a drag; \
-select nothing"]]],["Poses",[["Ctrl+Z, Ctrl+Shift+Z","undo, redo"],["Ctrl+C, Ctrl+V","copy the pose,\
- put it on this or a similar shape"],["M","swap left and right"],["0","back to the undeformed shape"]]],
-["Stiff areas",[["B, E","paint stiff areas, erase them; Esc ends painting"]]],["View",[["Wheel, two \
-fingers","zoom"],["Middle button, Space and drag","move the view"],["F","see everything"],["P","the \
-picture alone, for lectures; Esc brings the rest back"],["W","the whole screen"]]],["Timeline",[["K",
-"make a keyframe of what is shown"],["Space","play the motion through the poses, pause; on the canva\
-s too"],["Arrow keys, Home, End","step in time, with Shift to the next pose; first, last pose"],["Al\
-t and arrow keys","move the pose in time; Delete removes it"]]]];var Legend=class{element=make("div",{className:"glid-legend"});show(model,moving){const bars=[model.
+1,0),arm(-1,0),arm(0,1),arm(0,-1)],[[4,PALE],[1.6,WANTED]])}var COUNT=3;var GRID=24;var USED="glid-nb-pinned";var RADIUS2=8;function ghostPins({cage,holes}){const loops=[
+cage,...holes];const candidates=gridOver(cage).filter(point=>encloses(cage,point)&&!holes.some(hole=>encloses(
+hole,point))).map(point=>({point,clearance:nearestEdge(loops,point,Infinity)?.d??0}));if(!candidates.
+length)return[];const places=[best(candidates,[middleOf(candidates)])];while(places.length<COUNT)places.
+push(best(candidates,places));return places}function gridOver(loop){const xs=loop.map(([x])=>x);const ys=loop.
+map(([,y])=>y);const along=(values,i)=>{const[low,high]=[Math.min(...values),Math.max(...values)];return low+
+(i+.5)/GRID*(high-low)};return Array.from({length:GRID*GRID},(_,i)=>[along(xs,i%GRID),along(ys,Math.
+floor(i/GRID))])}function middleOf(candidates){const sum=candidates.reduce(([u,v],{point:[x,y]})=>[u+
+x,v+y],[0,0]);return[sum[0]/candidates.length,sum[1]/candidates.length]}function best(candidates,others){
+const score=({point,clearance})=>Math.min(...others.map(other=>distance(point,other)))*Math.sqrt(clearance);
+return candidates.reduce((a,b)=>score(b)>score(a)?b:a).point}var Ghosts=class{#outline=null;#places=[];draw(pen,view,outline,pinned){
+if(pinned)remember();if(pinned||!outline||remembered())return;if(outline!==this.#outline){this.#outline=
+outline;this.#places=ghostPins(outline)}pen.globalAlpha=.75;for(const place of view.line(this.#places)){
+disk(pen,place,RADIUS2,"rgba(255,255,255,0.75)");const ring=[[2,"#067a82"]];circle(pen,place,RADIUS2,
+ring,[4,2.3]);disk(pen,place,2.5,"#067a82")}pen.globalAlpha=1}};var used=false;function remembered(){
+try{return used||sessionStorage.getItem(USED)!==null}catch{return used}}function remember(){if(used)
+return;used=true;try{sessionStorage.setItem(USED,"1")}catch{}}var HELP=[["Pins",[["Click the shape","pin a point"],["Drag a pin, or the shape","move it there; the\
+ shape follows, and never folds"],["Shift, Ctrl in a drag","keep it on one axis; on whole pixels of \
+the picture; Shift turns by 15°"],["Right-click, long touch, Shift+F10","a menu for the pin or the \
+shape there"],["Delete","remove the selected pins; with Shift keep the shape"],["Ring around a pin; \
+Alt on the pin","turn the shape there; the ring's knob scales it too"],["< >, + -, X","turn, scale; \
+free both again"],["Page Down, Page Up, [ ]","send selected pins and their surroundings back, forwar\
+d"],["Arrow keys","nudge selected pins, with Shift farther; else move a cursor"],["Enter","show the \
+cursor; pin or select there"]]],["Selecting",[["Shift-click, A","select several pins, all pins"],["S\
+hift and drag, Ctrl and drag","select the pins in a box, in a lasso"],[", .","select the pin before,\
+ the next pin, and bring it into view; so does a click on an arrow at the edge"],["Esc","cancel a dr\
+ag; select nothing"]]],["Poses",[["Ctrl+Z, Ctrl+Shift+Z","undo, redo"],["Ctrl+C, Ctrl+V","copy the p\
+ose, put it on this or a similar shape"],["M","swap left and right"],["0","back to the undeformed sh\
+ape"]]],["Stiff areas",[["B, E","paint stiff areas, erase them; Esc ends painting"]]],["View",[["Whe\
+el, two fingers","zoom"],["Middle button, Space and drag","move the view"],["F","see everything"],["\
+P","the picture alone, for lectures; Esc brings the rest back"],["W","the whole screen, without the \
+inspector"],["I","hide the inspector, show it again"]]],["Timeline",[["K","make a keyframe of what i\
+s shown"],["Space","play the motion through the poses, pause; on the canvas too"],["Arrow keys, Home\
+, End","step a frame, with Shift to the next pose; first, last pose"],["Ctrl and wheel","zoom the ti\
+meline; then the wheel alone moves along it"],["Double click a pose, F2","type its name"],["Alt and \
+arrow keys","move the pose in time; Delete removes it"]]]];var Legend=class{element=make("div",{className:"glid-legend"});show(model,moving){const bars=[model.
 get("legend"),model.get("panel_legend")].filter(bar=>bar.title);this.element.replaceChildren(...bars.
 map(bar=>colorBar(bar,moving)));this.element.hidden=!bars.length;this.element.dataset.corner=model.get(
 "legend_corner")}};function colorBar({title,moving,colors,ticks,about},moves){const gradient=`backgr\
@@ -321,26 +342,53 @@ glid-notice",role:"status"});prepared=make("div",{className:"glid-prepared",role
 first&&FIRST;const{notice}=this;notice.textContent=refusal||advice||"";notice.hidden=!notice.textContent;
 notice.classList.toggle("glid-first",!refusal)}prepare(share){const{prepared}=this;prepared.hidden=share>=
 1;prepared.setAttribute("aria-valuenow",String(Math.round(100*share)));prepared.style.setProperty("-\
--glid-share",String(share))}};var REACH={mouse:13,pen:16,touch:26};var KEYS=/^(Arrow\w+|Page\w+|Delete|Backspace|Escape|Enter|[0fa,.[\]<>+=xmbe-])$/i;
+-glid-share",String(share))}};var LONGER_SIDE=20;function constrained([x0,y0],[x,y],{axis,whole},size){const across=Math.abs(x-x0)>=
+Math.abs(y-y0);const[u,v]=whole?onPixel([x,y],size):[x,y];if(!axis)return[u,v];return across?[u,y0]:
+[x0,v]}function pixelAt([x,y],[width,height]){const unit=LONGER_SIDE/Math.max(width,height);return[x/
+unit+width/2,height/2-y/unit]}function onPixel(point,size){const[width,height]=size;if(!width||!height)
+return point;const unit=LONGER_SIDE/Math.max(width,height);const[px,py]=pixelAt(point,size).map(Math.
+round);return[(px-width/2)*unit,(height/2-py)*unit]}var BESIDE=20;var PADDING=6;var LINE=16;var FONT="600 11px system-ui, sans-serif";var GROUND="rgba(2\
+5,28,34,0.88)";var INK2="#ffffff";var GUIDE="#d55e00";function movedPin(pressed,marks,held,size){const mark=pinOf(
+pressed,marks);if(mark===void 0||!marks.targets[mark])return null;const at=held.get(mark)??marks.targets[mark];
+if(pressed.found?.part)return{at,words:turnWords(marks.ring)};const[x,y]=at;const words2=[`x ${coordinate(
+x)}   y ${coordinate(y)}`];if(pressed.keys?.whole&&size.length){const[px,py]=pixelAt(at,size).map(Math.
+round);words2.push(`pixel ${px}, ${py}`)}return{at,words:words2}}function pinOf({found,pins},{selected,
+targets}){if(found?.mark!==void 0)return Number(found.mark);return found?.part||targets.length>pins?
+selected.at(-1):void 0}function turnWords([angle=0,scale=1,turned,scaled]){const words2=[];if(turned)
+words2.push(`${Number((angle*180/Math.PI).toFixed(1))}°`);if(scaled)words2.push(`× ${scale.toFixed(
+2)}`);return words2}function coordinate(number2){return(number2||0).toFixed(3).replace("-","−")}function drawNumbers(pen,view,{
+at,words:words2}){if(!words2.length)return;const[x,y]=view.toScreen(at);pen.font=FONT;const width=Math.
+max(...words2.map(text=>pen.measureText(text).width))+2*PADDING;const height=LINE*words2.length+PADDING;
+const left=x+BESIDE+width<=view.width?x+BESIDE:x-BESIDE-width;const top=Math.min(Math.max(y-BESIDE-height,
+2),view.height-height-2);pen.beginPath();pen.roundRect(left,top,width,height,4);pen.fillStyle=GROUND;
+pen.fill();pen.fillStyle=INK2;pen.textBaseline="middle";words2.forEach((text,i)=>{pen.fillText(text,
+left+PADDING,top+PADDING/2+LINE*(i+.5))})}function drawAxis(pen,view,start,at){const[x,y]=view.toScreen(
+start);const across=start[1]===at[1];const line=across?[[0,y],[view.width,y]]:[[x,0],[x,view.height]];
+tracePath(pen,[line],false);strokePath(pen,[[1,GUIDE]],[4,4])}var REACH={mouse:13,pen:16,touch:26};var KEYS=/^(Arrow\w+|Page\w+|Delete|Backspace|Escape|Enter|[0fa,.[\]<>+=xmbe-])$/i;
 var TARGET_TIP="where it should be. Drag it; Alt turns it; a right click shows more; Shift-click sel\
 ects several";var IMAGE_TIP="where the shape is now. The cyan disk is where it should be";var COVERED="\
 . Another part of the shape covers it";var RING_TIPS={turn:"Drag around the pin to turn the shape th\
 ere; X frees it again",knob:"Drag around the pin to turn the shape there, away from it to scale it; \
-X frees it again"};var PinBehaviour=class{reach=REACH;keys=KEYS;constructor(canvas){this.canvas=canvas;
-this.actions={"?":canvas.help.toggle,contextmenu:()=>canvas.openMenu(),k:()=>void canvas.box.dispatchEvent(
-new CustomEvent("glid:key",{bubbles:true})),p:()=>canvas.room?.alone(),w:()=>canvas.room?.fullScreen()}}get painting(){
-return this.canvas.painting}changed(){this.canvas.followHand();this.canvas.redraw()}menu(place,found){
-this.canvas.openMenu(place,found)}pressedAt(){return this.canvas.pressedAt()}tapped(){this.canvas.box.
-dispatchEvent(new CustomEvent("glid:play",{bubbles:true}))}find(point,reach){const{view,marks,shapes,
-painting}=this.canvas;if(shapes.motion||painting)return null;const mark=markAt(marks,point,reach);return mark??
-ringAt(view,marks,view.toScreen(point),reach/view.unit/2)}encloses(found,e){if(found)return null;if(e.
-shiftKey)return"box";return e.ctrlKey||e.metaKey?"lasso":null}held({mark}){const{selected,targets}=this.
-canvas.marks;const pressed=Number(mark);const moved=selected.includes(pressed)?selected:[pressed];return new Map(
-moved.map(i=>[i,targets[i]]))}cursor(found){this.canvas.box.title=this.#tip(found);return found?"gra\
-b":"crosshair"}#tip(found){if(!found)return"";if(found.part)return RING_TIPS[found.part];const{marks,
-model}=this.canvas;const mark=Number(found.mark);const name=["Pin",mark+1,model.get("names")[mark]].
-join(" ").trim();const tip=found.reached?IMAGE_TIP:TARGET_TIP;return`${name}: ${tip}${marks.hidden.includes(
-mark)?COVERED:""}`}};async function copied(text){try{await navigator.clipboard.writeText(text);return true}catch{return copiedBySelection(
+X frees it again"};var PinBehaviour=class{reach=REACH;keys=KEYS;pressed=null;constructor(canvas){this.
+canvas=canvas;this.actions={"?":canvas.help.toggle,contextmenu:()=>canvas.openMenu(),i:()=>canvas.room?.
+toggleInspector(),k:()=>void canvas.box.dispatchEvent(new CustomEvent("glid:key",{bubbles:true})),p:()=>canvas.
+room?.alone(),w:()=>canvas.room?.fullScreen()}}get painting(){return this.canvas.painting}changed(){
+this.canvas.followHand();this.canvas.redraw()}menu(place,found){this.canvas.openMenu(place,found)}pressedAt(){
+return this.canvas.pressedAt()}tapped(){this.canvas.box.dispatchEvent(new CustomEvent("glid:play",{bubbles:true}))}find(point,reach){
+const{view,marks,shapes,painting}=this.canvas;if(shapes.motion||painting)return null;const mark=markAt(
+marks,point,reach);return mark??ringAt(view,marks,view.toScreen(point),reach/view.unit/2)}encloses(found,e){
+const start=this.canvas.pad.grip?.points.get(found?.mark??"");this.pressed={found,start,pins:this.canvas.
+marks.targets.length};if(found)return null;if(e.shiftKey)return"box";return e.ctrlKey||e.metaKey?"la\
+sso":null}held({mark}){const{selected,targets}=this.canvas.marks;const pressed=Number(mark);const moved=selected.
+includes(pressed)?selected:[pressed];return new Map(moved.map(i=>[i,targets[i]]))}constrain(point,e){
+const{model,pad}=this.canvas;const{pressed}=this;const[from]=pad.path;if(!pressed||!from||pressed.found?.
+part||pad.encloses||e.altKey)return point;pressed.keys={axis:e.shiftKey,whole:e.ctrlKey||e.metaKey};
+pressed.start??=from;const[x,y]=pressed.start;const free=[x+point[0]-from[0],y+point[1]-from[1]];const[
+u,v]=constrained([x,y],free,pressed.keys,model.get("picture_size"));return[u-x+from[0],v-y+from[1]]}cursor(found){
+this.canvas.box.title=this.#tip(found);return found?"grab":"crosshair"}#tip(found){if(!found)return"";
+if(found.part)return RING_TIPS[found.part];const{marks,model}=this.canvas;const mark=Number(found.mark);
+const name=["Pin",mark+1,model.get("names")[mark]].join(" ").trim();const tip=found.reached?IMAGE_TIP:
+TARGET_TIP;return`${name}: ${tip}${marks.hidden.includes(mark)?COVERED:""}`}};async function copied(text){try{await navigator.clipboard.writeText(text);return true}catch{return copiedBySelection(
 text)}}function copiedBySelection(text){const focused=document.activeElement;const area=document.createElement(
 "textarea");area.value=text;area.setAttribute("readonly","");Object.assign(area.style,{position:"fix\
 ed",top:"0",left:"0",opacity:"0"});document.body.append(area);area.select();try{return document.execCommand(
@@ -370,22 +418,26 @@ const own=control.getAttribute("title");if(own)return own;if(control.matches(".g
 ts *"))return"Plots of the solve";const widget=control.closest(".jupyter-widgets");const label=widget?.
 querySelector(".widget-label")?.textContent?.trim();return label||widget?.getAttribute("title")||labelBefore(
 widget??control)}function labelBefore(one){let before=one.previousElementSibling;while(before&&!before.
-matches(".widget-label"))before=before.previousElementSibling;return before?.textContent?.trim()??""}var PAGE=124;var PARTS=44+110+28+2;var LEAST=280;var BESIDE=400;var PLOTS=477;var SLACK=20;var SETTLE=80;
+matches(".widget-label"))before=before.previousElementSibling;return before?.textContent?.trim()??""}var PAGE=124;var PARTS=44+110+28+2;var LEAST=280;var BESIDE2=400;var PLOTS=477;var SLACK=20;var SETTLE=80;
 var NARROW=600;var Room=class{#root=null;#last={width:0,height:0,alone:0};#decides=false;#told="";#room=null;#timer;constructor(pad,model,signal){
 this.pad=pad;this.model=model;this.signal=signal;this.observer=new ResizeObserver(()=>this.#measureSoon());
 this.observer.observe(pad);window.addEventListener("resize",()=>this.#measureSoon(),{signal});window.
 addEventListener("keydown",e=>this.#escape(e),{signal,capture:true});model.on("change:room",()=>{if(String(
-model.get("room"))!==this.#told)this.#decides=false});const left=()=>{if(!document.fullscreenElement)
-this.alone(false)};document.addEventListener("fullscreenchange",left,{signal});signal.addEventListener(
-"abort",()=>{clearTimeout(this.#timer);this.observer.disconnect()})}alone(on=!this.#last.alone){const root=this.#root;
-if(!root||!on&&!this.#last.alone){this.#measureSoon();return}root.classList.toggle("glid-alone",on);
-this.#decides=true;this.#measure();root.scrollIntoView({block:on?"start":"nearest"});this.pad.focus(
-{preventScroll:true});if(!on&&document.fullscreenElement)document.exitFullscreen()}fullScreen(){if(document.
-fullscreenElement){document.exitFullscreen();return}this.#root?.requestFullscreen().catch(error=>{save(
-this.model,{notice:`Full screen is not possible here: ${error.message}`})})}#escape(e){if(e.key!=="E\
-scape"||!this.#last.alone)return;if(this.pad.matches(":active, :has(.glid-menu, :popover-open)"))return;
-e.stopPropagation();this.alone(false)}#measureSoon(){clearTimeout(this.#timer);this.#timer=setTimeout(
-()=>this.#measure(),SETTLE)}#measure(){const root=this.pad.closest(".glid-editor");const shell=this.
+model.get("room"))!==this.#told)this.#decides=false});const left=()=>{const full=document.fullscreenElement;
+if(!full)this.alone(false);if(!full||full===this.#root)this.toggleInspector(Boolean(full))};document.
+addEventListener("fullscreenchange",left,{signal});signal.addEventListener("abort",()=>{clearTimeout(
+this.#timer);this.observer.disconnect()})}alone(on=!this.#last.alone){const root=this.#root;if(!root||
+!on&&!this.#last.alone){this.#measureSoon();return}root.classList.toggle("glid-alone",on);this.#decides=
+true;this.#measure();root.scrollIntoView({block:on?"start":"nearest"});this.pad.focus({preventScroll:true});
+if(!on&&document.fullscreenElement)document.exitFullscreen()}fullScreen(){if(document.fullscreenElement){
+document.exitFullscreen();return}this.#root?.requestFullscreen().catch(error=>{save(this.model,{notice:`\
+Full screen is not possible here: ${error.message}`})})}toggleInspector(away){const root=this.#root;
+if(!root||root.classList.contains("glid-side-away")===away)return;const focused=root.querySelector("\
+.glid-side")?.contains(document.activeElement);const hidden=root.classList.toggle("glid-side-away",away);
+if(hidden&&focused)this.pad.focus({preventScroll:true});this.#decides=true;this.#measureSoon()}#escape(e){
+if(e.key!=="Escape"||!this.#last.alone)return;if(this.pad.matches(":active, :has(.glid-menu, :popove\
+r-open)"))return;e.stopPropagation();this.alone(false)}#measureSoon(){clearTimeout(this.#timer);this.#timer=
+setTimeout(()=>this.#measure(),SETTLE)}#measure(){const root=this.pad.closest(".glid-editor");const shell=this.
 pad.closest(".glid-shell");if(!root||!shell?.clientWidth)return;root.classList.toggle("glid-narrow",
 root.clientWidth<NARROW);const room=this.#roomIn(root,shell);if(!this.#root)this.#begin(root,shell,room);
 this.#room=room;this.shrink();if(!this.#decides)return;const last=this.#last;const wider=room.width-
@@ -394,7 +446,8 @@ return;this.#last=room;const numbers=[room.width,room.height,room.alone].map(Mat
 String(numbers);save(this.model,{room:numbers})}#begin(root,shell,room){this.#root=root;this.observer.
 observe(root);this.observer.observe(shell);const plots=shell.querySelector(".glid-plots-box");if(plots)
 this.observer.observe(plots);nameControls(root,this.signal);const[width=0]=this.model.get("room");this.#decides=
-room.width>width;root.addEventListener("pointerup",()=>this.#decide(),{signal:this.signal})}#decide(){
+room.width>width;root.addEventListener("pointerup",()=>this.#decide(),{signal:this.signal});const inspected=()=>this.
+toggleInspector(false);root.addEventListener("glid:inspect",inspected,{signal:this.signal})}#decide(){
 if(this.#decides)return;this.#decides=true;this.#last={width:0,height:0,alone:0};this.#measureSoon()}shrink(){
 const whole=this.pad.closest(".glid-deform");if(!whole||!this.#room)return;const panes=whole.querySelectorAll(
 ".glid-pane");const widths=[...panes].map(pane=>Number.parseFloat(pane.style.width)||0);const share=this.#room.
@@ -403,7 +456,7 @@ width/widths.reduce((sum,width)=>sum+width,0);whole.style.zoom=share<1&&!this.#d
 page;if(root.classList.contains("glid-alone")){return{width:root.clientWidth,height:below,alone:1}}const narrow=root.
 classList.contains("glid-narrow");const side=shell.querySelector(".glid-side");const plots=shell.querySelector(
 ".glid-plots-box");const beside=shell.clientWidth-(narrow?0:side?.offsetWidth??0);const plotted=Boolean(
-plots?.offsetWidth)&&!narrow&&beside-PLOTS>=BESIDE;shell.classList.toggle("glid-beside",plotted);const width=plotted?
+plots?.offsetWidth)&&!narrow&&beside-PLOTS>=BESIDE2;shell.classList.toggle("glid-beside",plotted);const width=plotted?
 beside-PLOTS:beside;const above=shell.getBoundingClientRect().top-root.getBoundingClientRect().top;return{
 width,height:Math.max(LEAST,below-above/scaleOf(root).down-PARTS),alone:0}}};var LN2_HIGH=.6931471803691238;var LN2_LOW=19082149292705877e-26;var TWO_TO_54=0x40000000000000;var L1=.6666666666666735;
 var L2=.3999999999940942;var L3=.2857142874366239;var L4=.22222198432149784;var L5=.1818357216161805;
@@ -496,7 +549,7 @@ new Float64Array(buffer,first,length):new Float64Array(length);first+=array.byte
 function reachable(size){if(!compiled.module){return null}try{const memory=new WebAssembly.Memory({initial:Math.
 ceil(size/PAGE2)});const{exports}=new WebAssembly.Instance(compiled.module,{page:{memory}});kernels.
 set(memory.buffer,exports);return memory.buffer}catch{return null}}function kernelOf(...arrays){const[
-{buffer}]=arrays;return arrays.every(array=>array.buffer===buffer)?kernels.get(buffer):void 0}var UNIT_ROUNDOFF=11102230246251565e-32;var UPWARD=1+9313225746154785e-25;var CUT=64*UNIT_ROUNDOFF;var BESIDE2=64*
+{buffer}]=arrays;return arrays.every(array=>array.buffer===buffer)?kernels.get(buffer):void 0}var UNIT_ROUNDOFF=11102230246251565e-32;var UPWARD=1+9313225746154785e-25;var CUT=64*UNIT_ROUNDOFF;var BESIDE3=64*
 UNIT_ROUNDOFF;var LOGARITHM=16*UNIT_ROUNDOFF;var BERNSTEIN=16*UNIT_ROUNDOFF;var TAU=2*Math.PI;var LARGEST_NORM=1e20;var FEW=64;function emptyRows(count,columns){const width=evenly(
 columns);const lengths=[count*width,count*width,4*width,4*count];const[re,im,slopes,samples]=count<FEW?
 lengths.map(length=>new Float64Array(length)):arraysOf(...lengths);return{count,columns,re,im,slopes,
@@ -534,27 +587,26 @@ width;let x1=0;let y1=0;let x2=0;let y2=0;for(let e=0;e<width;e+=2){const a1=row
 e];const a2=rowRe[first+e+1];const b2=rowIm[first+e+1];const c1=re[e];const d1=im[e];const c2=re[e+1];
 const d2=im[e+1];x1+=a1*c1-b1*d1;y1+=a1*d1+b1*c1;x2+=a2*c2-b2*d2;y2+=a2*d2+b2*c2}intoRe[i]=x1+x2;intoIm[i]=
 y1+y2}}function quarters(values){const n=values.length/4;return[values.subarray(0,n),values.subarray(n,2*n),
-values.subarray(2*n,3*n),values.subarray(3*n)]}var FieldPoints=class{#domain;#coordinates;#rows;constructor(domain,points){const{columns}=domain;this.#domain=
-domain;this.count=points.length;this.#coordinates=zeros(points.length*columns);for(const[i,point]of points.
-entries()){const c=coordinatesAt(domain,point);this.#coordinates.re.set(c.re,i*columns);this.#coordinates.
-im.set(c.im,i*columns)}this.#rows=rowsAt(domain,complexOf(points))}evaluate(coefficients){const slopes=slopesOf(
-this.#domain,coefficients);return{images:imagesAt(this.#coordinates,this.count,coefficients),samples:samplesAt(
-this.#rows,slopes)}}};function imagesAt({re,im},count,coefficients){const images=new Float64Array(2*
-count);const n=coefficients.length/4;const[pr,pi,qr,qi]=quarters(coefficients);const sum={re:pr.map(
-(value,j)=>value+qr[j]),im:pi.map((value,j)=>value+qi[j])};const less={re:pr.map((value,j)=>value-qr[j]),
-im:pi.map((value,j)=>value-qi[j])};for(let i=0;i<count;i++){const first=i*n;let x=0;let y=0;for(let j=0;j<
-n;j++){x+=re[first+j]*sum.re[j]-im[first+j]*sum.im[j];y+=re[first+j]*less.im[j]+im[first+j]*less.re[j]}
-images[2*i]=x;images[2*i+1]=y}return images}var MOVED_BY_PAGE="moved by the page";var Vertices=class{#domain;#wire;#points=new WeakMap;constructor({
+values.subarray(2*n,3*n),values.subarray(3*n)]}var FieldPoints=class{#domain;#points;#coordinates;#rows=null;constructor(domain,points){const{columns}=domain;
+this.#domain=domain;this.#points=complexOf(points);this.count=points.length;this.#coordinates=emptyRows(
+points.length,columns);for(const[i,point]of points.entries()){const c=coordinatesAt(domain,point);this.#coordinates.
+re.set(c.re,i*evenly(columns));this.#coordinates.im.set(c.im,i*evenly(columns))}}evaluate(coefficients){
+return{images:this.images(coefficients),samples:this.samples(coefficients)}}images(coefficients){const[
+fr,fi,gr,gi]=quarters(samplesAt(this.#coordinates,coefficients));const images=new Float64Array(2*this.
+count);for(let i=0;i<this.count;i++){images[2*i]=fr[i]+gr[i];images[2*i+1]=fi[i]-gi[i]}return images}samples(coefficients){
+this.#rows??=rowsAt(this.#domain,this.#points);return samplesAt(this.#rows,slopesOf(this.#domain,coefficients))}};var MOVED_BY_PAGE="moved by the page";var Vertices=class{#domain;#wire;#points=new WeakMap;constructor({
 outline,...sizes}){this.#domain=new Domain(outline);this.#wire=new Wire(outline,sizes)}move(meshes,wire){
 const moved=meshes.filter(({name,visible})=>name===MOVED_BY_PAGE&&visible);if(!moved.length||wire.length!==
-this.#wire.length)return;const coefficients=this.#wire.coefficients(wire);for(const geometry of new Set(
-moved.map(mesh=>mesh.geometry))){const{images,samples}=this.#pointsOf(geometry).evaluate(coefficients);
-const{image,derivatives}=geometry.attributes;image.array.set(images);const count=image.count;for(let part=0;part<
-4;part++){for(let i=0;i<count;i++)derivatives.array[4*i+part]=samples[part*count+i]}geometry.userData.
-wire=wire;image.needsUpdate=true;derivatives.needsUpdate=true}}#pointsOf(geometry){const known=this.#points.
-get(geometry);if(known)return known;const{array,count}=geometry.attributes.position;const places=Array.
-from({length:count},(_,i)=>[array[3*i],array[3*i+1]]);const points=new FieldPoints(this.#domain,places);
-this.#points.set(geometry,points);return points}};var NEAR=8;var LEAD="glid:lead";var N_TIMED=3;var Shapes=class{motion=null;lead=null;led=()=>{};#vertices=null;#materials=[];#camera=null;#renderer=null;#loading=0;#lifted=null;#resting=null;constructor(model,view){
+this.#wire.length)return;const coefficients=this.#wire.coefficients(wire);const distorted=new Set(moved.
+filter(showsDerivatives).map(mesh=>mesh.geometry));for(const geometry of new Set(moved.map(mesh=>mesh.
+geometry))){const points=this.#pointsOf(geometry);const{image,derivatives}=geometry.attributes;image.
+array.set(points.images(coefficients));image.needsUpdate=true;if(distorted.has(geometry)){interleave(
+points.samples(coefficients),derivatives.array);derivatives.needsUpdate=true}geometry.userData.wire=
+wire}}#pointsOf(geometry){const known=this.#points.get(geometry);if(known)return known;const{array,count}=geometry.
+attributes.position;const places=Array.from({length:count},(_,i)=>[array[3*i],array[3*i+1]]);const points=new FieldPoints(
+this.#domain,places);this.#points.set(geometry,points);return points}};function showsDerivatives({material}){
+return material.uniforms?.overlay?.value!==0}function interleave(samples,into){const count=samples.length/
+4;for(let part=0;part<4;part++){for(let i=0;i<count;i++)into[4*i+part]=samples[part*count+i]}}var NEAR=8;var LEAD="glid:lead";var N_TIMED=3;var MOST_FRAMES=100;var Shapes=class{motion=null;lead=null;led=()=>{};#vertices=null;#materials=[];#camera=null;#renderer=null;#loading=0;#lifted=null;#resting=null;constructor(model,view){
 this.model=model;this.view=view;model.on("change:outline",()=>this.#takeOutline());this.#takeOutline();
 model.on("change:materials change:camera change:renderer",()=>this.load())}async load(){this.#loading+=
 1;const turn=this.#loading;const{model}=this;const references=[model.get("camera"),model.get("render\
@@ -562,7 +614,7 @@ er"),...model.get("materials")];const[camera,renderer,...materials]=await Promis
 one=>model.widget_manager.get_model(one.replace("IPY_MODEL_",""))));await Promise.all([camera,renderer,
 ...materials].map(one=>one.initPromise));if(turn!==this.#loading)return;this.#forget();this.#camera=
 camera;this.#renderer=renderer;this.#materials=materials;for(const material of materials)material.on(
-"change",this.refresh,this);renderer.get("scene").off("beforeRender",clearLists).on("beforeRender",clearLists);
+"change",this.refresh,this);renderer.get("scene").off("beforeRender",keepLittle).on("beforeRender",keepLittle);
 for(const view of Object.values(renderer.views))view.then(drawNoMore);renderer.on(LEAD,this.#takeLead,
 this);this.refresh()}#forget(){this.#renderer?.off(null,null,this);for(const material of this.#materials)
 material.off(null,null,this);this.#materials=[]}#takeOutline(){const outlined=this.model.get("outlin\
@@ -581,47 +633,49 @@ array===resting)position.setArray(lifted);this.#lifted=lifted}else{if(position.a
 position.setArray(resting)}position.needsUpdate=true}see(){const{x,y,unit,width,height}=this.view;const w=width/
 2*unit;const h=height/2*unit;for(const{obj}of this.#materials){if(obj?.uniforms?.pixel)obj.uniforms.
 pixel.value=unit}this.#camera?.set({left:x-w,right:x+w,top:y+h,bottom:y-h})}redraw(){this.#renderer?.
-trigger("rerender",this.#renderer,{})}close(){this.#loading+=1;this.#forget()}};function clearLists(_scene,{
-renderLists}){renderLists.dispose()}function drawNoMore(view){view.once("remove",()=>{view.renderScene=
-()=>{}})}function drawnBelow(pad){return pad.closest(".glid-pane")?.querySelector(".jupyter-threejs \
-canvas")}function coveredNear(pad,[x,y]){const drawn=drawnBelow(pad);if(!drawn)return false;const size=2*
-NEAR;const pen=penOf(make("canvas",{width:size,height:size}));const ratio=drawn.width/pad.clientWidth;
-pen.drawImage(drawn,NEAR-Math.floor(x*ratio),NEAR-Math.floor(y*ratio));const{data}=pen.getImageData(
-0,0,size,size);return data.some((value,i)=>i%4===3&&value>0)}function uniformVectors(){const canvas=make(
-"canvas");const gl=canvas.getContext("webgl2")||canvas.getContext("webgl");if(!gl)return 0;const count=gl.
-getParameter(gl.MAX_VERTEX_UNIFORM_VECTORS);gl.getExtension("WEBGL_lose_context")?.loseContext();return count}
-async function drawingTime(pad,shapes){const times=[];for(let i=0;i<=N_TIMED;i++){const moving=performance.
-now();shapes.refresh();const moved=performance.now()-moving;await new Promise(go=>requestAnimationFrame(
-go));const canvas=drawnBelow(pad);const gl=canvas?.getContext("webgl")||canvas?.getContext("webgl2");
-if(!gl)continue;const start=performance.now();gl.readPixels(0,0,1,1,gl.RGBA,gl.UNSIGNED_BYTE,new Uint8Array(
+trigger("rerender",this.#renderer,{})}close(){this.#loading+=1;this.#forget()}};var ending=new WeakSet;
+function keepLittle(_scene,renderer){renderer.renderLists.dispose();if(ending.has(renderer))return;ending.
+add(renderer);const{dispose}=renderer;renderer.dispose=()=>{dispose.call(renderer);renderer.forceContextLoss()}}
+function drawNoMore(view){view.once("remove",()=>{view.renderScene=()=>{}})}function drawnBelow(pad){
+return pad.closest(".glid-pane")?.querySelector(".jupyter-threejs canvas")}function coveredNear(pad,[
+x,y]){const drawn2=drawnBelow(pad);if(!drawn2)return false;const size=2*NEAR;const pen=penOf(make("c\
+anvas",{width:size,height:size}));const ratio=drawn2.width/pad.clientWidth;pen.drawImage(drawn2,NEAR-
+Math.floor(x*ratio),NEAR-Math.floor(y*ratio));const{data}=pen.getImageData(0,0,size,size);return data.
+some((value,i)=>i%4===3&&value>0)}function uniformVectors(){const canvas=make("canvas");const gl=canvas.
+getContext("webgl2")||canvas.getContext("webgl");if(!gl)return 0;const count=gl.getParameter(gl.MAX_VERTEX_UNIFORM_VECTORS);
+gl.getExtension("WEBGL_lose_context")?.loseContext();return count}async function drawingTime(pad,shapes){
+const times=[];for(let i=0;i<MOST_FRAMES&&times.length<=N_TIMED;i++){const moving=performance.now();
+shapes.refresh();const moved=performance.now()-moving;await new Promise(go=>requestAnimationFrame(go));
+const canvas=drawnBelow(pad);const gl=canvas?.getContext("webgl")||canvas?.getContext("webgl2");if(!gl)
+continue;const start=performance.now();gl.readPixels(0,0,1,1,gl.RGBA,gl.UNSIGNED_BYTE,new Uint8Array(
 4));times.push(moved+performance.now()-start)}return times.length>1?Math.min(...times.slice(1)):0}var SAVE_VIEW_AFTER=250;var STILL={release(){},pause:()=>void 0};var Canvas=class{legend=new Legend;notices=new Notices;help=help(
-HELP);#chosen;#saving;#playing=STILL;#painted=false;#presses=false;constructor({model,el,signal}){this.
-model=model;this.interactive=model.get("interactive");const paper=make("canvas",{className:"glid-pap\
-er"});this.box=make("div",{className:"glid-pad",role:"application","aria-label":"Deformation canvas:\
- arrow keys move, Enter pins a point",inert:!this.interactive},paper,this.legend.element,this.notices.
-notice,this.notices.prepared);this.box.dataset.lmSuppressShortcuts="true";el.classList.add("glid-hos\
-t","glid-pad-host");el.append(this.box);this.view=new View(()=>this.#viewMoved(),{nearest:1e-4,farthest:1});
-this.shapes=new Shapes(model,this.view);this.shapes.led=()=>this.redraw();this.ahead=new Ahead(model,
-lead=>this.shapes.showLead(lead));this.redraw=painter(paper,this.view,signal,pen=>this.#draw(pen));this.
-link=new Link(model,this.box,signal,()=>this.#report());this.room=this.interactive?new Room(this.box,
-model,signal):null;this.pad=new Pad(this.box,this.view,this.#listener(signal),new PinBehaviour(this));
-this.clipboard=new PoseClipboard(this);this.corner=this.#makeCorner();if(this.interactive){this.box.
-append(shield(this.corner),this.help.table,resizeGrip(model));keysAround(this.box,e=>this.pad.keydown(
-e),signal);this.box.addEventListener("glid:press",e=>this.#pressed(e))}this.#takeFirst()}close(){clearTimeout(
-this.#saving);this.ahead.close();this.shapes.close()}get marks(){return marksOf(this.model.get("mark\
-s"),this.shapes.lead)}prepareSolver(){if(this.interactive)void this.ahead.prepare()}rested(){if(!this.
-pad.grip)this.ahead.giveBack()}followHand(){if(this.pad.grip&&!this.shapes.motion)this.ahead.follow(
-this.pad.held)}#listener(signal){const put=event=>{const drags=event.type==="up"||this.pad.grip&&/^(down|move)$/.
-test(event.type);if(!drags)this.ahead.giveBack();return this.link.put(event)};return{put,signal}}get brush(){
-const brush=this.model.get("brush");return"radius"in brush?brush:null}get painting(){return this.brush!==
-null}say(notice){save(this.model,{notice})}openMenu(place,found={mark:this.marks.selected.at(-1)}){const{
-selected,targets}=this.marks;const mark=found?.mark===void 0?null:Number(found.mark);const centre=[this.
-view.x,this.view.y];const point=mark===null?this.model.get("cursor")??centre:targets[mark];const at=place??
-this.view.toScreen(point);const does={press:(key,shift=false)=>{return()=>this.pad.press(key,{shiftKey:shift})},
-pin:()=>void this.pad.send("pin",at),paste:()=>void this.clipboard.paste(),alone:()=>this.room?.alone(),
-fullScreen:()=>this.room?.fullScreen(),showKeys:this.help.toggle};const pinned=mark!==null&&selected.
-includes(mark)?selected.length:1;const covered=mark===null&&coveredNear(this.box,at);openMenu(this.box,
-at,menuRows(does,mark===null?null:{pinned},covered))}showMotion(motion=null,playing=STILL,heights=null){
+HELP);ghosts=new Ghosts;#chosen;#saving;#playing=STILL;#painted=false;#presses=false;constructor({model,
+el,signal}){this.model=model;this.interactive=model.get("interactive");const paper=make("canvas",{className:"\
+glid-paper"});this.box=make("div",{className:"glid-pad",role:"application","aria-label":"Deformation\
+ canvas: arrow keys move, Enter pins a point",inert:!this.interactive},paper,this.legend.element,this.
+notices.notice,this.notices.prepared);this.box.dataset.lmSuppressShortcuts="true";el.classList.add("\
+glid-host","glid-pad-host");el.append(this.box);this.view=new View(()=>this.#viewMoved(),{nearest:1e-4,
+farthest:1});this.shapes=new Shapes(model,this.view);this.shapes.led=()=>this.redraw();this.ahead=new Ahead(
+model,lead=>this.shapes.showLead(lead));this.redraw=painter(paper,this.view,signal,pen=>this.#draw(pen));
+this.link=new Link(model,this.box,signal,()=>this.#report());this.room=this.interactive?new Room(this.
+box,model,signal):null;this.behaviour=new PinBehaviour(this);this.pad=new Pad(this.box,this.view,this.#listener(
+signal),this.behaviour);this.clipboard=new PoseClipboard(this);this.corner=this.#makeCorner();if(this.
+interactive){this.box.append(shield(this.corner),this.help.table,resizeGrip(model));keysAround(this.
+box,e=>this.pad.keydown(e),signal);this.box.addEventListener("glid:press",e=>this.#pressed(e))}this.#takeFirst()}close(){
+clearTimeout(this.#saving);this.ahead.close();this.shapes.close()}get marks(){return marksOf(this.model.
+get("marks"),this.shapes.lead)}prepareSolver(){if(this.interactive)void this.ahead.prepare()}rested(){
+if(!this.pad.grip)this.ahead.giveBack()}followHand(){if(this.pad.grip&&!this.shapes.motion)this.ahead.
+follow(this.pad.held)}#listener(signal){const put=event=>{const drags=event.type==="up"||this.pad.grip&&
+/^(down|move)$/.test(event.type);if(!drags)this.ahead.giveBack();return this.link.put(event)};return{
+put,signal}}get brush(){const brush=this.model.get("brush");return"radius"in brush?brush:null}get painting(){
+return this.brush!==null}say(notice){save(this.model,{notice})}openMenu(place,found={mark:this.marks.
+selected.at(-1)}){const{selected,targets}=this.marks;const mark=found?.mark===void 0?null:Number(found.
+mark);const centre=[this.view.x,this.view.y];const point=mark===null?this.model.get("cursor")??centre:
+targets[mark];const at=place??this.view.toScreen(point);const does={press:(key,shift=false)=>{return()=>this.
+pad.press(key,{shiftKey:shift})},pin:()=>void this.pad.send("pin",at),paste:()=>void this.clipboard.
+paste(),alone:()=>this.room?.alone(),fullScreen:()=>this.room?.fullScreen(),showKeys:this.help.toggle};
+const pinned=mark!==null&&selected.includes(mark)?selected.length:1;const covered=mark===null&&coveredNear(
+this.box,at);openMenu(this.box,at,menuRows(does,mark===null?null:{pinned},covered))}showMotion(motion=null,playing=STILL,heights=null){
 this.#playing=playing;this.shapes.motion=motion;this.shapes.lift(heights);this.showLegend();this.shapes.
 refresh();this.redraw()}showLegend(){this.legend.show(this.model,Boolean(this.shapes.motion))}takeFocus(){
 const{painting}=this;const chosen=painting&&!this.#painted;this.#painted=painting;const side=this.box.
@@ -638,20 +692,27 @@ pad.behaviour.actions?.[detail];if(act)act();else this.pad.press(detail,{})}#tak
 if(!this.shapes.motion)return;e.stopImmediatePropagation();e.preventDefault();this.#playing.release()};
 const capture=true;this.box.addEventListener("pointerdown",e=>e.button===2&&goBack(e),{capture});const ours=e=>!e.
 ctrlKey&&!e.metaKey&&KEYS.test(keyOf(e));this.box.addEventListener("keydown",e=>ours(e)&&goBack(e),{
-capture});const followArrow=e=>{const target=arrowAt(this.view,this.marks,this.pad.place(e));if(!target||
-e.target!==this.box)return;this.view.centreOn(target);e.stopImmediatePropagation()};this.box.addEventListener(
-"pointerdown",followArrow,{capture})}#makeCorner(){const look="glid-help-button";return make("div",{
-className:"glid-corner"},this.help.button,iconButton("screen","Full screen (W)",()=>this.room?.fullScreen(),
-look),iconButton("rectangle","The picture alone (P)",()=>this.room?.alone(),look))}#report(){const{busy,
-refusal}=this.link;if(this.#presses&&this.link.idle&&this.pad.mode===null){this.#presses=false;this.#playing.
-release()}if(!busy&&refusal&&refusal!==this.model.get("notice"))this.say(refusal)}#viewMoved(){this.#see();
-clearTimeout(this.#saving);this.#saving=setTimeout(()=>{const{x,y,unit}=this.view;save(this.model,{view:[
-x,y,unit]})},SAVE_VIEW_AFTER)}#see(){this.shapes.see();this.redraw()}#draw(pen){const{model,view,pad,
-marks,brush}=this;const{motion}=this.shapes;const through=!motion&&knobInCorner(view,marks,pad.held);
-this.corner.classList.toggle("glid-through",through);if(motion)return;drawOnion(pen,view,model.get("\
-onion"));drawStiff(pen,view,model.get("stiff"),this.painting);const cursor=pad.focused?model.get("cu\
-rsor"):null;drawMarks(pen,view,marks,{hovered:pad.found?.mark,held:pad.held,cursor});if(brush)drawBrush(
-pen,view,brush,pad);if(pad.encloses&&pad.path.length>2)drawLasso(pen,view,pad.path)}};function render(context){const{model,signal}=context;const canvas=new Canvas(context);follow(model,{
+capture});const openedByKeys=e=>{if(e.key!=="F10"||!e.shiftKey)return;e.stopImmediatePropagation();e.
+preventDefault();this.openMenu()};this.box.addEventListener("keydown",openedByKeys,{capture});const followArrow=e=>{
+const target=arrowAt(this.view,this.marks,this.pad.place(e));if(!target||e.target!==this.box)return;
+this.view.centreOn(target);e.stopImmediatePropagation()};this.box.addEventListener("pointerdown",followArrow,
+{capture})}#makeCorner(){const look="glid-help-button";return make("div",{className:"glid-corner"},this.
+help.button,iconButton("screen","Full screen (W)",()=>this.room?.fullScreen(),look),iconButton("rect\
+angle","The picture alone (P)",()=>this.room?.alone(),look))}#report(){const{busy,refusal}=this.link;
+if(this.#presses&&this.link.idle&&this.pad.mode===null){this.#presses=false;this.#playing.release()}
+if(!busy&&refusal&&refusal!==this.model.get("notice"))this.say(refusal)}#viewMoved(){this.#see();clearTimeout(
+this.#saving);this.#saving=setTimeout(()=>{const{x,y,unit}=this.view;save(this.model,{view:[x,y,unit]})},
+SAVE_VIEW_AFTER)}#see(){this.shapes.see();this.redraw()}#drawNumbers(pen){const{model,view,pad,marks}=this;
+const{pressed}=this.behaviour;const drags=pad.mode==="hand"&&pad.path.length>1&&!pad.encloses;const moved=drags&&
+pressed&&movedPin(pressed,marks,pad.held,model.get("picture_size"));if(!moved)return;const{start,keys}=pressed;
+if(start&&keys?.axis)drawAxis(pen,view,start,moved.at);drawNumbers(pen,view,moved)}#draw(pen){const{
+model,view,pad,marks,brush}=this;const{motion}=this.shapes;const through=!motion&&knobInCorner(view,
+marks,pad.held);this.corner.classList.toggle("glid-through",through);if(motion)return;drawOnion(pen,
+view,model.get("onion"));drawStiff(pen,view,model.get("stiff"),this.painting);if(this.interactive&&!this.
+painting){this.ghosts.draw(pen,view,model.get("outline").outline,marks.targets.length>0)}const cursor=pad.
+focused?model.get("cursor"):null;drawMarks(pen,view,marks,{hovered:pad.found?.mark,held:pad.held,cursor});
+if(brush)drawBrush(pen,view,brush,pad);else this.#drawNumbers(pen);if(pad.encloses&&pad.path.length>
+2)drawLasso(pen,view,pad.path)}};function render(context){const{model,signal}=context;const canvas=new Canvas(context);follow(model,{
 "change:width change:height change:view":()=>canvas.fit(),"change:coefficients":()=>canvas.shapes.lead||
 canvas.shapes.refresh(),"change:solver_script change:solver change:outline":()=>canvas.prepareSolver(),
 "change:rest":()=>canvas.rested(),"change:drawing_time":()=>model.get("drawn")&&!model.get("drawing_\

@@ -3,24 +3,20 @@ HTMLButtonElement)element.type="button";for(const[name,value]of Object.entries(p
 startsWith("on"))element.addEventListener(name.slice(2),value);else if(name in element&&name!=="list")
 Reflect.set(element,name,value);else element.setAttribute(name,value)}element.append(...children);return element}function save(model,changes){for(const[name,value]of Object.entries(changes))model.set(name,value);model.
 save_changes()}function follow(model,listeners){for(const[names,listener]of Object.entries(listeners)){model.on(names,
-listener);listener()}}var PATHS={edit:"M3 2l9.5 5.2-4 1.2 2.4 4.3-1.8 1-2.4-4.3L3 12z",foreground:"M13.5 2.5l-6 6 M6.7 9.2\
-c-1.6-.5-3 .6-3.1 2.1-.1 1-.7 1.7-1.6 2 2.2.9 5.6.4 5.9-2.2 .1-.8-.4-1.6-1.2-1.9z M9.5 12.5h5 M12 10\
-v5",background:"M13.5 2.5l-6 6 M6.7 9.2c-1.6-.5-3 .6-3.1 2.1-.1 1-.7 1.7-1.6 2 2.2.9 5.6.4 5.9-2.2 .\
-1-.8-.4-1.6-1.2-1.9z M9.5 12.5h5",brush:"M13.5 2.5l-6 6 M6.7 9.2c-1.6-.5-3 .6-3.1 2.1-.1 1-.7 1.7-1.\
-6 2 2.2.9 5.6.4 5.9-2.2 .1-.8-.4-1.6-1.2-1.9z",eraser:"M9.2 2.8l4 4-6.4 6.4H4.4L2.2 11z M5.5 6.6l4 4\
- M7 13.2h6.5",color:"M9 4l3 3 M10 3.2l1-1a1.6 1.6 0 0 1 2.8 2.2l-1.1 1.1 M9.6 5.2L3.4 11.4 2.5 13.5l\
-2.1-.9 6.2-6.2",component:"M8 1.5v3 M8 11.5v3 M1.5 8h3 M11.5 8h3 M8 5.2a2.8 2.8 0 1 0 0 5.6 2.8 2.8 \
-0 0 0 0-5.6z",polygon:"M8 2l5.5 4-2 7h-7l-2-7z",rectangle:"M2.5 4h11v8h-11z",undo:"M5.5 3L2.5 6l3 3 \
-M3 6h6.2a3.6 3.6 0 0 1 0 7.2H6",redo:"M10.5 3l3 3-3 3 M13 6H6.8a3.6 3.6 0 0 0 0 7.2H10",fit:"M2 5.5V\
-2h3.5 M10.5 2H14v3.5 M14 10.5V14h-3.5 M5.5 14H2v-3.5",screen:"M10 2h4v4 M14 2L9.5 6.5 M6 14H2v-4 M2 \
-14l4.5-4.5",eye:"M1.5 8S4 3.8 8 3.8 14.5 8 14.5 8 12 12.2 8 12.2 1.5 8 1.5 8z M8 6.2a1.8 1.8 0 1 0 0\
- 3.6 1.8 1.8 0 0 0 0-3.6z",plus:"M8 3v10 M3 8h10",minus:"M3 8h10",open:"M2 12.5v-9h4l1.5 2H14v7z",play:"\
+listener);listener()}}var PATHS={edit:"M3 2l9.5 5.2-4 1.2 2.4 4.3-1.8 1-2.4-4.3L3 12z",brush:"M13.5 2.5l-6 6 M6.7 9.2c-1.6\
+-.5-3 .6-3.1 2.1-.1 1-.7 1.7-1.6 2 2.2.9 5.6.4 5.9-2.2 .1-.8-.4-1.6-1.2-1.9z",eraser:"M9.2 2.8l4 4-6\
+.4 6.4H4.4L2.2 11z M5.5 6.6l4 4 M7 13.2h6.5",rectangle:"M2.5 4h11v8h-11z",undo:"M5.5 3L2.5 6l3 3 M3 \
+6h6.2a3.6 3.6 0 0 1 0 7.2H6",redo:"M10.5 3l3 3-3 3 M13 6H6.8a3.6 3.6 0 0 0 0 7.2H10",fit:"M2 5.5V2h3\
+.5 M10.5 2H14v3.5 M14 10.5V14h-3.5 M5.5 14H2v-3.5",screen:"M10 2h4v4 M14 2L9.5 6.5 M6 14H2v-4 M2 14l\
+4.5-4.5",eye:"M1.5 8S4 3.8 8 3.8 14.5 8 14.5 8 12 12.2 8 12.2 1.5 8 1.5 8z M8 6.2a1.8 1.8 0 1 0 0 3.\
+6 1.8 1.8 0 0 0 0-3.6z",plus:"M8 3v10 M3 8h10",minus:"M3 8h10",open:"M2 12.5v-9h4l1.5 2H14v7z",play:"\
 M5 3l8 5-8 5z",pause:"M5.5 3v10 M10.5 3v10",record:"M8 4.2a3.8 3.8 0 1 0 0 7.6 3.8 3.8 0 0 0 0-7.6z",
 onion:"M6.2 4a4 4 0 1 0 0 8 4 4 0 0 0 0-8z M9.8 4a4 4 0 1 1 0 8",copy:"M5.5 5.5h8v8h-8z M3 10.5v-8h8",
 export:"M8 2v8 M4.8 6.8L8 10l3.2-3.2 M3 13.5h10",trash:"M3 4.5h10 M6.5 4.5v-2h3v2 M4.5 4.5l.6 9h5.8l\
-.6-9"};function icon(name){return`<svg viewBox="0 0 16 16" aria-hidden="true"><path d="${PATHS[name]}\
-"/></svg>`}function iconButton(name,title,onclick,className="glid-icon"){return make("button",{title,
-"aria-label":title,className,onclick,innerHTML:icon(name)})}var BELOW=4;var ViewMenu=class{constructor(model,alone){this.model=model;this.overlays=model.get("ov\
+.6-9"};function icon(name){return drawn(PATHS[name])}function drawn(path){return`<svg viewBox="0 0 1\
+6 16" aria-hidden="true"><path d="${path}"/></svg>`}function iconButton(name,title,onclick,className="\
+glid-icon"){return drawnButton(PATHS[name],title,onclick,className)}function drawnButton(path,title,onclick,className="\
+glid-icon"){return make("button",{title,"aria-label":title,className,onclick,innerHTML:drawn(path)})}var BELOW=4;var ViewMenu=class{constructor(model,alone){this.model=model;this.overlays=model.get("ov\
 erlays").map(([name,label])=>{const item=row("menuitemradio",label,()=>save(model,{overlay:name}));item.
 dataset.value=name;return item});this.checks=model.get("checks").map(([name,label,title])=>{const item=row(
 "menuitemcheckbox",label,()=>{const shows=model.get("shows");save(model,{shows:{...shows,[name]:!shows[name]}})});
@@ -42,21 +38,25 @@ const by={ArrowDown:1,ArrowUp:-1}[e.key];if(!by)return;e.preventDefault();e.stop
 ...this.menu.querySelectorAll("button")];const focused=items.indexOf(document.activeElement);items.at(
 (focused+by)%items.length)?.focus()}};function row(role,label,onclick){return make("button",{role,onclick},
 make("span",{},label))}var TOOLS=[["","edit","Select and drag pins (Esc)"],["stiff","brush","Paint what should stay stiff (\
-B)"],["erase","eraser","Erase stiff areas (E)"]];var Toolbar=class{constructor(model){this.model=model;
+B)"],["erase","eraser","Erase stiff areas (E)"]];var INSPECTOR='<svg viewBox="0 0 16 16" aria-hidden\
+="true"><path d="M2 3h12v10H2z M10 3v10"/></svg>';var Toolbar=class{constructor(model){this.model=model;
 this.view=new ViewMenu(model,()=>this.#press("p"));this.tools=TOOLS.map(([tool,icon2,title])=>{const button=iconButton(
 icon2,title,()=>save(model,{tool}));button.dataset.tool=tool||"select";return button});this.undo=iconButton(
 "undo","Undo (Ctrl+Z)",()=>model.send({type:"undo"}));this.redo=iconButton("redo","Redo (Ctrl+Shift+\
 Z)",()=>model.send({type:"redo"}));this.element=make("div",{className:"glid-skin glid-toolbar glid-t\
 ools",role:"toolbar","aria-label":"Deform"},...[...this.tools,gap(),this.undo,this.redo,gap(),this.view.
 button,this.view.menu],make("span",{className:"glid-grow"}),iconButton("fit","See everything (F)",()=>this.#press(
-"f")),iconButton("screen","Full screen (W)",()=>this.#press("w")),this.#help())}showTool(){const tool=this.
-model.get("tool")||"select";for(const button of this.tools)button.ariaPressed=String(button.dataset.
-tool===tool)}showHistory(){this.undo.disabled=!this.model.get("can_undo");this.redo.disabled=!this.model.
-get("can_redo")}#find(selector){return this.element.closest(".glid-editor")?.querySelector(selector)}#press(key){
-const event=new CustomEvent("glid:press",{detail:key});this.#find(".glid-pad:not([inert])")?.dispatchEvent(
-event)}#help(){const title="Keys and gestures (?)";const look={className:"glid-help-button",title,"a\
-ria-label":title};const button=make("button",look,"?");const aim=()=>{button.popoverTargetElement=this.#find(
-".glid-pad:not([inert]) .glid-help")??null};button.addEventListener("pointerenter",aim);button.addEventListener(
-"focus",aim);return button}};function gap(){return make("span",{className:"glid-gap"})}function render({model,el}){const toolbar=new Toolbar(model);el.classList.add("glid-host");el.append(
+"f")),this.#inspector(),iconButton("screen","Full screen (W)",()=>this.#press("w")),this.#help())}showTool(){
+const tool=this.model.get("tool")||"select";for(const button of this.tools)button.ariaPressed=String(
+button.dataset.tool===tool)}showHistory(){this.undo.disabled=!this.model.get("can_undo");this.redo.disabled=
+!this.model.get("can_redo")}#find(selector){return this.element.closest(".glid-editor")?.querySelector(
+selector)}#press(key){const event=new CustomEvent("glid:press",{detail:key});this.#find(".glid-pad:n\
+ot([inert])")?.dispatchEvent(event)}#inspector(){const title="Hide the inspector, show it again (I)";
+const look={className:"glid-icon",title,"aria-label":title,innerHTML:INSPECTOR};return make("button",
+{...look,onclick:()=>this.#press("i")})}#help(){const title="Keys and gestures (?)";const look={className:"\
+glid-help-button",title,"aria-label":title};const button=make("button",look,"?");const aim=()=>{button.
+popoverTargetElement=this.#find(".glid-pad:not([inert]) .glid-help")??null};button.addEventListener(
+"pointerenter",aim);button.addEventListener("focus",aim);return button}};function gap(){return make(
+"span",{className:"glid-gap"})}function render({model,el}){const toolbar=new Toolbar(model);el.classList.add("glid-host");el.append(
 toolbar.element);follow(model,{"change:tool":()=>toolbar.showTool(),"change:can_undo change:can_redo":()=>toolbar.
 showHistory(),"change:overlay change:shows":()=>toolbar.view.show()})}var main_default={render};export{main_default as default};

@@ -12,24 +12,19 @@ assign(table,{autofocus:true}));const title="Keys and gestures (?)";const look={
 -button",title,"aria-label":title};const button=shield(make("button",{...look,popoverTargetElement:table},
 "?"));return{table,button,toggle:()=>void table.togglePopover()}}function section([title,rows]){return make(
 "section",{},make("h4",{},title),make("table",{},...rows.map(row)))}function row([keys,what]){return make(
-"tr",{},make("th",{},keys),make("td",{},what))}var PATHS={edit:"M3 2l9.5 5.2-4 1.2 2.4 4.3-1.8 1-2.4-4.3L3 12z",foreground:"M13.5 2.5l-6 6 M6.7 9.2\
-c-1.6-.5-3 .6-3.1 2.1-.1 1-.7 1.7-1.6 2 2.2.9 5.6.4 5.9-2.2 .1-.8-.4-1.6-1.2-1.9z M9.5 12.5h5 M12 10\
-v5",background:"M13.5 2.5l-6 6 M6.7 9.2c-1.6-.5-3 .6-3.1 2.1-.1 1-.7 1.7-1.6 2 2.2.9 5.6.4 5.9-2.2 .\
-1-.8-.4-1.6-1.2-1.9z M9.5 12.5h5",brush:"M13.5 2.5l-6 6 M6.7 9.2c-1.6-.5-3 .6-3.1 2.1-.1 1-.7 1.7-1.\
-6 2 2.2.9 5.6.4 5.9-2.2 .1-.8-.4-1.6-1.2-1.9z",eraser:"M9.2 2.8l4 4-6.4 6.4H4.4L2.2 11z M5.5 6.6l4 4\
- M7 13.2h6.5",color:"M9 4l3 3 M10 3.2l1-1a1.6 1.6 0 0 1 2.8 2.2l-1.1 1.1 M9.6 5.2L3.4 11.4 2.5 13.5l\
-2.1-.9 6.2-6.2",component:"M8 1.5v3 M8 11.5v3 M1.5 8h3 M11.5 8h3 M8 5.2a2.8 2.8 0 1 0 0 5.6 2.8 2.8 \
-0 0 0 0-5.6z",polygon:"M8 2l5.5 4-2 7h-7l-2-7z",rectangle:"M2.5 4h11v8h-11z",undo:"M5.5 3L2.5 6l3 3 \
-M3 6h6.2a3.6 3.6 0 0 1 0 7.2H6",redo:"M10.5 3l3 3-3 3 M13 6H6.8a3.6 3.6 0 0 0 0 7.2H10",fit:"M2 5.5V\
-2h3.5 M10.5 2H14v3.5 M14 10.5V14h-3.5 M5.5 14H2v-3.5",screen:"M10 2h4v4 M14 2L9.5 6.5 M6 14H2v-4 M2 \
-14l4.5-4.5",eye:"M1.5 8S4 3.8 8 3.8 14.5 8 14.5 8 12 12.2 8 12.2 1.5 8 1.5 8z M8 6.2a1.8 1.8 0 1 0 0\
- 3.6 1.8 1.8 0 0 0 0-3.6z",plus:"M8 3v10 M3 8h10",minus:"M3 8h10",open:"M2 12.5v-9h4l1.5 2H14v7z",play:"\
+"tr",{},make("th",{},keys),make("td",{},what))}var PATHS={edit:"M3 2l9.5 5.2-4 1.2 2.4 4.3-1.8 1-2.4-4.3L3 12z",brush:"M13.5 2.5l-6 6 M6.7 9.2c-1.6\
+-.5-3 .6-3.1 2.1-.1 1-.7 1.7-1.6 2 2.2.9 5.6.4 5.9-2.2 .1-.8-.4-1.6-1.2-1.9z",eraser:"M9.2 2.8l4 4-6\
+.4 6.4H4.4L2.2 11z M5.5 6.6l4 4 M7 13.2h6.5",rectangle:"M2.5 4h11v8h-11z",undo:"M5.5 3L2.5 6l3 3 M3 \
+6h6.2a3.6 3.6 0 0 1 0 7.2H6",redo:"M10.5 3l3 3-3 3 M13 6H6.8a3.6 3.6 0 0 0 0 7.2H10",fit:"M2 5.5V2h3\
+.5 M10.5 2H14v3.5 M14 10.5V14h-3.5 M5.5 14H2v-3.5",screen:"M10 2h4v4 M14 2L9.5 6.5 M6 14H2v-4 M2 14l\
+4.5-4.5",eye:"M1.5 8S4 3.8 8 3.8 14.5 8 14.5 8 12 12.2 8 12.2 1.5 8 1.5 8z M8 6.2a1.8 1.8 0 1 0 0 3.\
+6 1.8 1.8 0 0 0 0-3.6z",plus:"M8 3v10 M3 8h10",minus:"M3 8h10",open:"M2 12.5v-9h4l1.5 2H14v7z",play:"\
 M5 3l8 5-8 5z",pause:"M5.5 3v10 M10.5 3v10",record:"M8 4.2a3.8 3.8 0 1 0 0 7.6 3.8 3.8 0 0 0 0-7.6z",
 onion:"M6.2 4a4 4 0 1 0 0 8 4 4 0 0 0 0-8z M9.8 4a4 4 0 1 1 0 8",copy:"M5.5 5.5h8v8h-8z M3 10.5v-8h8",
 export:"M8 2v8 M4.8 6.8L8 10l3.2-3.2 M3 13.5h10",trash:"M3 4.5h10 M6.5 4.5v-2h3v2 M4.5 4.5l.6 9h5.8l\
-.6-9"};function icon(name){return`<svg viewBox="0 0 16 16" aria-hidden="true"><path d="${PATHS[name]}\
-"/></svg>`}function iconButton(name,title,onclick,className="glid-icon"){return make("button",{title,
-"aria-label":title,className,onclick,innerHTML:icon(name)})}var TEXT="textarea, [contenteditable], input:not([type=checkbox], [type=range], [type=radio])";var LAST_LATIN="\
+.6-9"};function drawn(path){return`<svg viewBox="0 0 16 16" aria-hidden="true"><path d="${path}"/></svg>`}function iconButton(name,title,onclick,className="\
+glid-icon"){return drawnButton(PATHS[name],title,onclick,className)}function drawnButton(path,title,onclick,className="\
+glid-icon"){return make("button",{title,"aria-label":title,className,onclick,innerHTML:drawn(path)})}var TEXT="textarea, [contenteditable], input:not([type=checkbox], [type=range], [type=radio])";var LAST_LATIN="\
 ɏ";var LATIN={Comma:",<",Period:".>",Slash:"/?",Minus:"-_",Equal:"=+",BracketLeft:"[{",BracketRight:"\
 ]}"};function keyOf({key,code="",shiftKey=false}){if(key.length>1||key<=LAST_LATIN)return key;const[
 ,letter,digit]=code.match(/^(?:Key([A-Z])|(?:Digit|Numpad)([0-9]))$/)??[];if(letter)return shiftKey?
@@ -98,13 +93,17 @@ power,digits}){return Number((most*share**power).toFixed(digits))}function share
 return Math.min(Math.max(value/most,0),1)**(1/power)}function statusOf(shown,refusal,busy){if(refusal)return{kind:"bad",text:refusal};if(busy)return{kind:"\
 busy",text:"Working…"};if(!shown.size)return{kind:"idle",text:"No picture yet"};if(shown.problems.
 length){const kept="This is not a valid cage; the last valid cage is kept";return{kind:"bad",text:shown.
-loops.length?kept:"There is no cage yet"}}const text=cageOf(shown)+moreOn(shown);const{doubt}=shown;
-return doubt?{kind:"guess",text:`A guess, as ${doubt} · ${text}`}:{kind:"ok",text}}function cageOf({
-loops}){return`Cage with ${loops.flat().length} vertices and ${holesIn(loops.length-1)}`}function moreOn({
-discarded,component,n_components:count}){if(discarded)return" · your edits were lost with the old ou\
-tline; Undo brings them back";if(count<2)return"";const which=component?`component ${component+1}`:"\
-the largest";return` · ${which} of ${count} components`}function holesIn(count){if(count<1)return"n\
-o holes";return count===1?"1 hole":`${count} holes`}var METHODS=[["auto","Auto","Chosen for the picture"],["alpha","Alpha","Pixels that are not transpar\
+loops.length?kept:"There is no cage yet"}}const text=cutOf(shown)+cageOf(shown)+moreOn(shown);const{
+doubt}=shown;return doubt?{kind:"guess",text:`A guess, as ${doubt} · ${text}`}:{kind:"ok",text}}function cutOf({
+cut}){if(!cut)return"";const{shares,kept,in_middle:inMiddle}=cut;if(shares.length>1){const percent=Math.
+round(100*shares[kept]);const rest=shares.length>2?"the others are left out":"the other one is left \
+out";return`Cut into ${shares.length} pieces: ${percent} % of the shape is kept, ${rest} · `}return inMiddle?
+"Cut inside the shape, as a thin hole · ":"Cut open along the line · "}function cageOf({loops}){return`\
+Cage with ${loops.flat().length} vertices and ${holesIn(loops.length-1)}`}function moreOn({discarded,
+component,n_components:count}){if(discarded)return" · your edits were lost with the old outline; Und\
+o brings them back";if(count<2)return"";const which=component?`component ${component+1}`:"the larges\
+t";return` · ${which} of ${count} components`}function holesIn(count){if(count<1)return"no holes";return count===
+1?"1 hole":`${count} holes`}var METHODS=[["auto","Auto","Chosen for the picture"],["alpha","Alpha","Pixels that are not transpar\
 ent"],["threshold","Brightness","Pixels darker, or brighter, than a threshold"],["color","Colour","P\
 ixels that differ from the background's colour"],["scribbles","Scribbles","Pixels like those under p\
 ainted strokes"]];var OUTLINES=[["foreground","Paint over it","A few strokes over the shape, then ov\
@@ -214,99 +213,111 @@ x,y]=this.view.toWorld(place);const{unit}=this.view;return this.link.put({type,x
 e.pointerType)*unit,button:e.button??0,shift:Boolean(e.shiftKey),alt:Boolean(e.altKey),time:e.timeStamp??
 performance.now(),...more})}press(key,e){this.send("key",[this.view.width/2,this.view.height/2],e,{key})}hover(place=this.
 rests){this.rests=place;if(this.mode!==null)return;this.found=place&&this.#find(place,"mouse");this.#showCursor();
-this.behaviour.changed()}keydown(e){const key=keyOf(e);const command=e.ctrlKey||e.metaKey;const action=command?
-void 0:this.behaviour.actions[key.toLowerCase()];const history=undoOrRedo(e);if(!history&&!action&&key!==
-" "){if(e.altKey||!this.behaviour.keys.test(key)||command&&key!=="a")return}e.preventDefault();e.stopPropagation();
-if(key===" "){if(!e.repeat)this.#tap=true;this.#setSpace(true)}else if(action){action()}else{if(key===
-"Escape"||history)this.#drop();this.press(history??key,e)}}#keyup(e){if(e.key!==" ")return;this.#setSpace(
-false);if(this.#tap)this.behaviour.tapped?.()}#reach(type){return this.behaviour.reach[type??"mouse"]??
-this.behaviour.reach.mouse}#find(place,type){return this.behaviour.find(this.view.toWorld(place),this.#reach(
-type)*this.view.unit)}#down(e){if(this.pointers.has(e.pointerId)||this.pointers.size>1)return;e.preventDefault();
-this.element.focus({preventScroll:true});this.#tap=false;const place=this.place(e);this.pointers.set(
-e.pointerId,place);this.element.setPointerCapture(e.pointerId);const second=this.pointers.size===2;if(second)
-this.#takeBack(e);this.#start=place;this.mode=second||e.button===1||e.button===0&&this.#space?"pan":
-"hand";if(this.mode==="hand")this.#handDown(place,e);this.#showCursor()}#handDown(place,e){const{behaviour}=this;
-const found=this.#find(place,e.pointerType);const left=e.button===0;if(left&&!e.shiftKey&&!e.altKey&&
-found?.mark!==void 0){this.grip={from:this.view.toWorld(place),points:behaviour.held(found)}}this.#pans=
-left&&Boolean(behaviour.pans?.(found,e));this.encloses=left&&!behaviour.painting?behaviour.encloses?.(
-found,e):null;this.path=left?[this.view.toWorld(place)]:[];this.send("down",place,e,{part:found?.part,
-at:left?behaviour.pressedAt?.():void 0});if(e.pointerType==="touch"&&behaviour.menu&&!behaviour.painting){
-this.#longPress=setTimeout(()=>this.#pressedLong(e,place),LONG_PRESS)}behaviour.changed()}#pressedLong(e,place){
-this.#longPress=setTimeout(()=>{this.#takeBack(e);this.mode=null;this.#menu(place,"touch")},LONG_PRESS_GRACE)}#menu(place,type){
-this.behaviour.menu?.(place,this.#find(place,type))}#contextMenu(e){e.preventDefault();e.stopPropagation();
-const touch=e instanceof PointerEvent&&e.pointerType==="touch";if(e.button===2&&!touch)this.#menu(this.
-place(e),"mouse")}#takeBack(e){if(this.mode==="hand")this.send("cancel",this.#start,e);this.#drop()}#move(e){
-const place=this.place(e);const touch=e.pointerType==="touch";if(!this.pointers.has(e.pointerId)){if(!touch)
-this.hover(place);return}if(!touch)this.rests=place;const far=distance(place,this.#start);if(far>LONG_PRESS_SLACK)
-clearTimeout(this.#longPress);if(this.mode==="hand"&&this.#pans&&far>CLICK){this.#takeBack(e);this.mode=
-"pan";this.#showCursor()}if(this.mode==="pan"){this.view.follow(this.pointers,e.pointerId,place);return}
-this.pointers.set(e.pointerId,place);if(this.mode==="hand")this.#handMoved(place,e,far)}#handMoved(place,e,far){
-const point=this.view.toWorld(place);this.#lengthenPath(place,point,far);if(!this.encloses&&!this.behaviour.
-painting){this.send("move",place,e,{replaces:`move ${e.pointerId}`})}if(this.grip){const dx=point[0]-
-this.grip.from[0];const dy=point[1]-this.grip.from[1];for(const[mark,[x,y]]of this.grip.points)this.
-held.set(mark,[x+dx,y+dy])}this.behaviour.changed()}#lengthenPath(place,point,far){if(this.encloses===
-"box"){const[corner]=this.path;this.path=far>CLICK?rectangle(corner,point):[corner];return}const last=this.
-path.at(-1);if(last&&distance(place,this.view.toScreen(last))>=PATH_STEP)this.path.push(point)}#up(e,type){
-if(!this.pointers.has(e.pointerId))return;const place=this.place(e);this.pointers.delete(e.pointerId);
-if(this.mode==="hand"){const{path}=this;this.send(type,place,e,{path,encloses:Boolean(this.encloses)}).
-then(()=>{if(!this.grip)this.held.clear();if(this.path===path)this.path=[];this.behaviour.changed()})}
-this.#letGo();if(!this.pointers.size)this.mode=null;this.#showCursor()}#letGo(){clearTimeout(this.#longPress);
-this.grip=null;this.behaviour.changed()}#drop(){this.#letGo();this.held.clear();this.path=[]}#wheel(e){
-if(!this.behaviour.ownsWheel&&!this.focused&&!e.ctrlKey)return;e.stopPropagation();this.view.wheel(e,
-this.place(e))}#setSpace(pressed){this.#space=pressed;this.#showCursor()}#showCursor(){this.element.
-style.cursor=this.#cursor()}#cursor(){if(this.mode==="pan"||this.grip)return"grabbing";return this.#space?
-"grab":this.behaviour.cursor(this.found)}};var HALO="rgba(255, 255, 255, 0.9)";var SPECK=12;var CHECK=8;function drawStage(pen,stage,scene,hover){
+this.behaviour.changed()}keydown(e){const key=keyOf(e);const command=e.ctrlKey||e.metaKey;const action=command||
+e.altKey?void 0:this.behaviour.actions[key.toLowerCase()];const history=undoOrRedo(e);if(!history&&!action&&
+key!==" "){if(e.altKey||!this.behaviour.keys.test(key)||command&&key!=="a")return}e.preventDefault();
+e.stopPropagation();if(key===" "){if(!e.repeat)this.#tap=true;this.#setSpace(true)}else if(action){action()}else{
+if(key==="Escape"||history)this.#drop();this.press(history??key,e)}}#keyup(e){if(e.key!==" ")return;
+this.#setSpace(false);if(this.#tap)this.behaviour.tapped?.()}#reach(type){return this.behaviour.reach[type??
+"mouse"]??this.behaviour.reach.mouse}#find(place,type){return this.behaviour.find(this.view.toWorld(
+place),this.#reach(type)*this.view.unit)}#down(e){if(this.pointers.has(e.pointerId)||this.pointers.size>
+1)return;e.preventDefault();this.element.focus({preventScroll:true});this.#tap=false;const place=this.
+place(e);this.pointers.set(e.pointerId,place);this.element.setPointerCapture(e.pointerId);const second=this.
+pointers.size===2;if(second)this.#takeBack(e);this.#start=place;this.mode=second||e.button===1||e.button===
+0&&this.#space?"pan":"hand";if(this.mode==="hand")this.#handDown(place,e);this.#showCursor()}#handDown(place,e){
+const{behaviour}=this;const found=this.#find(place,e.pointerType);const left=e.button===0;const drags=left&&
+!e.altKey&&(behaviour.constrain||!e.shiftKey);if(drags&&found?.mark!==void 0){this.grip={from:this.view.
+toWorld(place),points:behaviour.held(found)}}this.#pans=left&&Boolean(behaviour.pans?.(found,e));this.
+encloses=left&&!behaviour.painting?behaviour.encloses?.(found,e):null;this.path=left?[this.view.toWorld(
+place)]:[];this.send("down",place,e,{part:found?.part,at:left?behaviour.pressedAt?.():void 0});if(e.
+pointerType==="touch"&&behaviour.menu&&!behaviour.painting){this.#longPress=setTimeout(()=>this.#pressedLong(
+e,place),LONG_PRESS)}behaviour.changed()}#pressedLong(e,place){this.#longPress=setTimeout(()=>{this.#takeBack(
+e);this.mode=null;this.#menu(place,"touch")},LONG_PRESS_GRACE)}#menu(place,type){this.behaviour.menu?.(
+place,this.#find(place,type))}#contextMenu(e){e.preventDefault();e.stopPropagation();const touch=e instanceof
+PointerEvent&&e.pointerType==="touch";if(e.button===2&&!touch)this.#menu(this.place(e),"mouse")}#takeBack(e){
+if(this.mode==="hand")this.send("cancel",this.#start,e);this.#drop()}#move(e){const place=this.place(
+e);const touch=e.pointerType==="touch";if(!this.pointers.has(e.pointerId)){if(!touch)this.hover(place);
+return}if(!touch)this.rests=place;const far=distance(place,this.#start);if(far>LONG_PRESS_SLACK)clearTimeout(
+this.#longPress);if(this.mode==="hand"&&this.#pans&&far>CLICK){this.#takeBack(e);this.mode="pan";this.#showCursor()}
+if(this.mode==="pan"){this.view.follow(this.pointers,e.pointerId,place);return}this.pointers.set(e.pointerId,
+place);if(this.mode==="hand")this.#handMoved(place,e,far)}#handMoved(place,e,far){const free=this.view.
+toWorld(place);this.#lengthenPath(place,free,far);const[x,y]=this.behaviour.constrain?.(free,e)??free;
+if(!this.encloses&&!this.behaviour.painting){this.send("move",place,e,{x,y,replaces:`move ${e.pointerId}`})}
+if(this.grip){const dx=x-this.grip.from[0];const dy=y-this.grip.from[1];for(const[mark,[u,v]]of this.
+grip.points)this.held.set(mark,[u+dx,v+dy])}this.behaviour.changed()}#lengthenPath(place,point,far){
+if(this.encloses==="box"){const[corner]=this.path;this.path=far>CLICK?rectangle(corner,point):[corner];
+return}const last=this.path.at(-1);if(last&&distance(place,this.view.toScreen(last))>=PATH_STEP)this.
+path.push(point)}#up(e,type){if(!this.pointers.has(e.pointerId))return;const place=this.place(e);this.
+pointers.delete(e.pointerId);if(this.mode==="hand"){const{path}=this;this.send(type,place,e,{path,encloses:Boolean(
+this.encloses)}).then(()=>{if(!this.grip)this.held.clear();if(this.path===path)this.path=[];this.behaviour.
+changed()})}this.#letGo();if(!this.pointers.size)this.mode=null;this.#showCursor()}#letGo(){clearTimeout(
+this.#longPress);this.grip=null;this.behaviour.changed()}#drop(){this.#letGo();this.held.clear();this.
+path=[]}#wheel(e){if(!this.behaviour.ownsWheel&&!this.focused&&!e.ctrlKey)return;e.stopPropagation();
+this.view.wheel(e,this.place(e))}#setSpace(pressed){this.#space=pressed;this.#showCursor()}#showCursor(){
+this.element.style.cursor=this.#cursor()}#cursor(){if(this.mode==="pan"||this.grip)return"grabbing";
+return this.#space?"grab":this.behaviour.cursor(this.found)}};var HALO="rgba(255, 255, 255, 0.9)";var SPECK=12;var CHECK=8;function drawStage(pen,stage,scene,hover){
 const{shown,colors,loops}=scene;const{view}=stage;const[width,height]=shown.size??[0,0];const corner=view.
 toScreen([0,0]);drawPicture(pen,stage,colors,corner,[width/view.unit,height/view.unit]);if(loops.length&&
 !stage.painting){const frame=rectangle(corner,view.toScreen([width,height]));fillPath(pen,[...loops,
 frame],colors.veil)}drawHoles(pen,stage,scene,hover);if(stage.brushing||shown.options.method==="scri\
 bbles")drawStrokes(pen,stage,scene);if(loops.length&&!(stage.drawing&&shown.doubt))drawCage(pen,stage,
-scene,hover);if(stage.drawing||shown.inside.length)drawOutline(pen,stage,scene);for(const{point}of shown.
-problems){if(!point)continue;circle(pen,view.toScreen(point),13,[[5,HALO],[2.25,colors.warn]])}}function drawPicture(pen,{
-bitmap,view},colors,corner,extent){pen.fillStyle=checks(pen,colors);pen.fillRect(...corner,...extent);
-if(!bitmap)return;pen.imageSmoothingEnabled=6*view.unit>1;pen.imageSmoothingQuality="high";pen.drawImage(
-bitmap,...corner,...extent)}function checks(pen,colors){const tile=make("canvas",{width:2*CHECK,height:2*
-CHECK});const ink=penOf(tile);ink.fillStyle=colors["check-light"];ink.fillRect(0,0,tile.width,tile.height);
-ink.fillStyle=colors["check-dark"];for(const at of[0,CHECK])ink.fillRect(at,at,CHECK,CHECK);return pen.
-createPattern(tile,"repeat")??colors["check-light"]}function strokeLoops(pen,loops,style,width,dash){
-pen.lineJoin="round";tracePath(pen,loops);strokePath(pen,[[width+2.25,HALO]]);strokePath(pen,[[width,
-style]],dash)}function drawHoles(pen,{view},{shown,colors},hover){shown.holes.forEach((hole,i)=>{const loop=view.
-line(hole.loop);const hovered=hover?.hole===i;if(hovered)fillPath(pen,[loop],colors[hole.kept?"warn-\
-soft":"accent-soft"]);const visible=Math.sqrt(hole.area)>SPECK*view.unit;if(hovered||!hole.kept&&visible)
-strokeLoops(pen,[loop],colors.faint,1.25,[4,3])})}function drawStrokes(pen,{view,brushing,tool,pad:{
-path}},{shown,colors}){const painted=[[shown.strokes.background,colors.background],[shown.strokes.foreground,
-colors.foreground]];if(brushing&&path.length)painted.push([[path],colors[tool]]);pen.lineCap="round";
-pen.lineJoin="round";for(const[lines,color]of painted){for(const line of lines){tracePath(pen,[view.
-line([...line,line[line.length-1]])],false);strokePath(pen,[[8,HALO],[5,color]])}}}function drawOutline(pen,stage,{
-shown,colors}){const{view}=stage;const color=colors.foreground;tracePath(pen,[view.line(stage.drawn())],
-false);strokePath(pen,[[4.5,HALO],[2,color]]);for(const corner of shown.corners)disk(pen,view.toScreen(
-corner),4,"white",color,2)}function drawCage(pen,{view,painting},{shown,colors,loops},hover){const color=shown.
-problems.length?colors.warn:colors.accent;strokeLoops(pen,loops,color,1.75);if(painting)return;const radius=vertexRadius(
-loops);const strong=new Set([hover?.mark,...shown.selected.map(vertex=>vertex.join(":"))]);loops.forEach(
-(loop,i)=>{loop.forEach((vertex,j)=>{const seen=strong.has(`${i}:${j}`);const r=seen?radius+1.75:radius;
-disk(pen,vertex,r+1,HALO);disk(pen,vertex,r,seen?color:"white",color,1.5)})});if(hover?.edge)drawPlus(
-pen,view.toScreen(hover.edge.foot),color)}function vertexRadius(loops){let total=0;let count=0;for(const loop of loops){
+scene,hover);if(stage.drawing||shown.inside.length)drawOutline(pen,stage,scene);if(stage.cutting)drawKnife(
+pen,stage,scene);for(const{point}of shown.problems){if(!point)continue;circle(pen,view.toScreen(point),
+13,[[5,HALO],[2.25,colors.warn]])}}function drawPicture(pen,{bitmap,view},colors,corner,extent){pen.
+fillStyle=checks(pen,colors);pen.fillRect(...corner,...extent);if(!bitmap)return;pen.imageSmoothingEnabled=
+6*view.unit>1;pen.imageSmoothingQuality="high";pen.drawImage(bitmap,...corner,...extent)}function checks(pen,colors){
+const tile=make("canvas",{width:2*CHECK,height:2*CHECK});const ink=penOf(tile);ink.fillStyle=colors["\
+check-light"];ink.fillRect(0,0,tile.width,tile.height);ink.fillStyle=colors["check-dark"];for(const at of[
+0,CHECK])ink.fillRect(at,at,CHECK,CHECK);return pen.createPattern(tile,"repeat")??colors["check-ligh\
+t"]}function strokeLoops(pen,loops,style,width,dash){pen.lineJoin="round";tracePath(pen,loops);strokePath(
+pen,[[width+2.25,HALO]]);strokePath(pen,[[width,style]],dash)}function drawHoles(pen,{view},{shown,colors},hover){
+shown.holes.forEach((hole,i)=>{const loop=view.line(hole.loop);const hovered=hover?.hole===i;if(hovered)
+fillPath(pen,[loop],colors[hole.kept?"warn-soft":"accent-soft"]);const visible=Math.sqrt(hole.area)>
+SPECK*view.unit;if(hovered||!hole.kept&&visible)strokeLoops(pen,[loop],colors.faint,1.25,[4,3])})}function drawStrokes(pen,{
+view,brushing,tool,pad:{path}},{shown,colors}){const painted=[[shown.strokes.background,colors.background],
+[shown.strokes.foreground,colors.foreground]];if(brushing&&path.length)painted.push([[path],colors[tool]]);
+pen.lineCap="round";pen.lineJoin="round";for(const[lines,color]of painted){for(const line of lines){
+tracePath(pen,[view.line([...line,line[line.length-1]])],false);strokePath(pen,[[8,HALO],[5,color]])}}}
+function drawOutline(pen,stage,{shown,colors}){const{view}=stage;const color=colors.foreground;tracePath(
+pen,[view.line(stage.drawn())],false);strokePath(pen,[[4.5,HALO],[2,color]]);for(const corner of shown.
+corners)disk(pen,view.toScreen(corner),4,"white",color,2)}function drawKnife(pen,{view,pad:{path}},{
+colors}){if(!path.length)return;pen.lineCap="butt";pen.lineJoin="round";tracePath(pen,[view.line(path)],
+false);strokePath(pen,[[5,HALO]]);strokePath(pen,[[2.25,colors.warn]],[7,4])}function drawCage(pen,{
+view,painting},{shown,colors,loops},hover){const color=shown.problems.length?colors.warn:colors.accent;
+strokeLoops(pen,loops,color,1.75);if(painting)return;const radius=vertexRadius(loops);const strong=new Set(
+[hover?.mark,...shown.selected.map(vertex=>vertex.join(":"))]);loops.forEach((loop,i)=>{loop.forEach(
+(vertex,j)=>{const seen=strong.has(`${i}:${j}`);const r=seen?radius+1.75:radius;disk(pen,vertex,r+1,
+HALO);disk(pen,vertex,r,seen?color:"white",color,1.5)})});if(hover?.edge)drawPlus(pen,view.toScreen(
+hover.edge.foot),color)}function vertexRadius(loops){let total=0;let count=0;for(const loop of loops){
 loop.forEach(([x,y],i)=>{const[u,v]=loop[(i+1)%loop.length];total+=Math.hypot(u-x,v-y)});count+=loop.
 length}return Math.min(4,Math.max(1.75,total/Math.max(count,1)*.16))}function drawPlus(pen,[x,y],color){
 disk(pen,[x,y],7,"white",color,1.5);const across=[[x-3.5,y],[x+3.5,y]];const upright=[[x,y-3.5],[x,y+
-3.5]];tracePath(pen,[across,upright],false);pen.stroke()}var TOOLS={edit:{label:"Edit vertices and holes (V)",hint:"Drag a vertex · double-click an edge to a\
-dd one · right-click a vertex to delete it · click a hole to drop it"},foreground:{label:"Paint ov\
-er the shape (B)",hint:"Paint over the shape"},background:{label:"Paint over the background (N)",hint:"\
-Paint over the background around the shape"},color:{label:"Pick the background's colour (I)",hint:"C\
-lick a pixel that shows the background's colour"},component:{label:"Pick the component to trace (C)",
-hint:"Click the part of the picture to trace"},polygon:{label:"Draw the outline by hand (P)",hint:"C\
-lick the corners in turn, or draw around the shape · double-click or Enter closes it · Esc starts ov\
-er"},rectangle:{label:"Draw a rectangle (R)",hint:"Drag a rectangle over the shape"}};var TOOL_NAMES=[
-"edit","foreground","background","color","component","polygon","rectangle"];var HELP=[["Outline",[["\
-V","edit: drag a vertex, double-click an edge to add one, click a hole to drop or keep it"],["Right-\
-click, Delete","remove a vertex"],["[ ]","select the vertex before, the next vertex"],["Arrow keys",
-"nudge the selected vertex, with Shift farther"],["Ctrl+Z, Ctrl+Shift+Z","undo, redo"]]],["By hand",
-[["B, N","paint over the shape, over the background"],["I, C","pick the background's colour, the com\
-ponent"],["P, R","draw the outline or a hole in it, a rectangle; Enter closes it, Esc discards it"]]],
-["View",[["Wheel, + -, F","zoom after a click on the picture, fit the picture"],["Drag beside the ou\
-tline","move the view"]]]];var REACH={mouse:9,pen:12,touch:18};var ZOOM=1.25;var MARGIN=24;var HINT=8;var CALLOUT=24;var EDGE=8;
+3.5]];tracePath(pen,[across,upright],false);pen.stroke()}var TOOLS={edit:{key:"v",icon:PATHS.edit,label:"Edit vertices and holes (V)",hint:"Drag a vertex · d\
+ouble-click an edge to add one · right-click a vertex to delete it · click a hole to drop it"},foreground:{
+key:"b",icon:"M13.5 2.5l-6 6 M6.7 9.2c-1.6-.5-3 .6-3.1 2.1-.1 1-.7 1.7-1.6 2 2.2.9 5.6.4 5.9-2.2 .1-\
+.8-.4-1.6-1.2-1.9z M9.5 12.5h5 M12 10v5",label:"Paint over the shape (B)",hint:"Paint over the shape"},
+background:{key:"n",icon:"M13.5 2.5l-6 6 M6.7 9.2c-1.6-.5-3 .6-3.1 2.1-.1 1-.7 1.7-1.6 2 2.2.9 5.6.4\
+ 5.9-2.2 .1-.8-.4-1.6-1.2-1.9z M9.5 12.5h5",label:"Paint over the background (N)",hint:"Paint over t\
+he background around the shape"},color:{key:"i",icon:"M9 4l3 3 M10 3.2l1-1a1.6 1.6 0 0 1 2.8 2.2l-1.\
+1 1.1 M9.6 5.2L3.4 11.4 2.5 13.5l2.1-.9 6.2-6.2",label:"Pick the background's colour (I)",hint:"Clic\
+k a pixel that shows the background's colour"},component:{key:"c",icon:"M8 1.5v3 M8 11.5v3 M1.5 8h3 \
+M11.5 8h3 M8 5.2a2.8 2.8 0 1 0 0 5.6 2.8 2.8 0 0 0 0-5.6z",label:"Pick the component to trace (C)",hint:"\
+Click the part of the picture to trace"},polygon:{key:"p",icon:"M8 2l5.5 4-2 7h-7l-2-7z",label:"Draw\
+ the outline by hand (P)",hint:"Click the corners in turn, or draw around the shape · double-click o\
+r Enter closes it · Esc starts over"},rectangle:{key:"r",icon:PATHS.rectangle,label:"Draw a rectang\
+le (R)",hint:"Drag a rectangle over the shape"},knife:{key:"k",icon:"M8 8l4.4-4.4a1.41 1.41 0 0 1 2 \
+2L10 10z M8 8l-6 6c4 .1 6.6-1.2 8-4",label:"Cut with the knife (K)",hint:"Draw a line: the shape is \
+cut along it · begin or end outside to cut a part loose"}};var TOOL_NAMES=["edit","foreground","bac\
+kground","color","component","polygon","rectangle","knife"];var HELP=[["Outline",[["V","edit: drag a\
+ vertex, double-click an edge to add one, click a hole to drop or keep it"],["Right-click, Delete","\
+remove a vertex"],["[ ]","select the vertex before, the next vertex"],["Arrow keys","nudge the selec\
+ted vertex, with Shift farther"],["Ctrl+Z, Ctrl+Shift+Z","undo, redo"]]],["By hand",[["B, N","paint \
+over the shape, over the background"],["I, C","pick the background's colour, the component"],["K","k\
+nife: draw a line along which the shape is cut; Esc while drawing discards it"],["P, R","draw the ou\
+tline or a hole in it, a rectangle; Enter closes it, Esc discards it"]]],["View",[["Wheel, + -, F","\
+zoom after a click on the picture, fit the picture"],["Drag beside the outline","move the view"]]]];var REACH={mouse:9,pen:12,touch:18};var ZOOM=1.25;var MARGIN=24;var HINT=8;var CALLOUT=24;var EDGE=8;
 var MOST_ZOOM=40;var FARTHEST=1e3;var COLORS=["accent","accent-soft","warn","warn-soft","faint","vei\
-l","foreground","background","check-light","check-dark"];var KEYS=/^(Arrow\w+|Delete|Backspace|Escape|Enter|[[\]vbnicpr])$/i;
+l","foreground","background","check-light","check-dark"];var KEYS=/^(Arrow\w+|Delete|Backspace|Escape|Enter|[[\]])$/;
 var Stage=class{canvas=make("canvas",{className:"glid-canvas",role:"application","aria-label":"Pictu\
 re and cage"});callout=make("div",{className:"glid-callout",role:"alert",hidden:true});hintText=make(
 "div",{className:"glid-hint"});drop=make("div",{className:"glid-drop",hidden:true},"Drop a picture h\
@@ -339,73 +350,81 @@ this.view.zoom(closer?1/ZOOM:ZOOM)}#resize(){const{clientWidth,clientHeight}=thi
 this.changed()}get loops(){const loops=this.shown?.loops??[];const{held}=this.pad;if(!held.size)return loops;
 return loops.map((loop,i)=>loop.map((point,j)=>held.get(`${i}:${j}`)??point))}get brushing(){return this.
 tool==="foreground"||this.tool==="background"}get drawing(){return this.tool==="polygon"||this.tool===
-"rectangle"}reach=REACH;keys=KEYS;actions={"+":()=>this.zoom(true),"=":()=>this.zoom(true),"-":()=>this.
-zoom(false),f:()=>this.fit()};get painting(){return this.brushing||this.drawing}find(point,reach){if(this.
-tool!=="edit"||!this.shown?.size)return null;const{holes,reach_shares:shares}=this.shown;const hole=holeAt(
-holes,point);const near=hole<0?reach:shares.in_hole*reach;const vertex=nearestVertex(this.loops,point,
-near);if(vertex)return{vertex,mark:`${vertex.loop}:${vertex.index}`};const edge=nearestEdge(this.loops,
-point,shares.edge*near);if(edge)return{edge};return hole<0?null:{hole}}held({vertex,mark}){if(!vertex||
-mark===void 0)return new Map;return new Map([[mark,this.loops[vertex.loop][vertex.index]]])}pans(found){
-return!found?.vertex&&!this.painting}cursor(found){if(this.tool==="component")return"pointer";if(this.
-tool!=="edit")return"crosshair";if(found?.vertex)return"grab";if(found?.edge)return"copy";return found?.
-hole===void 0?"default":"pointer"}#draw(pen){const{shown,pad,view}=this;if(!shown||!view.width)return;
-this.colors??=this.#readColors();const below=pad.mode==="pan"?null:pad.found;const hover=this.#listed??
-below;if(shown.size)drawStage(pen,this,this.#scene(shown,this.colors),hover);const[left,top]=view.toScreen(
-[0,0]);this.element.dataset.viewport=`${1/view.unit} ${left} ${top}`;this.#placeCallout(shown);this.
-hintText.textContent=shown.size?this.#hint(hover):""}#scene(shown,colors){return{shown,colors,loops:this.
-loops.map(loop=>this.view.line(loop))}}drawn(){const{path,rests}=this.pad;const inside=this.shown?.inside??
-[];if(inside.length)return[...inside,inside[0]];const now=rests?[this.view.toWorld(rests)]:[];if(this.
-tool==="polygon"){const corners=this.shown?.corners??[];return corners.concat(path.length?path:now)}
-if(!path.length||!now.length)return[];return[...rectangle(path[0],now[0]),path[0]]}#hint(hover){const hole=hover?.
-hole===void 0?void 0:this.shown?.holes[hover.hole];if(hole)return hole.kept?"Click to drop this hole":
-"Click to keep this hole";if(hover?.edge)return"Double-click to add a vertex here";if(hover?.vertex)
-return"Drag to move · right-click or Delete to delete";return TOOLS[this.tool].hint}#readColors(){const probe=this.
-root.appendChild(make("span"));const color=name=>{probe.style.color=`var(--glid-${name})`;return getComputedStyle(
-probe).color};const colors=Object.fromEntries(COLORS.map(name=>[name,color(name)]));probe.remove();return colors}#placeCallout(shown){
-const{callout,view}=this;const problem=shown.problems[0];callout.hidden=!problem||this.pad.mode==="p\
-an";if(!problem)return;callout.textContent=problem.message;const{offsetWidth:w,offsetHeight:h}=callout;
-const[x,y]=problem.point?view.toScreen(problem.point):[view.width/2,-16];const fitsBelow=!problem.point||
-y+CALLOUT+h<=view.height;const beside=fitsBelow?y+CALLOUT:y-CALLOUT-h;const left=Math.min(Math.max(x-
-w/2,EDGE),view.width-w-EDGE);const top=Math.min(Math.max(beside,EDGE),view.height-h-EDGE);callout.style.
-transform=`translate(${left}px, ${top}px)`}};var PART=1<<20;var Tracer=class{root=make("div",{className:"glid-skin glid-tracer"});status=make("di\
+"rectangle"}get cutting(){return this.tool==="knife"}reach=REACH;keys=KEYS;actions={"+":()=>this.zoom(
+true),"=":()=>this.zoom(true),"-":()=>this.zoom(false),f:()=>this.fit()};get painting(){return this.
+brushing||this.drawing||this.cutting}find(point,reach){if(this.tool!=="edit"||!this.shown?.size)return null;
+const{holes,reach_shares:shares}=this.shown;const hole=holeAt(holes,point);const near=hole<0?reach:shares.
+in_hole*reach;const vertex=nearestVertex(this.loops,point,near);if(vertex)return{vertex,mark:`${vertex.
+loop}:${vertex.index}`};const edge=nearestEdge(this.loops,point,shares.edge*near);if(edge)return{edge};
+return hole<0?null:{hole}}held({vertex,mark}){if(!vertex||mark===void 0)return new Map;return new Map(
+[[mark,this.loops[vertex.loop][vertex.index]]])}pans(found){return!found?.vertex&&!this.painting}cursor(found){
+if(this.tool==="component")return"pointer";if(this.tool!=="edit")return"crosshair";if(found?.vertex)
+return"grab";if(found?.edge)return"copy";return found?.hole===void 0?"default":"pointer"}#draw(pen){
+const{shown,pad,view}=this;if(!shown||!view.width)return;this.colors??=this.#readColors();const below=pad.
+mode==="pan"?null:pad.found;const hover=this.#listed??below;if(shown.size)drawStage(pen,this,this.#scene(
+shown,this.colors),hover);const[left,top]=view.toScreen([0,0]);this.element.dataset.viewport=`${1/view.
+unit} ${left} ${top}`;this.#placeCallout(shown);this.hintText.textContent=shown.size?this.#hint(hover):
+""}#scene(shown,colors){return{shown,colors,loops:this.loops.map(loop=>this.view.line(loop))}}drawn(){
+const{path,rests}=this.pad;const inside=this.shown?.inside??[];if(inside.length)return[...inside,inside[0]];
+const now=rests?[this.view.toWorld(rests)]:[];if(this.tool==="polygon"){const corners=this.shown?.corners??
+[];return corners.concat(path.length?path:now)}if(!path.length||!now.length)return[];return[...rectangle(
+path[0],now[0]),path[0]]}#hint(hover){const hole=hover?.hole===void 0?void 0:this.shown?.holes[hover.
+hole];if(hole)return hole.kept?"Click to drop this hole":"Click to keep this hole";if(hover?.edge)return"\
+Double-click to add a vertex here";if(hover?.vertex)return"Drag to move · right-click or Delete to d\
+elete";return TOOLS[this.tool].hint}#readColors(){const probe=this.root.appendChild(make("span"));const color=name=>{
+probe.style.color=`var(--glid-${name})`;return getComputedStyle(probe).color};const colors=Object.fromEntries(
+COLORS.map(name=>[name,color(name)]));probe.remove();return colors}#placeCallout(shown){const{callout,
+view}=this;const problem=shown.problems[0];callout.hidden=!problem||this.pad.mode==="pan";if(!problem)
+return;callout.textContent=problem.message;const{offsetWidth:w,offsetHeight:h}=callout;const[x,y]=problem.
+point?view.toScreen(problem.point):[view.width/2,-16];const fitsBelow=!problem.point||y+CALLOUT+h<=view.
+height;const beside=fitsBelow?y+CALLOUT:y-CALLOUT-h;const left=Math.min(Math.max(x-w/2,EDGE),view.width-
+w-EDGE);const top=Math.min(Math.max(beside,EDGE),view.height-h-EDGE);callout.style.transform=`transl\
+ate(${left}px, ${top}px)`}};var PART=1<<20;var Tracer=class{root=make("div",{className:"glid-skin glid-tracer"});status=make("di\
 v",{className:"glid-status",role:"status","aria-live":"polite"});constructor({model,el,signal}){this.
 model=model;this.link=new Link(model,this.root,signal,()=>{this.showStatus();if(this.link.idle&&this.
 shown)this.#showTool(this.shown.tool)});this.stage=new Stage(this.root,this.link,file=>this.upload(file),
 signal);this.panel=new Panel((type,content)=>void this.act(type,content),this.stage);this.tools=TOOL_NAMES.
-map(name=>{const button=iconButton(name,TOOLS[name].label,void 0);button.dataset.tool=name;return button});
-this.undo=iconButton("undo","Undo (Ctrl+Z)",()=>this.act("undo"));this.redo=iconButton("redo","Redo \
-(Ctrl+Shift+Z)",()=>this.act("redo"));this.discard=make("button",{title:"Go back to the outline as t\
-raced",onclick:()=>this.act("discard_edits")},"Discard edits");this.question=this.#askAbout();this.stage.
-element.append(this.question);const keys=help(HELP);this.stage.element.append(keys.table);this.stage.
-actions["?"]=keys.toggle;this.root.append(this.#toolbar(keys.button),make("div",{className:"glid-bod\
-y"},this.stage.element,this.panel.element),this.status);keysAround(this.stage.element,e=>this.stage.
-pad.keydown(e),signal,this.root);this.root.addEventListener("click",e=>this.#chooseTool(e));el.classList.
-add("glid-host");el.append(this.root)}close(){this.stage.close()}get shown(){const shown=this.model.
-get("shown");return shown.loops?shown:null}act(type,content={},buffers=[]){return this.link.put({type,
-...content},buffers)}async upload(file){const name=file.name||"the picture";let start=0;let refused=null;
-do{const data=await file.slice(start,start+PART).arrayBuffer();const part={name,size:file.size,start,
-buffered:true};refused=await this.act("upload",part,[data]);start+=PART}while(!refused&&start<file.size)}showState(){
-const{shown,stage}=this;if(!shown)return;stage.update(shown);this.panel.update(shown);this.undo.disabled=
-!shown.can_undo;this.redo.disabled=!shown.can_redo;this.discard.hidden=!shown.edited;this.question.hidden=
-!shown.inside.length;for(const button of this.tools)button.disabled=!shown.size;if(this.link.idle)this.#showTool(
-shown.tool);this.showStatus()}showStatus(){const{shown}=this;if(!shown)return;const{kind,text}=statusOf(
-shown,this.link.refusal,this.link.busy);this.root.dataset.status=kind;this.status.textContent=text}async showPicture(){
+map(name=>{const button=drawnButton(TOOLS[name].icon,TOOLS[name].label,void 0);button.dataset.tool=name;
+return button});for(const name of TOOL_NAMES){this.stage.actions[TOOLS[name].key]=()=>this.#chooseTool(
+name)}this.undo=iconButton("undo","Undo (Ctrl+Z)",()=>this.act("undo"));this.redo=iconButton("redo",
+"Redo (Ctrl+Shift+Z)",()=>this.act("redo"));this.discard=make("button",{title:"Go back to the outlin\
+e as traced",onclick:()=>this.act("discard_edits")},"Discard edits");this.question=this.#askAbout();
+this.pieces=this.#askWhichPiece();this.stage.element.append(this.question,this.pieces);const keys=help(
+HELP);this.stage.element.append(keys.table);this.stage.actions["?"]=keys.toggle;this.root.append(this.#toolbar(
+keys.button),make("div",{className:"glid-body"},this.stage.element,this.panel.element),this.status);
+keysAround(this.stage.element,e=>this.stage.pad.keydown(e),signal,this.root);this.root.addEventListener(
+"click",e=>this.#clicked(e));el.classList.add("glid-host");el.append(this.root)}close(){this.stage.close()}get shown(){
+const shown=this.model.get("shown");return shown.loops?shown:null}act(type,content={},buffers=[]){return this.
+link.put({type,...content},buffers)}async upload(file){const name=file.name||"the picture";let start=0;
+let refused=null;do{const data=await file.slice(start,start+PART).arrayBuffer();const part={name,size:file.
+size,start,buffered:true};refused=await this.act("upload",part,[data]);start+=PART}while(!refused&&start<
+file.size)}showState(){const{shown,stage}=this;if(!shown)return;stage.update(shown);this.panel.update(
+shown);this.undo.disabled=!shown.can_undo;this.redo.disabled=!shown.can_redo;this.discard.hidden=!shown.
+edited;this.question.hidden=!shown.inside.length;this.pieces.hidden=(shown.cut?.shares.length??1)<2;
+for(const button of this.tools)button.disabled=!shown.size;if(this.link.idle)this.#showTool(shown.tool);
+this.showStatus()}showStatus(){const{shown}=this;if(!shown)return;const{kind,text}=statusOf(shown,this.
+link.refusal,this.link.busy);this.root.dataset.status=kind;this.status.textContent=text}async showPicture(){
 try{await this.stage.setPicture(this.model.get("picture"))}catch(error){const why=error instanceof Error?
 error.message:error;this.link.refusal=`The picture cannot be shown: ${why}`;this.showStatus()}}showHeight(){
 const height=this.model.get("height");this.root.style.setProperty("--glid-height",height?`${height}p\
-x`:"")}#askAbout(){const answer=(label,what)=>{const onclick=()=>{this.act("drawn_as",{what});this.stage.
-canvas.focus({preventScroll:true})};return make("button",{onclick},label)};return make("div",{className:"\
-glid-question",role:"group","aria-label":"What you drew",hidden:true},"What you drew lies inside the\
- shape. It is ",answer("a hole","hole"),answer("the new outline","outline"),answer("nothing",""))}#toolbar(help2){
-const input=make("input",{type:"file",accept:"image/*",hidden:true});input.addEventListener("change",
-()=>{if(input.files?.[0])this.upload(input.files[0])});const open=iconButton("open","Open a picture",
-()=>{input.value="";input.click()});const{stage}=this;return make("div",{className:"glid-toolbar",role:"\
-toolbar","aria-label":"Tracer"},...[open,input,gap(),...this.tools,gap(),this.undo,this.redo,this.discard],
-make("span",{className:"glid-grow"}),iconButton("minus","Zoom out (-)",()=>stage.zoom(false)),iconButton(
-"plus","Zoom in (+)",()=>stage.zoom(true)),iconButton("fit","Fit the picture (F)",()=>stage.fit()),help2)}#chooseTool(e){
-const button=e.target.closest("[data-tool]");const name=button?.dataset.tool;if(!name)return;this.#showTool(
-name);this.act("tool",{name})}#showTool(name){if(name!==this.stage.tool)this.stage.setTool(name);for(const button of this.
-root.querySelectorAll("[data-tool]")){const{tool}=button.dataset;button.ariaPressed=String(tool===name)}}};
-function gap(){return make("span",{className:"glid-gap"})}function render(context){const tracer=new Tracer(context);follow(context.model,{"change:height":()=>tracer.
+x`:"")}#askAbout(){const answer=(label,what)=>this.#answer(label,()=>this.act("drawn_as",{what}));return question(
+"What you drew","What you drew lies inside the shape. It is ",answer("a hole","hole"),answer("the ne\
+w outline","outline"),answer("nothing",""))}#askWhichPiece(){const keepNext=()=>{const{shares,kept}=this.
+shown?.cut??{shares:[],kept:0};return this.act("keep_piece",{number:(kept+1)%shares.length})};return question(
+"Pieces of the cut","Only the outlined piece is kept. ",this.#answer("Keep another",keepNext),this.#answer(
+"Undo the cut",()=>this.act("undo")))}#answer(label,act){const onclick=()=>{act();this.stage.canvas.
+focus({preventScroll:true})};return make("button",{onclick},label)}#toolbar(help2){const input=make(
+"input",{type:"file",accept:"image/*",hidden:true});input.addEventListener("change",()=>{if(input.files?.[0])
+this.upload(input.files[0])});const open=iconButton("open","Open a picture",()=>{input.value="";input.
+click()});const{stage}=this;return make("div",{className:"glid-toolbar",role:"toolbar","aria-label":"\
+Tracer"},...[open,input,gap(),...this.tools,gap(),this.undo,this.redo,this.discard],make("span",{className:"\
+glid-grow"}),iconButton("minus","Zoom out (-)",()=>stage.zoom(false)),iconButton("plus","Zoom in (+)",
+()=>stage.zoom(true)),iconButton("fit","Fit the picture (F)",()=>stage.fit()),help2)}#clicked(e){const button=e.
+target.closest("[data-tool]");const name=button?.dataset.tool;if(name)this.#chooseTool(name)}#chooseTool(name){
+if(!this.shown?.size)return;this.#showTool(name);this.act("tool",{name})}#showTool(name){if(name!==this.
+stage.tool)this.stage.setTool(name);for(const button of this.root.querySelectorAll("[data-tool]")){const{
+tool}=button.dataset;button.ariaPressed=String(tool===name)}}};function gap(){return make("span",{className:"\
+glid-gap"})}function question(name,text,...answers){const look={className:"glid-question",role:"grou\
+p","aria-label":name,hidden:true};return make("div",look,text,...answers)}function render(context){const tracer=new Tracer(context);follow(context.model,{"change:height":()=>tracer.
 showHeight(),"change:shown":()=>tracer.showState(),"change:picture":()=>tracer.showPicture()});return()=>tracer.
 close()}var main_default={render};export{main_default as default};

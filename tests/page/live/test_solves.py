@@ -73,6 +73,19 @@ def test_a_solve_in_the_page_ends_where_the_packages_ends(name: str, more: dict[
     assert map.distance(result.map) < 0.02
 
 
+def test_a_part_that_was_cut_loose_moves_in_the_page_too() -> None:
+    (cage,) = glid.cut(domain("ell").cage, [[-1, 4], [-1, -2]])
+    d = glid.Domain.from_cage(cage)
+    pose = glid.Pose([[-2.4, 2.4], [-0.5, 2.4], [2, -1.5]], [[-0.2, 2.2], [-0.5, 2.4], [2, -1.5]])
+    result = glid.solve(d, pose, options=glid.Options(restarts=0))
+    request = {"ask": "solve", "outline": d.to_dict(), "pose": pose.to_dict(), "options": {}}
+    (answer,) = answers([request])
+    assert answer["energy"] == pytest.approx(result.energy, rel=1e-6)
+    parts = np.reshape(answer["coefficients"], (4, -1))
+    map = glid.HarmonicMap(d, parts[0] + 1j * parts[1], parts[2] + 1j * parts[3])
+    assert glid.certify(map).certified
+
+
 @pytest.mark.parametrize("name", ["ell", "ring"])
 def test_a_solve_in_the_page_keeps_stiff_areas_as_the_package_does(name: str) -> None:
     d = domain(name)

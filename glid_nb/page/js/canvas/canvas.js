@@ -12,10 +12,12 @@ import { View } from "../pad/view.js";
 import { Ahead, marksOf } from "./ahead.js";
 import { menuRows } from "./context_menu.js";
 import { drawBrush, drawLasso, drawMarks, drawOnion, drawStiff } from "./draw.js";
+import { Ghosts } from "./ghosts.js";
 import { HELP } from "./help_table.js";
 import { Legend } from "./legend.js";
 import { arrowAt, inSight, knobInCorner } from "./marks.js";
 import { Notices } from "./notices.js";
+import { drawAxis, drawNumbers, movedPin } from "./numbers.js";
 import { KEYS, PinBehaviour } from "./pin_behaviour.js";
 import { PoseClipboard } from "./pose_clipboard.js";
 import { resizeGrip } from "./resize_grip.js";
@@ -43,6 +45,7 @@ export class Canvas {
   legend = new Legend();
   notices = new Notices();
   help = help(HELP);
+  ghosts = new Ghosts();
 
   /** @type {number | undefined} the pin that was selected alone when marks came last */
   #chosen;
@@ -82,7 +85,8 @@ export class Canvas {
     this.redraw = painter(paper, this.view, signal, (pen) => this.#draw(pen));
     this.link = new Link(model, this.box, signal, () => this.#report());
     this.room = this.interactive ? new Room(this.box, model, signal) : null;
-    this.pad = new Pad(this.box, this.view, this.#listener(signal), new PinBehaviour(this));
+    this.behaviour = new PinBehaviour(this);
+    this.pad = new Pad(this.box, this.view, this.#listener(signal), this.behaviour);
     this.clipboard = new PoseClipboard(this);
     this.corner = this.#makeCorner();
     if (this.interactive) {
@@ -262,6 +266,13 @@ export class Canvas {
     const ours = (/** @type {KeyboardEvent} */ e) =>
       !e.ctrlKey && !e.metaKey && KEYS.test(keyOf(e));
     this.box.addEventListener("keydown", (e) => ours(e) && goBack(e), { capture });
+    const openedByKeys = (/** @type {KeyboardEvent} */ e) => {
+      if (e.key !== "F10" || !e.shiftKey) return; // a keyboard without a menu key
+      e.stopImmediatePropagation();
+      e.preventDefault();
+      this.openMenu();
+    };
+    this.box.addEventListener("keydown", openedByKeys, { capture });
     const followArrow = (/** @type {PointerEvent} */ e) => {
       const target = arrowAt(this.view, this.marks, this.pad.place(e));
       if (!target || e.target !== this.box) return;
@@ -307,6 +318,18 @@ export class Canvas {
   }
 
   /** @param {Pen} pen */
+  #drawNumbers(pen) {
+    const { model, view, pad, marks } = this;
+    const { pressed } = this.behaviour;
+    const drags = pad.mode === "hand" && pad.path.length > 1 && !pad.encloses;
+    const moved = drags && pressed && movedPin(pressed, marks, pad.held, model.get("picture_size"));
+    if (!moved) return;
+    const { start, keys } = pressed;
+    if (start && keys?.axis) drawAxis(pen, view, start, moved.at);
+    drawNumbers(pen, view, moved);
+  }
+
+  /** @param {Pen} pen */
   #draw(pen) {
     const { model, view, pad, marks, brush } = this;
     const { motion } = this.shapes;
@@ -315,9 +338,13 @@ export class Canvas {
     if (motion) return; // pins belong to the pose that is edited
     drawOnion(pen, view, model.get("onion"));
     drawStiff(pen, view, model.get("stiff"), this.painting);
+    if (this.interactive && !this.painting) {
+      this.ghosts.draw(pen, view, model.get("outline").outline, marks.targets.length > 0);
+    }
     const cursor = pad.focused ? model.get("cursor") : null;
     drawMarks(pen, view, marks, { hovered: pad.found?.mark, held: pad.held, cursor });
     if (brush) drawBrush(pen, view, brush, pad);
+    else this.#drawNumbers(pen);
     if (pad.encloses && pad.path.length > 2) drawLasso(pen, view, pad.path);
   }
 }

@@ -44,11 +44,11 @@ export function menuRows(does, pin, covered) {
 function pinRows({ press }, count) {
   const pins = count > 1 ? ` ${count} pins` : "";
   return [
-    ["Bring forward", "Page Up", press("PageUp")],
-    ["Send back", "Page Down", press("PageDown")],
-    null,
     [`Remove${pins}`, "Delete", press("Delete")],
     ["Remove, keep the shape", "Shift+Delete", press("Delete", true)],
+    null,
+    ["Bring forward", "Page Up", press("PageUp")],
+    ["Send back", "Page Down", press("PageDown")],
     ["Leave angle and scale free", "X", press("x")],
     null,
   ];

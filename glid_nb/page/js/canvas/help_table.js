@@ -9,7 +9,11 @@ export const HELP = [
     [
       ["Click the shape", "pin a point"],
       ["Drag a pin, or the shape", "move it there; the shape follows, and never folds"],
-      ["Right-click, long touch, Menu key", "a menu for the pin or the shape there"],
+      [
+        "Shift, Ctrl in a drag",
+        "keep it on one axis; on whole pixels of the picture; Shift turns by 15°",
+      ],
+      ["Right-click, long touch, Shift+F10", "a menu for the pin or the shape there"],
       ["Delete", "remove the selected pins; with Shift keep the shape"],
       ["Ring around a pin; Alt on the pin", "turn the shape there; the ring's knob scales it too"],
       ["< >, + -, X", "turn, scale; free both again"],
@@ -48,7 +52,8 @@ export const HELP = [
       ["Middle button, Space and drag", "move the view"],
       ["F", "see everything"],
       ["P", "the picture alone, for lectures; Esc brings the rest back"],
-      ["W", "the whole screen"],
+      ["W", "the whole screen, without the inspector"],
+      ["I", "hide the inspector, show it again"],
     ],
   ],
   [
@@ -56,7 +61,9 @@ export const HELP = [
     [
       ["K", "make a keyframe of what is shown"],
       ["Space", "play the motion through the poses, pause; on the canvas too"],
-      ["Arrow keys, Home, End", "step in time, with Shift to the next pose; first, last pose"],
+      ["Arrow keys, Home, End", "step a frame, with Shift to the next pose; first, last pose"],
+      ["Ctrl and wheel", "zoom the timeline; then the wheel alone moves along it"],
+      ["Double click a pose, F2", "type its name"],
       ["Alt and arrow keys", "move the pose in time; Delete removes it"],
     ],
   ],

@@ -1,9 +1,11 @@
 // How the pad behaves over a shape with pins.
 
+import { constrained } from "./constrain.js";
 import { markAt, ringAt } from "./marks.js";
 
 /** @import { Found, Mark, Point } from "../types.js" */
 /** @import { Behaviour } from "../pad/pad.js" */
+/** @import { Pressing } from "./numbers.js" */
 /** @import { Canvas } from "./canvas.js" */
 
 const REACH = { mouse: 13, pen: 16, touch: 26 }; // CSS pixels
@@ -21,6 +23,8 @@ const RING_TIPS = {
 export class PinBehaviour {
   reach = REACH;
   keys = KEYS;
+  /** @type {Pressing | null} the last press of the left button, unless it paints */
+  pressed = null;
 
   /** @param {Canvas} canvas */
   constructor(canvas) {
@@ -28,6 +32,7 @@ export class PinBehaviour {
     this.actions = {
       "?": canvas.help.toggle,
       contextmenu: () => canvas.openMenu(),
+      i: () => canvas.room?.toggleInspector(),
       k: () => void canvas.box.dispatchEvent(new CustomEvent("glid:key", { bubbles: true })),
       p: () => canvas.room?.alone(),
       w: () => canvas.room?.fullScreen(),
@@ -75,6 +80,8 @@ export class PinBehaviour {
    * @param {PointerEvent} e
    */
   encloses(found, e) {
+    const start = this.canvas.pad.grip?.points.get(found?.mark ?? "");
+    this.pressed = { found, start, pins: this.canvas.marks.targets.length };
     if (found) return null;
     if (e.shiftKey) return "box";
     return e.ctrlKey || e.metaKey ? "lasso" : null;
@@ -89,6 +96,26 @@ export class PinBehaviour {
     const pressed = Number(mark);
     const moved = selected.includes(pressed) ? selected : [pressed];
     return new Map(moved.map((i) => [i, targets[i]]));
+  }
+
+  /**
+   * Shift keeps a drag on an axis, Ctrl the pin on whole pixels. The ring's turns are the kernel's.
+   *
+   * @param {Point} point
+   * @param {PointerEvent} e
+   * @returns {Point}
+   */
+  constrain(point, e) {
+    const { model, pad } = this.canvas;
+    const { pressed } = this;
+    const [from] = pad.path;
+    if (!pressed || !from || pressed.found?.part || pad.encloses || e.altKey) return point;
+    pressed.keys = { axis: e.shiftKey, whole: e.ctrlKey || e.metaKey };
+    pressed.start ??= from;
+    const [x, y] = pressed.start;
+    const free = /** @type {Point} */ ([x + point[0] - from[0], y + point[1] - from[1]]);
+    const [u, v] = constrained([x, y], free, pressed.keys, model.get("picture_size"));
+    return [u - x + from[0], v - y + from[1]];
   }
 
   /** @param {Found | null} found */

@@ -48,7 +48,9 @@ export class Room {
       if (String(model.get("room")) !== this.#told) this.#decides = false; // another view does now
     });
     const left = () => {
-      if (!document.fullscreenElement) this.alone(false);
+      const full = document.fullscreenElement;
+      if (!full) this.alone(false);
+      if (!full || full === this.#root) this.toggleInspector(Boolean(full));
     };
     document.addEventListener("fullscreenchange", left, { signal });
     signal.addEventListener("abort", () => {
@@ -84,6 +86,21 @@ export class Room {
     this.#root?.requestFullscreen().catch((error) => {
       save(this.model, { notice: `Full screen is not possible here: ${error.message}` });
     });
+  }
+
+  /**
+   * Hides the inspector, which leaves its room to the canvas, or shows it again.
+   *
+   * @param {boolean} [away]
+   */
+  toggleInspector(away) {
+    const root = this.#root;
+    if (!root || root.classList.contains("glid-side-away") === away) return;
+    const focused = root.querySelector(".glid-side")?.contains(document.activeElement);
+    const hidden = root.classList.toggle("glid-side-away", away);
+    if (hidden && focused) this.pad.focus({ preventScroll: true });
+    this.#decides = true;
+    this.#measureSoon();
   }
 
   /** @param {KeyboardEvent} e */
@@ -138,6 +155,9 @@ export class Room {
     this.#decides = room.width > width;
     // Not before the hand lets go: a canvas must not change below a drag.
     root.addEventListener("pointerup", () => this.#decide(), { signal: this.signal });
+    // The timeline's export opens a section of the inspector.
+    const inspected = () => this.toggleInspector(false);
+    root.addEventListener("glid:inspect", inspected, { signal: this.signal });
   }
 
   #decide() {

@@ -18,6 +18,7 @@ import { Vertices } from "./vertices.js";
 const NEAR = 8; // pixels: a cage lies a little outside of what is drawn
 const LEAD = "glid:lead"; // an event of the renderer's model
 const N_TIMED = 3; // drawings, after a first one that compiles the shaders
+const MOST_FRAMES = 100; // until there is a renderer to be timed
 
 export class Shapes {
   /** @type {Seen} */
@@ -70,7 +71,7 @@ export class Shapes {
     this.#materials = materials;
     // When the kernel changes a uniform, pythreejs replaces them all, on the event "change".
     for (const material of materials) material.on("change", this.refresh, this);
-    renderer.get("scene").off("beforeRender", clearLists).on("beforeRender", clearLists);
+    renderer.get("scene").off("beforeRender", keepLittle).on("beforeRender", keepLittle);
     for (const view of Object.values(renderer.views)) view.then(drawNoMore);
     renderer.on(LEAD, this.#takeLead, this);
     this.refresh();
@@ -170,14 +171,25 @@ export class Shapes {
   }
 }
 
+/** @type {WeakSet<object>} renderers of three.js that end with their contexts */
+const ending = new WeakSet();
+
 /**
- * pythreejs keeps three.js's renderers for later, and those keep lists of all that they ever drew.
+ * pythreejs keeps three.js's renderers for later, and those keep lists of all that they ever drew. If
+ * one does not fit a later view, pythreejs ends it, but not its context; browsers allow few.
  *
  * @param {unknown} _scene
  * @param {any} renderer three.js's
  */
-function clearLists(_scene, { renderLists }) {
-  renderLists.dispose();
+function keepLittle(_scene, renderer) {
+  renderer.renderLists.dispose();
+  if (ending.has(renderer)) return;
+  ending.add(renderer);
+  const { dispose } = renderer;
+  renderer.dispose = () => {
+    dispose.call(renderer);
+    renderer.forceContextLoss();
+  };
 }
 
 /**
@@ -238,7 +250,7 @@ export function uniformVectors() {
  */
 export async function drawingTime(pad, shapes) {
   const times = [];
-  for (let i = 0; i <= N_TIMED; i++) {
+  for (let i = 0; i < MOST_FRAMES && times.length <= N_TIMED; i++) {
     const moving = performance.now();
     shapes.refresh(); // the renderer draws in the next frame, before what is below
     const moved = performance.now() - moving;

@@ -54,6 +54,8 @@ export interface CanvasTraits {
   rest: Rest | Record<string, never>;
   marks: Marks;
   names: string[];
+  /** Width and height of the picture in its pixels. */
+  picture_size: number[];
   onion: [color: string, loops: Point[][]][];
   stiff: [strength: number, loops: Point[][]][];
   brush: Brush | Record<string, never>;

@@ -30,17 +30,17 @@ export class Vertices {
     const moved = meshes.filter(({ name, visible }) => name === MOVED_BY_PAGE && visible);
     if (!moved.length || wire.length !== this.#wire.length) return;
     const coefficients = this.#wire.coefficients(wire);
+    const distorted = new Set(moved.filter(showsDerivatives).map((mesh) => mesh.geometry));
     for (const geometry of new Set(moved.map((mesh) => mesh.geometry))) {
-      const { images, samples } = this.#pointsOf(geometry).evaluate(coefficients);
+      const points = this.#pointsOf(geometry);
       const { image, derivatives } = geometry.attributes;
-      image.array.set(images);
-      const count = image.count;
-      for (let part = 0; part < 4; part++) {
-        for (let i = 0; i < count; i++) derivatives.array[4 * i + part] = samples[part * count + i];
+      image.array.set(points.images(coefficients));
+      image.needsUpdate = true;
+      if (distorted.has(geometry)) {
+        interleave(points.samples(coefficients), derivatives.array);
+        derivatives.needsUpdate = true;
       }
       geometry.userData.wire = wire; // what is drawn, for whoever looks at the page's objects
-      image.needsUpdate = true;
-      derivatives.needsUpdate = true;
     }
   }
 
@@ -54,5 +54,25 @@ export class Vertices {
     const points = new FieldPoints(this.#domain, places);
     this.#points.set(geometry, points);
     return points;
+  }
+}
+
+/**
+ * Whether the map's derivatives are seen: all but the plain picture show them.
+ *
+ * @param {any} mesh three.js's
+ */
+function showsDerivatives({ material }) {
+  return material.uniforms?.overlay?.value !== 0;
+}
+
+/**
+ * @param {Float64Array} samples part by part
+ * @param {Float32Array} into the four parts of each point in turn
+ */
+function interleave(samples, into) {
+  const count = samples.length / 4;
+  for (let part = 0; part < 4; part++) {
+    for (let i = 0; i < count; i++) into[4 * i + part] = samples[part * count + i];
   }
 }

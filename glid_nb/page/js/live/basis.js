@@ -232,7 +232,8 @@ export function pulledThroughSlopes(domain, g) {
 }
 
 /**
- * f_z and conj(f_zbar) at the rows' points.
+ * f_z and conj(f_zbar) at the rows' points; or Phi and Psi there, if the rows are those of the
+ * coordinates and the slopes are the coefficients themselves.
  * @param {Rows} rows
  * @param {Coefficients} slopes
  * @returns {Samples}

@@ -1,13 +1,22 @@
 // A map at many points, such as the vertices of a mesh: images, derivatives and distortion.
 //
-// The rows of the basis at the points are kept, so a new map costs two products.
+// The rows of the basis at the points are kept, so a new map costs a product or two.
 
-import { coordinatesAt, quarters, rowsAt, samplesAt, slopesOf } from "./basis.js";
-import { complexOf, zeros } from "./domain.js";
+import {
+  coordinatesAt,
+  emptyRows,
+  evenly,
+  quarters,
+  rowsAt,
+  samplesAt,
+  slopesOf,
+} from "./basis.js";
+import { complexOf } from "./domain.js";
 
 /** @import { Point } from "../types.js" */
 /** @import { Domain } from "./domain.js" */
-/** @import { Coefficients, Complex, Samples } from "./types.js" */
+/** @import { Rows } from "./basis.js" */
+/** @import { Coefficients, Samples } from "./types.js" */
 
 /**
  * A map at k points. Outside the cage the values mean nothing.
@@ -18,8 +27,10 @@ import { complexOf, zeros } from "./domain.js";
 
 export class FieldPoints {
   #domain;
+  #points;
   #coordinates;
-  #rows;
+  /** @type {Rows | null} made when they are first asked for */
+  #rows = null;
 
   /**
    * @param {Domain} domain
@@ -28,14 +39,14 @@ export class FieldPoints {
   constructor(domain, points) {
     const { columns } = domain;
     this.#domain = domain;
+    this.#points = complexOf(points);
     this.count = points.length;
-    this.#coordinates = zeros(points.length * columns);
+    this.#coordinates = emptyRows(points.length, columns);
     for (const [i, point] of points.entries()) {
       const c = coordinatesAt(domain, point);
-      this.#coordinates.re.set(c.re, i * columns);
-      this.#coordinates.im.set(c.im, i * columns);
+      this.#coordinates.re.set(c.re, i * evenly(columns));
+      this.#coordinates.im.set(c.im, i * evenly(columns));
     }
-    this.#rows = rowsAt(domain, complexOf(points));
   }
 
   /**
@@ -43,38 +54,28 @@ export class FieldPoints {
    * @returns {Field}
    */
   evaluate(coefficients) {
-    const slopes = slopesOf(this.#domain, coefficients);
-    return {
-      images: imagesAt(this.#coordinates, this.count, coefficients),
-      samples: samplesAt(this.#rows, slopes),
-    };
+    return { images: this.images(coefficients), samples: this.samples(coefficients) };
   }
-}
 
-/**
- * Images sum C phi + conj(sum C psi).
- * @param {Complex} coordinates row by row
- * @param {number} count
- * @param {Coefficients} coefficients
- */
-function imagesAt({ re, im }, count, coefficients) {
-  const images = new Float64Array(2 * count);
-  const n = coefficients.length / 4;
-  const [pr, pi, qr, qi] = quarters(coefficients);
-  const sum = { re: pr.map((value, j) => value + qr[j]), im: pi.map((value, j) => value + qi[j]) };
-  const less = { re: pr.map((value, j) => value - qr[j]), im: pi.map((value, j) => value - qi[j]) };
-  for (let i = 0; i < count; i++) {
-    const first = i * n;
-    let x = 0;
-    let y = 0;
-    for (let j = 0; j < n; j++) {
-      x += re[first + j] * sum.re[j] - im[first + j] * sum.im[j];
-      y += re[first + j] * less.im[j] + im[first + j] * less.re[j];
+  /**
+   * Images sum C phi + conj(sum C psi).
+   * @param {Coefficients} coefficients
+   */
+  images(coefficients) {
+    const [fr, fi, gr, gi] = quarters(samplesAt(this.#coordinates, coefficients));
+    const images = new Float64Array(2 * this.count);
+    for (let i = 0; i < this.count; i++) {
+      images[2 * i] = fr[i] + gr[i];
+      images[2 * i + 1] = fi[i] - gi[i];
     }
-    images[2 * i] = x;
-    images[2 * i + 1] = y;
+    return images;
   }
-  return images;
+
+  /** @param {Coefficients} coefficients */
+  samples(coefficients) {
+    this.#rows ??= rowsAt(this.#domain, this.#points);
+    return samplesAt(this.#rows, slopesOf(this.#domain, coefficients));
+  }
 }
 
 /**

@@ -42,7 +42,7 @@ export class Plot {
     this.words = words;
     this.value = make("output", {});
     this.canvas = make("canvas", { "aria-hidden": "true" });
-    const name = make("dt", {}, title);
+    const name = make("span", {}, title);
     this.element = make("div", { className: "plot", title: about }, name, this.value, this.canvas);
   }
 

@@ -1,22 +1,13 @@
-// The icons of the buttons.
+// The icons of the buttons. Those of the tracer's tools are in tracer/tools.js.
 
 import { make } from "./dom.js";
 
 // Outlines on a 16 x 16 grid.
-const PATHS = {
+export const PATHS = {
   edit: "M3 2l9.5 5.2-4 1.2 2.4 4.3-1.8 1-2.4-4.3L3 12z",
-  foreground:
-    "M13.5 2.5l-6 6 M6.7 9.2c-1.6-.5-3 .6-3.1 2.1-.1 1-.7 1.7-1.6 2 2.2.9 5.6.4 5.9-2.2 .1-.8-.4-1.6-1.2-1.9z M9.5 12.5h5 M12 10v5",
-  background:
-    "M13.5 2.5l-6 6 M6.7 9.2c-1.6-.5-3 .6-3.1 2.1-.1 1-.7 1.7-1.6 2 2.2.9 5.6.4 5.9-2.2 .1-.8-.4-1.6-1.2-1.9z M9.5 12.5h5",
   brush:
     "M13.5 2.5l-6 6 M6.7 9.2c-1.6-.5-3 .6-3.1 2.1-.1 1-.7 1.7-1.6 2 2.2.9 5.6.4 5.9-2.2 .1-.8-.4-1.6-1.2-1.9z",
   eraser: "M9.2 2.8l4 4-6.4 6.4H4.4L2.2 11z M5.5 6.6l4 4 M7 13.2h6.5",
-  color:
-    "M9 4l3 3 M10 3.2l1-1a1.6 1.6 0 0 1 2.8 2.2l-1.1 1.1 M9.6 5.2L3.4 11.4 2.5 13.5l2.1-.9 6.2-6.2",
-  component:
-    "M8 1.5v3 M8 11.5v3 M1.5 8h3 M11.5 8h3 M8 5.2a2.8 2.8 0 1 0 0 5.6 2.8 2.8 0 0 0 0-5.6z",
-  polygon: "M8 2l5.5 4-2 7h-7l-2-7z",
   rectangle: "M2.5 4h11v8h-11z",
   undo: "M5.5 3L2.5 6l3 3 M3 6h6.2a3.6 3.6 0 0 1 0 7.2H6",
   redo: "M10.5 3l3 3-3 3 M13 6H6.8a3.6 3.6 0 0 0 0 7.2H10",
@@ -39,7 +30,12 @@ const PATHS = {
 
 /** @param {Icon} name */
 export function icon(name) {
-  return `<svg viewBox="0 0 16 16" aria-hidden="true"><path d="${PATHS[name]}"/></svg>`;
+  return drawn(PATHS[name]);
+}
+
+/** @param {string} path an outline on a 16 x 16 grid */
+function drawn(path) {
+  return `<svg viewBox="0 0 16 16" aria-hidden="true"><path d="${path}"/></svg>`;
 }
 
 /**
@@ -48,5 +44,14 @@ export function icon(name) {
  * @param {((e: MouseEvent) => void) | undefined} onclick
  */
 export function iconButton(name, title, onclick, className = "glid-icon") {
-  return make("button", { title, "aria-label": title, className, onclick, innerHTML: icon(name) });
+  return drawnButton(PATHS[name], title, onclick, className);
+}
+
+/**
+ * @param {string} path its icon, an outline on a 16 x 16 grid
+ * @param {string} title
+ * @param {((e: MouseEvent) => void) | undefined} onclick
+ */
+export function drawnButton(path, title, onclick, className = "glid-icon") {
+  return make("button", { title, "aria-label": title, className, onclick, innerHTML: drawn(path) });
 }

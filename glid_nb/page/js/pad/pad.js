@@ -25,6 +25,8 @@ import { distance } from "./view.js";
  * @property {(found: Found | null, e: PointerEvent) => boolean} [pans] whether the left button moves the view
  * @property {(found: Found | null, e: PointerEvent) => "box" | "lasso" | null} [encloses] what the
  *   left button draws around things
+ * @property {(point: Point, e: PointerEvent) => Point} [constrain] the place that counts in a drag,
+ *   when the pointer is at a point; with it, Shift drags too
  * @property {() => number | undefined} [pressedAt] the time of the motion that is pressed, if one is
  * @property {() => void} [tapped] the space bar was pressed and let go, and nothing was dragged
  * @property {(place: Point, found: Found | null) => void} [menu] opens the menu of what is there,
@@ -171,7 +173,7 @@ export class Pad {
   keydown(e) {
     const key = keyOf(e);
     const command = e.ctrlKey || e.metaKey;
-    const action = command ? undefined : this.behaviour.actions[key.toLowerCase()];
+    const action = command || e.altKey ? undefined : this.behaviour.actions[key.toLowerCase()];
     const history = undoOrRedo(e);
     if (!history && !action && key !== " ") {
       if (e.altKey || !this.behaviour.keys.test(key) || (command && key !== "a")) return;
@@ -234,7 +236,8 @@ export class Pad {
     const { behaviour } = this;
     const found = this.#find(place, e.pointerType);
     const left = e.button === 0;
-    if (left && !e.shiftKey && !e.altKey && found?.mark !== undefined) {
+    const drags = left && !e.altKey && (behaviour.constrain || !e.shiftKey);
+    if (drags && found?.mark !== undefined) {
       this.grip = { from: this.view.toWorld(place), points: behaviour.held(found) };
     }
     this.#pans = left && Boolean(behaviour.pans?.(found, e));
@@ -319,15 +322,16 @@ export class Pad {
    * @param {number} far from where it was pressed, CSS pixels
    */
   #handMoved(place, e, far) {
-    const point = this.view.toWorld(place);
-    this.#lengthenPath(place, point, far);
+    const free = this.view.toWorld(place);
+    this.#lengthenPath(place, free, far);
+    const [x, y] = this.behaviour.constrain?.(free, e) ?? free;
     if (!this.encloses && !this.behaviour.painting) {
-      this.send("move", place, e, { replaces: `move ${e.pointerId}` });
+      this.send("move", place, e, { x, y, replaces: `move ${e.pointerId}` });
     }
     if (this.grip) {
-      const dx = point[0] - this.grip.from[0];
-      const dy = point[1] - this.grip.from[1];
-      for (const [mark, [x, y]] of this.grip.points) this.held.set(mark, [x + dx, y + dy]);
+      const dx = x - this.grip.from[0];
+      const dy = y - this.grip.from[1];
+      for (const [mark, [u, v]] of this.grip.points) this.held.set(mark, [u + dx, v + dy]);
     }
     this.behaviour.changed();
   }

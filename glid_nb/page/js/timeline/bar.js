@@ -3,6 +3,7 @@
 import { make } from "../pad/dom.js";
 import { icon, iconButton } from "../pad/icons.js";
 import { seconds } from "./words.js";
+import { STEP } from "./zoom.js";
 
 /** @import { Shown } from "./traits.js" */
 
@@ -14,6 +15,7 @@ import { seconds } from "./words.js";
  * @property {() => void} keep
  * @property {(type: string, content?: Record<string, unknown>) => void} act
  * @property {(type: string, content?: Record<string, unknown>) => void} edit
+ * @property {(by: number) => void} zoom
  */
 
 /** @typedef {[value: string, label: string]} Choice */
@@ -39,7 +41,7 @@ export class Bar {
   onionOn = false;
 
   /** @param {Does} does */
-  constructor({ play, keep, act, edit }) {
+  constructor({ play, keep, act, edit, zoom }) {
     this.play = iconButton("play", "Play, pause (Space)", play);
     this.repeat = menu("Play once, in a loop, or there and back", REPEATS, (repeat) =>
       act("set_repeat", { repeat }),
@@ -52,13 +54,23 @@ export class Bar {
     this.keep = make("button", { className: "glid-keep", title: KEY, onclick: keep }, "Key");
     const copy = iconButton("copy", "Duplicate this pose", () => edit("duplicate_pose"));
     this.remove = iconButton("trash", "Delete this pose (Delete)", () => edit("delete_pose"));
-    this.save = iconButton("export", "Export the motion", () => act("export"));
+    this.save = iconButton("export", "Export the motion", () => {
+      this.save.dispatchEvent(new CustomEvent("glid:inspect", { bubbles: true }));
+      act("export");
+    });
     this.element = make(
       "div",
       { className: "glid-bar", role: "toolbar", "aria-label": "Motion" },
       ...[this.play, this.repeat, this.clock, gap()],
       ...[this.record, this.onion, gap()],
       ...[this.keep, copy, this.remove, gap(), this.save],
+      make(
+        "span",
+        { className: "glid-zoom" },
+        gap(),
+        iconButton("minus", "See more of the timeline (Ctrl and wheel)", () => zoom(1 / STEP)),
+        iconButton("plus", "See less of the timeline, larger (Ctrl and wheel)", () => zoom(STEP)),
+      ),
     );
   }
 

@@ -26,6 +26,7 @@ function render(context) {
 
   follow(model, {
     "change:shown": () => timeline.showState(),
+    "change:rate": () => timeline.showRate(),
     "change:motion": () => timeline.showMotion(),
     "change:heights": () => timeline.showHeights(),
     "change:thumbnails": () => timeline.showKeys(),

@@ -6,9 +6,10 @@ const LATER = 0.15; // room behind the last keyframe, for the next one, as a sha
 const LEAST = 1.15; // s, of this room
 const MOST_LABELS = 12;
 const LABEL = 38; // CSS pixels that a label needs
-const STEPS = [0.1, 0.2, 0.5, 1, 2, 5, 10, 30, 60, 300, 600]; // s between labels
+const STEPS = [0.02, 0.04, 0.1, 0.2, 0.5, 1, 2, 5, 10, 30, 60, 300, 600]; // s between labels
 const LONGEST_STEP = 1800;
 const SAME = 1e-9; // s
+const WHOLE = 1e-6; // frames
 const ROUNDING = 0.006; // s: times are rounded to hundredths
 
 /**
@@ -53,11 +54,23 @@ export function roomAt(keyframes, index, span) {
  *
  * @param {number} span
  * @param {number} width of the span in CSS pixels; 0 while it is not known
+ * @param {number} zoom how many times as wide as the window it is
  */
-export function labelledTimes(span, width = 0) {
-  const most = width ? Math.min(width / LABEL, MOST_LABELS) : MOST_LABELS;
+export function labelledTimes(span, width = 0, zoom = 1) {
+  const most = width ? Math.min(width / LABEL, MOST_LABELS * zoom) : MOST_LABELS;
   const step = STEPS.find((one) => span / one <= most) ?? LONGEST_STEP;
   return Array.from({ length: Math.floor(span / step) + 1 }, (_, i) => i * step);
+}
+
+/**
+ * The frame of an export that shows a time; null between two frames.
+ *
+ * @param {number} time
+ * @param {number} rate frames in a second
+ */
+export function frameAt(time, rate) {
+  const frame = Math.round(time * rate);
+  return Math.abs(frame - time * rate) < WHOLE ? frame : null;
 }
 
 /**

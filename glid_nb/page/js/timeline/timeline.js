@@ -13,7 +13,6 @@ import { noteOn } from "./words.js";
 /** @import { Context, Model } from "../types.js" */
 /** @import { TimelineTraits } from "./traits.js" */
 
-const STEP = 1 / 30; // s, of the arrow keys
 const NUDGE = 0.1; // s, with Alt
 
 export class Timeline {
@@ -52,12 +51,14 @@ export class Timeline {
       keep: () => this.keep(),
       act: (type, content) => void this.act(type, content),
       edit: (type, content) => void this.edit(type, content),
+      zoom: (by) => this.track.zoom.zoom(by),
     });
     this.track = new Track({
       scrub: (time) => this.#scrub(time),
       scrubbed: () => this.#selectHere(),
       select: (index) => this.select(index),
       move: (index, time) => void this.act("move_pose", { index, time }),
+      rename: (index, name) => void this.act("rename_pose", { index, name }),
       hover: (text) => {
         this.#hovered = text;
         this.tell();
@@ -67,7 +68,7 @@ export class Timeline {
         this.showHead();
       },
     });
-    const parts = [this.bar.element, this.note, legend(), this.track.element];
+    const parts = [this.bar.element, this.note, legend(), this.track.zoom.box];
     this.root.append(make("div", { className: "glid-timeline-parts" }, ...parts));
     this.root.addEventListener("keydown", (e) => this.#keydown(e));
     this.root.addEventListener("keyup", (e) => {
@@ -141,6 +142,10 @@ export class Timeline {
     const end = this.spans.at(-1)?.end ?? keyframes[keyframes.length - 1].time;
     this.track.showHead(place, seen);
     this.bar.showTime(place, end, playing);
+  }
+
+  showRate() {
+    this.track.showRate(this.model.get("rate"));
   }
 
   showKeys() {
@@ -240,6 +245,8 @@ export class Timeline {
         return () => this.#step(e, -1);
       case "ArrowRight":
         return () => this.#step(e, 1);
+      case "F2":
+        return () => this.track.rename();
       case "Delete":
       case "Backspace":
         return () => void this.edit("delete_pose");
@@ -270,7 +277,7 @@ export class Timeline {
     } else if (e.shiftKey) {
       this.select(nextKey(keyframes, player.place, sign) ?? active);
     } else {
-      this.#scrub(player.place + sign * STEP);
+      this.#scrub(player.place + sign / track.rate);
     }
   }
 }

@@ -5,8 +5,10 @@
 import { heightOf } from "../motion/strip.js";
 import { make } from "../pad/dom.js";
 import { scaleOf } from "../pad/place.js";
-import { labelledTimes, landing, roomAt, spanOf, withReturn } from "./scale.js";
+import { nameField } from "./name_field.js";
+import { frameAt, labelledTimes, landing, roomAt, spanOf, withReturn } from "./scale.js";
 import { seconds } from "./words.js";
+import { INSET, Zoom } from "./zoom.js";
 
 /** @import { Shown, Span, TimelineTraits } from "./traits.js" */
 
@@ -18,21 +20,24 @@ import { seconds } from "./words.js";
  * @property {() => void} scrubbed the pointer was let go
  * @property {(index: number) => void} select
  * @property {(index: number, time: number) => void} move moves a keyframe
+ * @property {(index: number, name: string) => void} rename renames a keyframe
  * @property {(text: string) => void} hover says what lies below the pointer
  * @property {() => void} dropped what was dragged is let go, so all is shown again
  */
 
 /** @typedef {{ index: number, from: number, x: number, time: number | null }} Drag a keyframe's */
 
+const DOUBLE_CLICK = 400; // ms
 // CSS pixels.
 const SNAP = 6; // around a keyframe, of a pointer that scrubs
 const STILL = 4; // that a click may move
 const SLIM = 8; // width of a keyframe, at least
 const WIDE = 60; // at most
-const INSET = 34; // --glid-inset of the style sheet
+const LEAST_FRAME = 6; // width of a frame that gets a tick
 
 export class Track {
   span = 1; // s, what it shows
+  rate = 25; // frames in a second of an export
   keys = make("div", { className: "glid-keys" });
   head = make("div", { className: "glid-playhead" });
   ruler = make("div", {
@@ -43,6 +48,7 @@ export class Track {
     "aria-valuemin": 0,
   });
 
+  #last = { index: -1, at: 0 }; // the click on a keyframe before
   /** @type {Drag | null} */
   #drag = null;
   /** @type {number | null} the pointer that scrubs */
@@ -60,10 +66,36 @@ export class Track {
     });
     const parts = [this.ruler, this.keys, this.strip, this.head];
     this.element = make("div", { className: "glid-track" }, ...parts);
+    this.zoom = new Zoom(this.element, () => this.#label());
     new ResizeObserver(() => this.#label()).observe(this.ruler);
     this.element.addEventListener("pointerdown", (e) => this.#down(e));
     this.element.addEventListener("pointermove", (e) => this.#scrub(e));
     this.element.addEventListener("lostpointercapture", (e) => this.#up(e));
+  }
+
+  /**
+   * Opens a field for the name of a keyframe, by default of the one that has the focus.
+   *
+   * @param {number} index
+   */
+  rename(index = this.#focused()) {
+    const key = this.#shown?.keyframes[index];
+    if (!key) return;
+    const rename = (/** @type {string} */ name) => this.hand.rename(index, name);
+    nameField(this.element, this.#at(key.time), key.name, rename, () => this.focus());
+  }
+
+  // The index of the keyframe that has the focus, -1 for none.
+  #focused() {
+    const root = /** @type {Document | ShadowRoot} */ (this.keys.getRootNode());
+    const active = /** @type {Element} */ (root.activeElement);
+    return [...this.keys.children].indexOf(active);
+  }
+
+  /** @param {number} rate frames in a second of an export */
+  showRate(rate) {
+    this.rate = rate;
+    this.#label();
   }
 
   focus() {
@@ -101,6 +133,7 @@ export class Track {
     this.element.dataset.span = String(this.span);
     this.ruler.setAttribute("aria-valuenow", place.toFixed(2));
     this.ruler.setAttribute("aria-valuetext", seconds(place));
+    if (seen && this.#scrubbing === null) this.zoom.reveal(this.head.offsetLeft);
   }
 
   /**
@@ -113,9 +146,7 @@ export class Track {
     const all = withReturn(shown);
     this.span = spanOf(all);
     this.ruler.setAttribute("aria-valuemax", this.span.toFixed(2));
-    const root = /** @type {Document | ShadowRoot} */ (this.keys.getRootNode());
-    const active = /** @type {Element} */ (root.activeElement);
-    const focused = [...this.keys.children].indexOf(active);
+    const focused = this.#focused();
     this.keys.replaceChildren(
       ...all.map(({ name, time, thumbnail }, i) => {
         const title = `${name} at ${seconds(time)}`;
@@ -154,11 +185,18 @@ export class Track {
   }
 
   #label() {
-    const { ruler, span } = this;
-    const labels = labelledTimes(span, Math.max(ruler.clientWidth - 2 * INSET, 0)).map((time) =>
-      make("span", { style: `left: ${this.#at(time)}` }, `${Number(time.toFixed(1))}`),
-    );
-    ruler.replaceChildren(...labels);
+    const { ruler, span, rate } = this;
+    const width = Math.max(ruler.clientWidth - 2 * INSET, 0);
+    const labels = labelledTimes(span, width, this.zoom.factor).map((time) => {
+      const frame = frameAt(time, rate);
+      const number = frame === null ? [] : [make("small", {}, `${frame}`)];
+      const text = `${Number(time.toFixed(2))}`;
+      return make("span", { style: `left: ${this.#at(time)}` }, text, ...number);
+    });
+    const frame = width / (span * rate);
+    const ticks = make("i", { className: "glid-frames", hidden: frame < LEAST_FRAME });
+    ticks.style.setProperty("--glid-frame", `${frame}px`);
+    ruler.replaceChildren(ticks, ...labels);
   }
 
   /** @param {Span} span */
@@ -254,8 +292,22 @@ export class Track {
       this.focus();
       this.hand.move(index, time);
     } else if (index < (this.#shown?.keyframes.length ?? 0)) {
-      this.hand.select(index);
+      this.#clicked(index);
     }
+  }
+
+  /**
+   * A first click selects the keyframe, so its button is made anew, and the page tells no double
+   * click of it.
+   *
+   * @param {number} index
+   */
+  #clicked(index) {
+    const now = performance.now();
+    const last = this.#last;
+    this.#last = { index, at: now };
+    if (last.index === index && now - last.at < DOUBLE_CLICK) this.rename(index);
+    else this.hand.select(index);
   }
 
   /** @param {PointerEvent} e */

@@ -40,6 +40,8 @@ export interface Shown {
 
 export interface TimelineTraits {
   stage: string;
+  /** Frames in a second of an export. */
+  rate: number;
   shown: Shown;
   motion: { spans: Span[] };
   heights: { times: number[]; floats: DataView };

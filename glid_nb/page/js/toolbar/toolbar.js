@@ -15,6 +15,10 @@ const TOOLS = [
   ["erase", "eraser", "Erase stiff areas (E)"],
 ];
 
+// Not among the icons, which pages without an inspector have too.
+const INSPECTOR =
+  '<svg viewBox="0 0 16 16" aria-hidden="true"><path d="M2 3h12v10H2z M10 3v10"/></svg>';
+
 export class Toolbar {
   /** @param {Model<ToolbarTraits>} model */
   constructor(model) {
@@ -33,6 +37,7 @@ export class Toolbar {
       ...[...this.tools, gap(), this.undo, this.redo, gap(), this.view.button, this.view.menu],
       make("span", { className: "glid-grow" }),
       iconButton("fit", "See everything (F)", () => this.#press("f")),
+      this.#inspector(),
       iconButton("screen", "Full screen (W)", () => this.#press("w")),
       this.#help(),
     );
@@ -61,6 +66,12 @@ export class Toolbar {
   #press(key) {
     const event = new CustomEvent("glid:press", { detail: key });
     this.#find(".glid-pad:not([inert])")?.dispatchEvent(event);
+  }
+
+  #inspector() {
+    const title = "Hide the inspector, show it again (I)";
+    const look = { className: "glid-icon", title, "aria-label": title, innerHTML: INSPECTOR };
+    return make("button", { ...look, onclick: () => this.#press("i") });
   }
 
   // The table of keys belongs to the canvas, which may come later than this bar.

@@ -38,6 +38,7 @@ export function drawStage(pen, stage, scene, hover) {
   if (stage.brushing || shown.options.method === "scribbles") drawStrokes(pen, stage, scene);
   if (loops.length && !(stage.drawing && shown.doubt)) drawCage(pen, stage, scene, hover);
   if (stage.drawing || shown.inside.length) drawOutline(pen, stage, scene);
+  if (stage.cutting) drawKnife(pen, stage, scene);
   for (const { point } of shown.problems) {
     if (!point) continue;
     circle(pen, view.toScreen(point), 13, [
@@ -148,6 +149,22 @@ function drawOutline(pen, stage, { shown, colors }) {
     [2, color],
   ]);
   for (const corner of shown.corners) disk(pen, view.toScreen(corner), 4, "white", color, 2);
+}
+
+/**
+ * The line of a cut, as far as it goes.
+ *
+ * @param {Pen} pen
+ * @param {Stage} stage
+ * @param {Scene} scene
+ */
+function drawKnife(pen, { view, pad: { path } }, { colors }) {
+  if (!path.length) return;
+  pen.lineCap = "butt";
+  pen.lineJoin = "round";
+  tracePath(pen, [view.line(path)], false);
+  strokePath(pen, [[5, HALO]]);
+  strokePath(pen, [[2.25, colors.warn]], [7, 4]);
 }
 
 /**

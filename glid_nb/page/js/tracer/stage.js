@@ -34,7 +34,7 @@ const COLORS = [
   "check-light",
   "check-dark",
 ];
-const KEYS = /^(Arrow\w+|Delete|Backspace|Escape|Enter|[[\]vbnicpr])$/i;
+const KEYS = /^(Arrow\w+|Delete|Backspace|Escape|Enter|[[\]])$/;
 
 /** @implements {Behaviour} */
 export class Stage {
@@ -216,6 +216,10 @@ export class Stage {
     return this.tool === "polygon" || this.tool === "rectangle";
   }
 
+  get cutting() {
+    return this.tool === "knife";
+  }
+
   // The pad's behaviour
 
   reach = REACH;
@@ -229,7 +233,7 @@ export class Stage {
   };
 
   get painting() {
-    return this.brushing || this.drawing;
+    return this.brushing || this.drawing || this.cutting;
   }
 
   /**

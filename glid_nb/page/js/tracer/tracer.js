@@ -2,7 +2,7 @@
 
 import { make } from "../pad/dom.js";
 import { help } from "../pad/help.js";
-import { iconButton } from "../pad/icons.js";
+import { drawnButton, iconButton } from "../pad/icons.js";
 import { keysAround } from "../pad/keys.js";
 import { Link } from "../pad/link.js";
 import { Panel } from "./panel.js";
@@ -29,10 +29,13 @@ export class Tracer {
     this.stage = new Stage(this.root, this.link, (file) => this.upload(file), signal);
     this.panel = new Panel((type, content) => void this.act(type, content), this.stage);
     this.tools = TOOL_NAMES.map((name) => {
-      const button = iconButton(name, TOOLS[name].label, undefined);
+      const button = drawnButton(TOOLS[name].icon, TOOLS[name].label, undefined);
       button.dataset.tool = name;
       return button;
     });
+    for (const name of TOOL_NAMES) {
+      this.stage.actions[TOOLS[name].key] = () => this.#chooseTool(name);
+    }
     this.undo = iconButton("undo", "Undo (Ctrl+Z)", () => this.act("undo"));
     this.redo = iconButton("redo", "Redo (Ctrl+Shift+Z)", () => this.act("redo"));
     this.discard = make(
@@ -44,7 +47,8 @@ export class Tracer {
       "Discard edits",
     );
     this.question = this.#askAbout();
-    this.stage.element.append(this.question);
+    this.pieces = this.#askWhichPiece();
+    this.stage.element.append(this.question, this.pieces);
     const keys = help(HELP);
     this.stage.element.append(keys.table);
     this.stage.actions["?"] = keys.toggle;
@@ -54,7 +58,7 @@ export class Tracer {
       this.status,
     );
     keysAround(this.stage.element, (e) => this.stage.pad.keydown(e), signal, this.root);
-    this.root.addEventListener("click", (e) => this.#chooseTool(e));
+    this.root.addEventListener("click", (e) => this.#clicked(e));
     el.classList.add("glid-host");
     el.append(this.root);
   }
@@ -102,6 +106,7 @@ export class Tracer {
     this.redo.disabled = !shown.can_redo;
     this.discard.hidden = !shown.edited;
     this.question.hidden = !shown.inside.length;
+    this.pieces.hidden = (shown.cut?.shares.length ?? 1) < 2;
     for (const button of this.tools) button.disabled = !shown.size;
     if (this.link.idle) this.#showTool(shown.tool);
     this.showStatus();
@@ -132,21 +137,41 @@ export class Tracer {
 
   // Asks what an outline inside the shape should be.
   #askAbout() {
-    const answer = (/** @type {string} */ label, /** @type {string} */ what) => {
-      const onclick = () => {
-        this.act("drawn_as", { what });
-        this.stage.canvas.focus({ preventScroll: true });
-      };
-      return make("button", { onclick }, label);
-    };
-    return make(
-      "div",
-      { className: "glid-question", role: "group", "aria-label": "What you drew", hidden: true },
+    const answer = (/** @type {string} */ label, /** @type {string} */ what) =>
+      this.#answer(label, () => this.act("drawn_as", { what }));
+    return question(
+      "What you drew",
       "What you drew lies inside the shape. It is ",
       answer("a hole", "hole"),
       answer("the new outline", "outline"),
       answer("nothing", ""),
     );
+  }
+
+  // Asks which piece to keep of a shape that was cut apart.
+  #askWhichPiece() {
+    const keepNext = () => {
+      const { shares, kept } = this.shown?.cut ?? { shares: [], kept: 0 };
+      return this.act("keep_piece", { number: (kept + 1) % shares.length });
+    };
+    return question(
+      "Pieces of the cut",
+      "Only the outlined piece is kept. ",
+      this.#answer("Keep another", keepNext),
+      this.#answer("Undo the cut", () => this.act("undo")),
+    );
+  }
+
+  /**
+   * @param {string} label
+   * @param {() => unknown} act
+   */
+  #answer(label, act) {
+    const onclick = () => {
+      act();
+      this.stage.canvas.focus({ preventScroll: true });
+    };
+    return make("button", { onclick }, label);
   }
 
   /** @param {HTMLButtonElement} help */
@@ -172,16 +197,22 @@ export class Tracer {
     );
   }
 
-  /**
-   * A tool is shown at once; the kernel changes it after what was done with the last one.
-   *
-   * @param {MouseEvent} e
-   */
-  #chooseTool(e) {
+  /** @param {MouseEvent} e */
+  #clicked(e) {
     /** @type {HTMLElement | null} */
     const button = /** @type {Element} */ (e.target).closest("[data-tool]");
     const name = /** @type {Tool | undefined} */ (button?.dataset.tool);
-    if (!name) return;
+    if (name) this.#chooseTool(name);
+  }
+
+  /**
+   * A tool is shown at once, so that a drag right after its key does not move the view; the kernel
+   * changes it after what was done with the last one.
+   *
+   * @param {Tool} name
+   */
+  #chooseTool(name) {
+    if (!this.shown?.size) return;
     this.#showTool(name);
     this.act("tool", { name });
   }
@@ -198,4 +229,16 @@ export class Tracer {
 
 function gap() {
   return make("span", { className: "glid-gap" });
+}
+
+/**
+ * A question over the stage, with its answers.
+ *
+ * @param {string} name for screen readers
+ * @param {string} text
+ * @param {HTMLElement[]} answers
+ */
+function question(name, text, ...answers) {
+  const look = { className: "glid-question", role: "group", "aria-label": name, hidden: true };
+  return make("div", look, text, ...answers);
 }

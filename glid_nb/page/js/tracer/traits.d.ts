@@ -46,6 +46,8 @@ export interface Shown {
   corners: Point[];
   /** An outline drawn inside the shape, of which it is not known yet what it is; else empty. */
   inside: Point[];
+  /** What the knife did last: its pieces as shares of the shape, and which one is kept. */
+  cut: { shares: number[]; kept: number; in_middle: boolean } | null;
   selected: [loop: number, index: number][];
 }
 
@@ -56,7 +58,8 @@ export type Tool =
   | "color"
   | "component"
   | "polygon"
-  | "rectangle";
+  | "rectangle"
+  | "knife";
 
 export interface TracerTraits {
   picture: DataView<ArrayBuffer>;

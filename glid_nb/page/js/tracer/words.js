@@ -18,9 +18,25 @@ export function statusOf(shown, refusal, busy) {
     const kept = "This is not a valid cage; the last valid cage is kept";
     return { kind: "bad", text: shown.loops.length ? kept : "There is no cage yet" };
   }
-  const text = cageOf(shown) + moreOn(shown);
+  const text = cutOf(shown) + cageOf(shown) + moreOn(shown);
   const { doubt } = shown;
   return doubt ? { kind: "guess", text: `A guess, as ${doubt} · ${text}` } : { kind: "ok", text };
+}
+
+/**
+ * What the knife did.
+ *
+ * @param {Shown} shown
+ */
+function cutOf({ cut }) {
+  if (!cut) return "";
+  const { shares, kept, in_middle: inMiddle } = cut;
+  if (shares.length > 1) {
+    const percent = Math.round(100 * shares[kept]);
+    const rest = shares.length > 2 ? "the others are left out" : "the other one is left out";
+    return `Cut into ${shares.length} pieces: ${percent} % of the shape is kept, ${rest} · `;
+  }
+  return inMiddle ? "Cut inside the shape, as a thin hole · " : "Cut open along the line · ";
 }
 
 /** @param {Shown} shown */
