@@ -111,7 +111,8 @@ def _read_nrrd(path: Path, spacing: tuple[float, float] | None) -> Warp:
     try:
         data, header = nrrd.read(str(path))
     except Exception as error:  # pynrrd's own errors, and others for damaged files
-        raise AuditError(f"it is not an NRRD file: {error}") from None
+        told = str(error) or type(error).__name__
+        raise AuditError(f"it is not an NRRD file, or is damaged: {told}") from None
     directions = header.get("space directions")
     if directions is None:
         own = [step for step in np.ravel(header.get("spacings", ())) if np.isfinite(step)]

@@ -1,5 +1,6 @@
 """Points and coefficients as complex numbers, from whatever they are given as."""
 
+from numbers import Real
 from typing import Any
 
 import numpy as np
@@ -26,7 +27,7 @@ def as_complex(points: Any) -> Array:
         z = array[:, 0] + 1j * array[:, 1]
     bad = np.flatnonzero(~np.isfinite(z))
     if bad.size:
-        x, y = z[bad[0]].real, z[bad[0]].imag
+        x, y = np.real(z[bad[0]]), np.imag(z[bad[0]])
         raise MapError(f"point {bad[0]} is ({x:g}, {y:g}); coordinates must be finite")
     return z
 
@@ -39,7 +40,8 @@ def _pairs(points: Any) -> Array:
     try:
         return number_pairs(points, wanted, MapError)
     except MapError as error:
-        if np.shape(points) == (2,):
+        one = isinstance(points, list | tuple | np.ndarray) and len(points) == 2
+        if one and all(isinstance(number, Real) for number in points):
             raise MapError(f"{error}; write one point as [[x, y]]") from None
         raise
     except RuntimeError as error:  # such as PyTorch's, of a tensor that requires a gradient

@@ -39,9 +39,9 @@ class HarmonicTransform:
         """The map of least distortion that takes the (k, 2) landmarks ``src`` to ``dst``.
 
         ``domain`` holds ``src``; by default it is their bounding box with room for a quarter of its
-        longer side all around. ``how`` goes to `glid_nb.solve`: an energy, options. Landmarks are
-        met closely, not exactly: see :meth:`residuals`. Raises a LandmarkError for landmarks that
-        are not pairs, lie outside the domain, or are given as (row, column).
+        longer side all around. ``how`` goes to `glid_nb.solve`: an energy, options, a callback.
+        Landmarks are met closely, not exactly: see :meth:`residuals`. Raises a LandmarkError for
+        landmarks that are not pairs, lie outside the domain, or are given as (row, column).
         """
         for name, value in (("src", src), ("dst", dst)):
             _check_unmasked(name, value)

@@ -57,6 +57,10 @@ def solve(
     a step, when panels must be split first. With other methods it is called at the start and after
     each iteration. If it returns ``True``, the solve stops.
 
+    Targets that cannot be met take the longest: a high energy makes the solve try its restarts, and
+    the first solve of this kind compiles further programs. ``Options(restarts=0)`` makes it one
+    descent, and a callback can show how far it is and end it after a given time.
+
     Raises a TypeError that names an argument of the wrong type; a PoseError when a handle lies
     outside the domain; an EnergyError for an unknown energy; a StartError when the start belongs to
     another domain, is not conformal though the options ask for conformal maps, or is not proved

@@ -136,6 +136,12 @@ def test_what_cannot_be_is_refused() -> None:
         f()(POSE.targets)
     with pytest.raises(SensitivityError, match=r"targets have the shape \(2, 2\)"):
         f()(POSE.targets[:2])
+    with pytest.raises(PoseError, match=r"targets\[0\] is"):
+        f()(np.full((3, 2), np.nan))
+    with pytest.raises(PoseError, match="lies outside the domain"):
+        f()(handles=POSE.handles + 50)
+    with pytest.raises(PoseError, match=r"weights\[0\] is -1"):
+        f()(weights=-np.ones(3))
     with pytest.raises(SensitivityError, match="no parameter s"):
         differentiable(domain("ell"), POSE)(s=1.0)
     with pytest.raises(PoseError, match="outside the domain"):
