@@ -596,17 +596,18 @@ fr,fi,gr,gi]=quarters(samplesAt(this.#coordinates,coefficients));const images=ne
 count);for(let i=0;i<this.count;i++){images[2*i]=fr[i]+gr[i];images[2*i+1]=fi[i]-gi[i]}return images}samples(coefficients){
 this.#rows??=rowsAt(this.#domain,this.#points);return samplesAt(this.#rows,slopesOf(this.#domain,coefficients))}};var MOVED_BY_PAGE="moved by the page";var Vertices=class{#domain;#wire;#points=new WeakMap;constructor({
 outline,...sizes}){this.#domain=new Domain(outline);this.#wire=new Wire(outline,sizes)}move(meshes,wire){
-const moved=meshes.filter(({name,visible})=>name===MOVED_BY_PAGE&&visible);if(!moved.length||wire.length!==
-this.#wire.length)return;const coefficients=this.#wire.coefficients(wire);const distorted=new Set(moved.
-filter(showsDerivatives).map(mesh=>mesh.geometry));for(const geometry of new Set(moved.map(mesh=>mesh.
-geometry))){const points=this.#pointsOf(geometry);const{image,derivatives}=geometry.attributes;image.
-array.set(points.images(coefficients));image.needsUpdate=true;if(distorted.has(geometry)){interleave(
-points.samples(coefficients),derivatives.array);derivatives.needsUpdate=true}geometry.userData.wire=
-wire}}#pointsOf(geometry){const known=this.#points.get(geometry);if(known)return known;const{array,count}=geometry.
-attributes.position;const places=Array.from({length:count},(_,i)=>[array[3*i],array[3*i+1]]);const points=new FieldPoints(
-this.#domain,places);this.#points.set(geometry,points);return points}};function showsDerivatives({material}){
-return material.uniforms?.overlay?.value!==0}function interleave(samples,into){const count=samples.length/
-4;for(let part=0;part<4;part++){for(let i=0;i<count;i++)into[4*i+part]=samples[part*count+i]}}var NEAR=8;var LEAD="glid:lead";var N_TIMED=3;var MOST_FRAMES=100;var Shapes=class{motion=null;lead=null;led=()=>{};#vertices=null;#materials=[];#camera=null;#renderer=null;#loading=0;#lifted=null;#resting=null;constructor(model,view){
+const moved=meshes.filter(movedByPage);if(!moved.length||wire.length!==this.#wire.length)return;const coefficients=this.#wire.
+coefficients(wire);const distorted=new Set(moved.filter(showsDerivatives).map(mesh=>mesh.geometry));
+for(const geometry of new Set(moved.map(mesh=>mesh.geometry))){const points=this.#pointsOf(geometry);
+const{image,derivatives}=geometry.attributes;image.array.set(points.images(coefficients));image.needsUpdate=
+true;if(distorted.has(geometry)){interleave(points.samples(coefficients),derivatives.array);derivatives.
+needsUpdate=true}geometry.userData.wire=wire}}#pointsOf(geometry){const known=this.#points.get(geometry);
+if(known)return known;const{array,count}=geometry.attributes.position;const places=Array.from({length:count},
+(_,i)=>[array[3*i],array[3*i+1]]);const points=new FieldPoints(this.#domain,places);this.#points.set(
+geometry,points);return points}};function movedByPage({name,visible}){return name===MOVED_BY_PAGE&&visible}
+function showsDerivatives({material}){return material.uniforms?.overlay?.value!==0}function interleave(samples,into){
+const count=samples.length/4;for(let part=0;part<4;part++){for(let i=0;i<count;i++)into[4*i+part]=samples[part*
+count+i]}}var NEAR=8;var LEAD="glid:lead";var N_TIMED=3;var MOST_FRAMES=100;var Shapes=class{motion=null;lead=null;led=()=>{};#vertices=null;#materials=[];#camera=null;#renderer=null;#loading=0;#lifted=null;#resting=null;constructor(model,view){
 this.model=model;this.view=view;model.on("change:outline",()=>this.#takeOutline());this.#takeOutline();
 model.on("change:materials change:camera change:renderer",()=>this.load())}async load(){this.#loading+=
 1;const turn=this.#loading;const{model}=this;const references=[model.get("camera"),model.get("render\
@@ -619,36 +620,42 @@ for(const view of Object.values(renderer.views))view.then(drawNoMore);renderer.o
 this);this.refresh()}#forget(){this.#renderer?.off(null,null,this);for(const material of this.#materials)
 material.off(null,null,this);this.#materials=[]}#takeOutline(){const outlined=this.model.get("outlin\
 e");this.#vertices=outlined?.outline?new Vertices(outlined):null}showLead(lead){this.#renderer?.trigger(
-LEAD,lead)}#takeLead(lead){this.lead=lead;this.refresh();this.led()}refresh(){const{motion}=this;const moved=motion instanceof
-Float32Array&&motion.length?motion:null;const floats=moved??this.lead?.floats??toFloats(this.model.get(
-"coefficients"));this.#vertices?.move(this.#renderer?.get("scene").obj?.children??[],floats);for(const{
-obj}of this.#materials){const{cage,coefficients,holes,by_margin:byMargin}=obj?.uniforms??{};if(byMargin?.
-value)byMargin.value=motion?2:1;if(!coefficients)continue;const chain=cage.value.length;if(floats.length!==
-chain+holes.value.length)continue;coefficients.value=floats.subarray(0,chain);holes.value=floats.subarray(
-chain)}this.see();this.redraw()}lift(heights){const picture=this.#renderer?.get("scene").obj?.children[0];
-const position=picture?.geometry.attributes.position;if(!position)return;if(position.array!==this.#lifted)
-this.#resting=position.array;const resting=this.#resting;if(heights?.length===position.count){const lifted=position.
-array===resting?resting.slice():position.array;heights.forEach((height,i)=>{lifted[3*i+2]=height});if(position.
-array===resting)position.setArray(lifted);this.#lifted=lifted}else{if(position.array===resting)return;
-position.setArray(resting)}position.needsUpdate=true}see(){const{x,y,unit,width,height}=this.view;const w=width/
-2*unit;const h=height/2*unit;for(const{obj}of this.#materials){if(obj?.uniforms?.pixel)obj.uniforms.
-pixel.value=unit}this.#camera?.set({left:x-w,right:x+w,top:y+h,bottom:y-h})}redraw(){this.#renderer?.
-trigger("rerender",this.#renderer,{})}close(){this.#loading+=1;this.#forget()}};var ending=new WeakSet;
-function keepLittle(_scene,renderer){renderer.renderLists.dispose();if(ending.has(renderer))return;ending.
-add(renderer);const{dispose}=renderer;renderer.dispose=()=>{dispose.call(renderer);renderer.forceContextLoss()}}
-function drawNoMore(view){view.once("remove",()=>{view.renderScene=()=>{}})}function drawnBelow(pad){
-return pad.closest(".glid-pane")?.querySelector(".jupyter-threejs canvas")}function coveredNear(pad,[
-x,y]){const drawn2=drawnBelow(pad);if(!drawn2)return false;const size=2*NEAR;const pen=penOf(make("c\
-anvas",{width:size,height:size}));const ratio=drawn2.width/pad.clientWidth;pen.drawImage(drawn2,NEAR-
-Math.floor(x*ratio),NEAR-Math.floor(y*ratio));const{data}=pen.getImageData(0,0,size,size);return data.
-some((value,i)=>i%4===3&&value>0)}function uniformVectors(){const canvas=make("canvas");const gl=canvas.
-getContext("webgl2")||canvas.getContext("webgl");if(!gl)return 0;const count=gl.getParameter(gl.MAX_VERTEX_UNIFORM_VECTORS);
-gl.getExtension("WEBGL_lose_context")?.loseContext();return count}async function drawingTime(pad,shapes){
-const times=[];for(let i=0;i<MOST_FRAMES&&times.length<=N_TIMED;i++){const moving=performance.now();
-shapes.refresh();const moved=performance.now()-moving;await new Promise(go=>requestAnimationFrame(go));
-const canvas=drawnBelow(pad);const gl=canvas?.getContext("webgl")||canvas?.getContext("webgl2");if(!gl)
-continue;const start=performance.now();gl.readPixels(0,0,1,1,gl.RGBA,gl.UNSIGNED_BYTE,new Uint8Array(
-4));times.push(moved+performance.now()-start)}return times.length>1?Math.min(...times.slice(1)):0}var SAVE_VIEW_AFTER=250;var STILL={release(){},pause:()=>void 0};var Canvas=class{legend=new Legend;notices=new Notices;help=help(
+LEAD,lead)}#takeLead(lead){this.lead=lead;this.refresh();this.led()}get movesVertices(){return this.#meshes.
+some(movedByPage)}get#meshes(){return this.#renderer?.get("scene").obj?.children??[]}refresh(){const{
+motion}=this;const moved=motion instanceof Float32Array&&motion.length?motion:null;const floats=moved??
+this.lead?.floats??toFloats(this.model.get("coefficients"));this.#vertices?.move(this.#meshes,floats);
+for(const{obj}of this.#materials){const{cage,coefficients,holes,by_margin:byMargin}=obj?.uniforms??{};
+if(byMargin?.value)byMargin.value=motion?2:1;if(!coefficients)continue;const chain=cage.value.length;
+if(floats.length!==chain+holes.value.length)continue;coefficients.value=floats.subarray(0,chain);holes.
+value=floats.subarray(chain)}this.see();this.redraw()}lift(heights){const picture=this.#renderer?.get(
+"scene").obj?.children[0];const position=picture?.geometry.attributes.position;if(!position)return;if(position.
+array!==this.#lifted)this.#resting=position.array;const resting=this.#resting;if(heights?.length===position.
+count){const lifted=position.array===resting?resting.slice():position.array;heights.forEach((height,i)=>{
+lifted[3*i+2]=height});if(position.array===resting)position.setArray(lifted);this.#lifted=lifted}else{
+if(position.array===resting)return;position.setArray(resting)}position.needsUpdate=true}see(){const{
+x,y,unit,width,height}=this.view;const w=width/2*unit;const h=height/2*unit;for(const{obj}of this.#materials){
+if(obj?.uniforms?.pixel)obj.uniforms.pixel.value=unit}this.#camera?.set({left:x-w,right:x+w,top:y+h,
+bottom:y-h})}redraw(){this.#renderer?.trigger("rerender",this.#renderer,{})}close(){this.#loading+=1;
+this.#forget()}};var ending=new WeakSet;function keepLittle(_scene,renderer){renderer.renderLists.dispose();
+if(ending.has(renderer))return;ending.add(renderer);const{dispose}=renderer;renderer.dispose=()=>{dispose.
+call(renderer);renderer.forceContextLoss()}}function drawNoMore(view){view.once("remove",()=>{view.renderScene=
+()=>{}})}function drawnBelow(pad){return pad.closest(".glid-pane")?.querySelector(".jupyter-threejs \
+canvas")}function coveredNear(pad,[x,y]){const drawn2=drawnBelow(pad);if(!drawn2)return false;const size=2*
+NEAR;const pen=penOf(make("canvas",{width:size,height:size}));const ratio=drawn2.width/pad.clientWidth;
+pen.drawImage(drawn2,NEAR-Math.floor(x*ratio),NEAR-Math.floor(y*ratio));const{data}=pen.getImageData(
+0,0,size,size);return data.some((value,i)=>i%4===3&&value>0)}function uniformVectors(){const canvas=make(
+"canvas");const gl=canvas.getContext("webgl2")||canvas.getContext("webgl");if(!gl)return 0;const count=gl.
+getParameter(gl.MAX_VERTEX_UNIFORM_VECTORS);gl.getExtension("WEBGL_lose_context")?.loseContext();return count}
+async function drawingTime(pad,shapes){const times=[];for(let i=0;i<MOST_FRAMES&&times.length<=N_TIMED;i++){
+const moving=performance.now();shapes.refresh();const moved=performance.now()-moving;await new Promise(
+go=>requestAnimationFrame(go));const canvas=drawnBelow(pad);const gl=canvas?.getContext("webgl")||canvas?.
+getContext("webgl2");if(!gl)continue;const start=performance.now();gl.readPixels(0,0,1,1,gl.RGBA,gl.
+UNSIGNED_BYTE,new Uint8Array(4));times.push(moved+performance.now()-start)}return times.length>1?Math.
+min(...times.slice(1)):0}var PAUSE=500;var Spacing=class{#put;#waits=null;#timer;constructor(put){this.#put=put}put(event,mayWait){
+if(mayWait&&this.#timer!==void 0){this.#waits=event;return Promise.resolve(null)}this.#flush();if(mayWait)
+this.#pause();return this.#put(event)}close(){clearTimeout(this.#timer)}#pause(){this.#timer=setTimeout(
+()=>{if(this.#flush())this.#pause()},PAUSE)}#flush(){clearTimeout(this.#timer);this.#timer=void 0;const event=this.#waits;
+this.#waits=null;if(event)void this.#put(event);return event!==null}};var SAVE_VIEW_AFTER=250;var STILL={release(){},pause:()=>void 0};var Canvas=class{legend=new Legend;notices=new Notices;help=help(
 HELP);ghosts=new Ghosts;#chosen;#saving;#playing=STILL;#painted=false;#presses=false;constructor({model,
 el,signal}){this.model=model;this.interactive=model.get("interactive");const paper=make("canvas",{className:"\
 glid-paper"});this.box=make("div",{className:"glid-pad",role:"application","aria-label":"Deformation\
@@ -666,16 +673,18 @@ clearTimeout(this.#saving);this.ahead.close();this.shapes.close()}get marks(){re
 get("marks"),this.shapes.lead)}prepareSolver(){if(this.interactive)void this.ahead.prepare()}rested(){
 if(!this.pad.grip)this.ahead.giveBack()}followHand(){if(this.pad.grip&&!this.shapes.motion)this.ahead.
 follow(this.pad.held)}#listener(signal){const put=event=>{const drags=event.type==="up"||this.pad.grip&&
-/^(down|move)$/.test(event.type);if(!drags)this.ahead.giveBack();return this.link.put(event)};return{
-put,signal}}get brush(){const brush=this.model.get("brush");return"radius"in brush?brush:null}get painting(){
-return this.brush!==null}say(notice){save(this.model,{notice})}openMenu(place,found={mark:this.marks.
-selected.at(-1)}){const{selected,targets}=this.marks;const mark=found?.mark===void 0?null:Number(found.
-mark);const centre=[this.view.x,this.view.y];const point=mark===null?this.model.get("cursor")??centre:
-targets[mark];const at=place??this.view.toScreen(point);const does={press:(key,shift=false)=>{return()=>this.
-pad.press(key,{shiftKey:shift})},pin:()=>void this.pad.send("pin",at),paste:()=>void this.clipboard.
-paste(),alone:()=>this.room?.alone(),fullScreen:()=>this.room?.fullScreen(),showKeys:this.help.toggle};
-const pinned=mark!==null&&selected.includes(mark)?selected.length:1;const covered=mark===null&&coveredNear(
-this.box,at);openMenu(this.box,at,menuRows(does,mark===null?null:{pinned},covered))}showMotion(motion=null,playing=STILL,heights=null){
+/^(down|move)$/.test(event.type);if(!drags)this.ahead.giveBack();const leads=this.ahead.leads&&this.
+shapes.movesVertices;return spacing.put(event,leads&&event.type==="move")};const spacing=new Spacing(
+event=>this.link.put(event));signal.addEventListener("abort",()=>spacing.close());return{put,signal}}get brush(){
+const brush=this.model.get("brush");return"radius"in brush?brush:null}get painting(){return this.brush!==
+null}say(notice){save(this.model,{notice})}openMenu(place,found={mark:this.marks.selected.at(-1)}){const{
+selected,targets}=this.marks;const mark=found?.mark===void 0?null:Number(found.mark);const centre=[this.
+view.x,this.view.y];const point=mark===null?this.model.get("cursor")??centre:targets[mark];const at=place??
+this.view.toScreen(point);const does={press:(key,shift=false)=>{return()=>this.pad.press(key,{shiftKey:shift})},
+pin:()=>void this.pad.send("pin",at),paste:()=>void this.clipboard.paste(),alone:()=>this.room?.alone(),
+fullScreen:()=>this.room?.fullScreen(),showKeys:this.help.toggle};const pinned=mark!==null&&selected.
+includes(mark)?selected.length:1;const covered=mark===null&&coveredNear(this.box,at);openMenu(this.box,
+at,menuRows(does,mark===null?null:{pinned},covered))}showMotion(motion=null,playing=STILL,heights=null){
 this.#playing=playing;this.shapes.motion=motion;this.shapes.lift(heights);this.showLegend();this.shapes.
 refresh();this.redraw()}showLegend(){this.legend.show(this.model,Boolean(this.shapes.motion))}takeFocus(){
 const{painting}=this;const chosen=painting&&!this.#painted;this.#painted=painting;const side=this.box.

@@ -23,6 +23,7 @@ import { PoseClipboard } from "./pose_clipboard.js";
 import { resizeGrip } from "./resize_grip.js";
 import { Room } from "./room.js";
 import { coveredNear, Shapes } from "./shapes.js";
+import { Spacing } from "./spacing.js";
 
 /** @import { Context, Found, Point } from "../types.js" */
 /** @import { Pen } from "../pad/pen.js" */
@@ -124,6 +125,7 @@ export class Canvas {
 
   /**
    * Events go to the kernel. Gestures that only the kernel knows end what the page shows ahead of it.
+   * Where the page's drawing needs the processor, the kernel hears of a few moves only.
    *
    * @param {AbortSignal} signal
    * @returns {import("../pad/pad.js").Listener}
@@ -132,8 +134,11 @@ export class Canvas {
     const put = (/** @type {import("../types.js").KernelEvent} */ event) => {
       const drags = event.type === "up" || (this.pad.grip && /^(down|move)$/.test(event.type));
       if (!drags) this.ahead.giveBack();
-      return this.link.put(event);
+      const leads = this.ahead.leads && this.shapes.movesVertices;
+      return spacing.put(event, leads && event.type === "move");
     };
+    const spacing = new Spacing((event) => this.link.put(event));
+    signal.addEventListener("abort", () => spacing.close());
     return { put, signal };
   }
 

@@ -1,7 +1,7 @@
 // Puts the kernel's coefficients and the page's view into pythreejs's objects.
 
 import { make, penOf, toFloats } from "../pad/dom.js";
-import { Vertices } from "./vertices.js";
+import { movedByPage, Vertices } from "./vertices.js";
 
 /** @import { Model, Point } from "../types.js" */
 /** @import { Lead } from "./ahead.js" */
@@ -105,12 +105,22 @@ export class Shapes {
     this.led();
   }
 
+  /** Whether the page's script moves vertices, which is so where there is no graphics processor. */
+  get movesVertices() {
+    return this.#meshes.some(movedByPage);
+  }
+
+  /** @type {any[]} three.js's */
+  get #meshes() {
+    return this.#renderer?.get("scene").obj?.children ?? [];
+  }
+
   /** Puts the newest coefficients into every material. */
   refresh() {
     const { motion } = this;
     const moved = motion instanceof Float32Array && motion.length ? motion : null;
     const floats = moved ?? this.lead?.floats ?? toFloats(this.model.get("coefficients"));
-    this.#vertices?.move(this.#renderer?.get("scene").obj?.children ?? [], floats);
+    this.#vertices?.move(this.#meshes, floats);
     for (const { obj } of this.#materials) {
       const { cage, coefficients, holes, by_margin: byMargin } = obj?.uniforms ?? {};
       if (byMargin?.value) byMargin.value = motion ? 2 : 1;

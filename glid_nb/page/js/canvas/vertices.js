@@ -27,7 +27,7 @@ export class Vertices {
    * @param {Float32Array} wire the map
    */
   move(meshes, wire) {
-    const moved = meshes.filter(({ name, visible }) => name === MOVED_BY_PAGE && visible);
+    const moved = meshes.filter(movedByPage);
     if (!moved.length || wire.length !== this.#wire.length) return;
     const coefficients = this.#wire.coefficients(wire);
     const distorted = new Set(moved.filter(showsDerivatives).map((mesh) => mesh.geometry));
@@ -55,6 +55,15 @@ export class Vertices {
     this.#points.set(geometry, points);
     return points;
   }
+}
+
+/**
+ * Whether the page moves the vertices of a mesh that is seen.
+ *
+ * @param {any} mesh three.js's
+ */
+export function movedByPage({ name, visible }) {
+  return name === MOVED_BY_PAGE && visible;
 }
 
 /**
