@@ -176,7 +176,7 @@ class Inverse:
         """Indices of (k,) complex points, their preimages in the domain or just beside it, the jets
         there, and the proved radii."""
         index, z, jets = self._searched(w, False)
-        lost = np.setdiff1d(np.arange(len(w)), index)
+        lost = np.flatnonzero(np.bincount(index, minlength=len(w)) == 0)
         if lost.size:
             images, vertices, reach = self._vertices
             distance, nearest = images.query(as_points(w[lost]))

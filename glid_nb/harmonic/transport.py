@@ -168,6 +168,10 @@ def _backward(map: "HarmonicMap", tolerance: float) -> _Side:
     inverse = map.inverse
     edge = _carried(np.array([map.domain.cage.polygon]), _forward(map), tolerance / 4)[0]
     region = edge if edge.is_valid else shapely.buffer(shapely.make_valid(edge), 0)
+    # A simple curve winds once around what lies inside. So does the true image of the boundary, as
+    # it is nearer to that curve than these points are: they have one preimage.
+    once = shapely.buffer(edge, -2 * tolerance) if edge.is_valid else shapely.Polygon()
+    shapely.prepare(once)
 
     def images(w: Array) -> tuple[Array, Array, Array, Array]:
         # The region is a polygon, so points of its edges may lie beside the true image.
@@ -185,7 +189,10 @@ def _backward(map: "HarmonicMap", tolerance: float) -> _Side:
         return z, radius, np.where(known, second, np.inf), np.where(known, reach, 0.0)
 
     def several(w: Array) -> Array:
-        return inverse.locate(w, all=True).found > 1
+        found = np.zeros(len(w), dtype=bool)
+        doubtful = ~shapely.contains_xy(once, np.real(w), np.imag(w))
+        found[doubtful] = inverse.locate(w[doubtful], all=True).found > 1
+        return found
 
     return _Side(images, region, several, tolerance)
 
