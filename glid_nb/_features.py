@@ -54,8 +54,9 @@ def x64_context() -> Any:
 
 
 def is_traced(value: Any) -> bool:
-    """Whether a value is a tracer of JAX, which has no numbers yet."""
-    return isinstance(value, import_jax("jax.core").Tracer)
+    """Whether a value is a tracer of JAX, which has no numbers yet. Other values need no JAX."""
+    of_jax = type(value).__module__.partition(".")[0] == "jax"
+    return of_jax and isinstance(value, import_jax("jax.core").Tracer)
 
 
 @functools.cache
