@@ -35,6 +35,14 @@ def real_array(value: Any) -> NDArray[np.float64]:
         raise ValueError("a number is too large for floating point") from error
 
 
+def first_masked(value: Any) -> int | None:
+    """The first row of a masked array that is masked, at least in part; None if there is none."""
+    if not isinstance(value, np.ma.MaskedArray):
+        return None
+    masked = np.argwhere(np.atleast_1d(np.ma.getmaskarray(value)))
+    return int(masked[0][0]) if len(masked) else None
+
+
 def number_pairs(value: Any, wanted: str, error: type[Exception]) -> NDArray[np.float64]:
     """(n, 2) array of numbers, NaN and infinity allowed; also from (n,) complex numbers. Otherwise
     raises an ``error`` whose message begins with ``wanted``."""

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from glid_nb._arrays import Array, Floats
+from glid_nb._arrays import Array, Floats, first_masked
 from glid_nb.auditing import exact
 from glid_nb.auditing.result import Audit, AuditError, Verdict, at, share
 
@@ -43,8 +43,8 @@ def checked_triangles(value: Any, count: int) -> NDArray[np.int64]:
 
 def _rows_of(value: Any, wanted: str, kinds: str, columns: int) -> NDArray[Any]:
     """An array (n, columns) of one of NumPy's ``kinds`` of numbers; the error begins ``wanted``."""
-    if isinstance(value, np.ma.MaskedArray) and (masked := np.argwhere(value.mask)).size:
-        raise AuditError(f"{wanted}, but row {masked[0][0]} is masked")
+    if (masked := first_masked(value)) is not None:
+        raise AuditError(f"{wanted}, but row {masked} is masked")
     try:
         rows = np.asarray(value)
     except ValueError as error:

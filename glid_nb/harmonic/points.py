@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from glid_nb._arrays import Array, number_pairs
+from glid_nb._arrays import Array, first_masked, number_pairs
 from glid_nb._errors import InputError
 from glid_nb._features import is_traced
 
@@ -50,12 +50,9 @@ def _pairs(points: Any) -> Array:
 
 def _check_unmasked(points: Any) -> None:
     """Raise a MapError for the first point of a masked array that is masked."""
-    if not isinstance(points, np.ma.MaskedArray):
-        return
-    mask = np.ma.getmaskarray(points)
-    rows = mask.ravel() if np.iscomplexobj(points) else mask.reshape(len(mask), -1).any(axis=1)
-    if (masked := np.flatnonzero(rows)).size:
-        what = f"point {masked[0]} is masked, so it has no coordinates"
+    numbers = isinstance(points, np.ndarray) and np.iscomplexobj(points)
+    if (masked := first_masked(points.ravel() if numbers else points)) is not None:
+        what = f"point {masked} is masked, so it has no coordinates"
         raise MapError(f"{what}; leave it out, as np.ma.compress_rows does")
 
 

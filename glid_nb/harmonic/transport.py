@@ -15,7 +15,7 @@ import shapely
 from numpy.typing import NDArray
 
 from glid_nb._arguments import unmet
-from glid_nb._arrays import Array, is_finite, read_only
+from glid_nb._arrays import Array, first_masked, is_finite, read_only
 from glid_nb._errors import InputError
 from glid_nb.geometry import as_points
 from glid_nb.harmonic.expansions import jets_at
@@ -389,8 +389,8 @@ def _read(given: Any) -> tuple[Array, Callable[[Array], Any]]:
 
 def _polygon(ring: Any, number: int) -> Any:
     wanted = f"polygon {number} must be a (k, 2) array of at least 3 points"
-    if isinstance(ring, np.ma.MaskedArray) and (masked := np.argwhere(ring.mask)).size:
-        raise TransportError(f"point {masked[0][0]} of polygon {number} is masked; leave it out")
+    if (masked := first_masked(ring)) is not None:
+        raise TransportError(f"point {masked} of polygon {number} is masked; leave it out")
     try:
         corners = np.asarray(ring, dtype=float)
     except (TypeError, ValueError) as error:

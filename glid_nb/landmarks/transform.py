@@ -6,7 +6,7 @@ from typing import Any, Self
 import numpy as np
 
 from glid_nb._arguments import check_type
-from glid_nb._arrays import Array, number_pairs
+from glid_nb._arrays import Array, first_masked, number_pairs
 from glid_nb._errors import InputError
 from glid_nb.geometry import Domain, place
 from glid_nb.harmonic import HarmonicMap, Inverse
@@ -89,8 +89,8 @@ class HarmonicTransform:
 
 
 def _check_unmasked(name: str, points: Any) -> None:
-    if isinstance(points, np.ma.MaskedArray) and (masked := np.argwhere(points.mask)).size:
-        what = f"{name}[{masked[0][0]}] is masked, so it has no coordinates"
+    if (masked := first_masked(points)) is not None:
+        what = f"{name}[{masked}] is masked, so it has no coordinates"
         raise LandmarkError(f"{what}; leave the landmark out, in src and dst")
 
 

@@ -170,12 +170,13 @@ class Pane(ClosingWidget, ipywidgets.GridBox):
         wanted = self._affordable(where)
         if where == scene.evaluated_in and count <= wanted < _FINER * count:
             return
+        multisampled = self._multisamples
         self._n_vertices, self._evaluated_in = wanted, where
         if where in self._times:
             self._most = wanted
         self.scene = self._new_scene(stage.uniform_vectors)
         self._show(scene)
-        if self._multisamples != self._renderer.get_state("_antialias")["_antialias"]:
+        if self._multisamples != multisampled:
             self._replace_renderer()
         if where not in self._times:
             stage.drawing_time = 0.0  # it was the old scene's; the page measures the new one

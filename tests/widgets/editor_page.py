@@ -30,6 +30,19 @@ canvas, model = editor.canvas, editor.deformation
 editor
 """
 
+# As large as there is room.
+ROOMY_EDITOR = """
+editor = glid.Editor(picture, n_vertices=300)
+canvas, model = editor.canvas, editor.deformation
+editor
+"""
+
+# Another picture than in other tests: no kept work is offered, which would take room.
+NEW_PICTURE = """
+picture[:10, :10] = np.random.default_rng().integers(256, size=4)
+picture[:10, :10, 3] = 0
+"""
+
 # The contrast of an element's text with its background, by WCAG.
 _CONTRAST = """(element) => {
   const pen = Object.assign(document.createElement('canvas'), {width: 1, height: 1})

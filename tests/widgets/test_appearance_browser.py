@@ -8,15 +8,10 @@ import pytest
 from playwright.sync_api import Locator
 
 from .conftest import OpenNotebook
-from .editor_page import SETUP, Hand, choose_view
+from .editor_page import ROOMY_EDITOR, SETUP, Hand, choose_view
 
 pytestmark = [pytest.mark.browser, pytest.mark.slow]
 
-EDITOR = """
-editor = glid.Editor(picture, n_vertices=300)
-canvas, model = editor.canvas, editor.deformation
-editor
-"""
 PINNED = "model.add_handles([(-6.0, 0.0), (6.0, 0.0)]); model.save_pose(); model.select([0])"
 
 _BOX = """(one) => {
@@ -55,7 +50,7 @@ def overlap(a: list[float], b: list[float]) -> bool:
 def test_on_a_phone_the_canvas_comes_first_and_the_tools_have_two_rows(
     open_notebook: OpenNotebook,
 ) -> None:
-    book = open_notebook([SETUP, EDITOR])
+    book = open_notebook([SETUP, ROOMY_EDITOR])
     hand, page = Hand(book), book.page
     wide = box(hand.pad)
     book.value("None", setup=PINNED)
@@ -101,7 +96,7 @@ def test_on_a_phone_the_canvas_comes_first_and_the_tools_have_two_rows(
 
 
 def test_nothing_is_cut_off_covered_or_askew(open_notebook: OpenNotebook) -> None:
-    book = open_notebook([SETUP, EDITOR])
+    book = open_notebook([SETUP, ROOMY_EDITOR])
     hand, page = Hand(book), book.page
     book.value("None", setup=PINNED)
     hand.settle()
@@ -139,7 +134,7 @@ def test_nothing_is_cut_off_covered_or_askew(open_notebook: OpenNotebook) -> Non
 def test_pale_and_dark_outlines_are_seen_in_dark_themes_and_high_contrast(
     open_notebook: OpenNotebook,
 ) -> None:
-    book = open_notebook([SETUP, EDITOR])
+    book = open_notebook([SETUP, ROOMY_EDITOR])
     page = book.page
     Hand(book)
     pane = page.locator(".glid-pane").first

@@ -14,15 +14,10 @@ from ..support import shapes
 from ..support.axe import faults
 from ..support.browser import watched_page
 from .conftest import OpenNotebook
-from .editor_page import SETUP, Hand
+from .editor_page import ROOMY_EDITOR, SETUP, Hand
 
 pytestmark = [pytest.mark.browser, pytest.mark.slow]
 
-EDITOR = """
-editor = glid.Editor(picture, n_vertices=300)
-canvas, model = editor.canvas, editor.deformation
-editor
-"""
 POSES = """
 model.add_handles([(-6.0, 0.0), (6.0, 0.0)]); model.save_pose(); model.drag(1, (6.0, 2.0))
 model.select([0])
@@ -36,7 +31,7 @@ def _no_faults(page: Page, what: str) -> None:
 
 
 def test_nothing_is_wrong_with_the_editor(open_notebook: OpenNotebook) -> None:
-    book = open_notebook([SETUP, EDITOR])
+    book = open_notebook([SETUP, ROOMY_EDITOR])
     hand, page = Hand(book), book.page
     book.value("None", setup=POSES)
     hand.settle()

@@ -6,15 +6,10 @@ import numpy as np
 import pytest
 
 from .conftest import OpenNotebook
-from .editor_page import SETUP, Hand
+from .editor_page import ROOMY_EDITOR, SETUP, Hand
 
 pytestmark = [pytest.mark.browser, pytest.mark.slow]
 
-EDITOR = """
-editor = glid.Editor(picture, n_vertices=300)
-canvas, model = editor.canvas, editor.deformation
-editor
-"""
 # Texts that are drawn on the canvas over the picture.
 _LISTEN = """() => {
   window.written = new Set();
@@ -27,7 +22,7 @@ _LISTEN = """() => {
 
 
 def test_shift_and_ctrl_keep_a_drag_on_axes_and_pixels(open_notebook: OpenNotebook) -> None:
-    book = open_notebook([SETUP, EDITOR])
+    book = open_notebook([SETUP, ROOMY_EDITOR])
     hand, page = Hand(book), book.page
     page.evaluate(_LISTEN)
     for count, place in enumerate([(-6.0, 0.0), (6.0, 0.0)], 1):

@@ -5,17 +5,11 @@ from __future__ import annotations
 import pytest
 
 from .conftest import OpenNotebook
-from .editor_page import SETUP, Hand
+from .editor_page import NEW_PICTURE, ROOMY_EDITOR, SETUP, Hand
 
 pytestmark = [pytest.mark.browser, pytest.mark.slow]
 
-EDITOR = """
-picture[:10, :10] = np.random.default_rng().integers(256, size=4)
-picture[:10, :10, 3] = 0
-editor = glid.Editor(picture, n_vertices=300)
-canvas, model = editor.canvas, editor.deformation
-editor
-"""
+EDITOR = NEW_PICTURE + ROOMY_EDITOR
 # Groups of columns of the canvas over the picture in which something is drawn.
 _GROUPS = """(paper) => {
   const {width, height} = paper;

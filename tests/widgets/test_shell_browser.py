@@ -6,18 +6,11 @@ import pytest
 from playwright.sync_api import Locator, Page
 
 from .conftest import OpenNotebook
-from .editor_page import SETUP, Hand, choose_view
+from .editor_page import NEW_PICTURE, ROOMY_EDITOR, SETUP, Hand, choose_view
 
 pytestmark = [pytest.mark.browser, pytest.mark.slow]
 
-# Another picture than in other tests: no kept work is offered, which would take room.
-EDITOR = """
-picture[:10, :10] = np.random.default_rng().integers(256, size=4)
-picture[:10, :10, 3] = 0
-editor = glid.Editor(picture, n_vertices=300)
-canvas, model = editor.canvas, editor.deformation
-editor
-"""
+EDITOR = NEW_PICTURE + ROOMY_EDITOR
 PINNED = "model.add_handles([(-6.0, 0.0), (6.0, 0.0)]); model.save_pose(); model.select([0])"
 SIZES = (1366, 768), (1024, 768), (390, 844)
 PARTS = (".glid-tools", ".glid-deform", ".glid-side", ".glid-timeline", ".glid-foot")

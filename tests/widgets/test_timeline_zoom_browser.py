@@ -5,15 +5,10 @@ from __future__ import annotations
 import pytest
 
 from .conftest import OpenNotebook
-from .editor_page import SETUP, Hand, center
+from .editor_page import ROOMY_EDITOR, SETUP, Hand, center
 
 pytestmark = [pytest.mark.browser, pytest.mark.slow]
 
-EDITOR = """
-editor = glid.Editor(picture, n_vertices=300)
-canvas, model = editor.canvas, editor.deformation
-editor
-"""
 POSES = """
 model.add_handles([(-6.0, 0.0), (6.0, 0.0)]); model.save_pose(); model.drag(1, (6.0, 2.0))
 model.save_pose(); model.drag(1, (6.0, -2.0)); model.move_pose(2, 2.0); model.go_to_pose(0)
@@ -21,7 +16,7 @@ model.save_pose(); model.drag(1, (6.0, -2.0)); model.move_pose(2, 2.0); model.go
 
 
 def test_a_timeline_is_read_in_frames_zoomed_and_named(open_notebook: OpenNotebook) -> None:
-    book = open_notebook([SETUP, EDITOR])
+    book = open_notebook([SETUP, ROOMY_EDITOR])
     hand, page = Hand(book), book.page
     book.value("None", setup=POSES)
     hand.settle()

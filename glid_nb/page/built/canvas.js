@@ -107,12 +107,12 @@ unit+this.height/2;return[px,py]}line(points){return points.map(point=>this.toSc
 x,y]){this.x=x;this.y=y;this.changed()}pan(dx,dy){this.x-=dx*this.unit;this.y+=this.up*dy*this.unit;
 this.changed()}zoom(factor,place=[this.width/2,this.height/2]){const[x,y]=this.toWorld(place);const unit=Math.
 min(this.farthest,Math.max(this.nearest,this.unit*factor));this.x=x+(this.x-x)*(unit/this.unit);this.
-y=y+(this.y-y)*(unit/this.unit);this.unit=unit;this.changed()}wheel(e,place){e.preventDefault();const step=e.
-deltaMode===LINES?e.deltaY*WHEEL_LINE:e.deltaY;this.zoom(Math.exp(step*WHEEL_SPEED*(e.ctrlKey?PINCH:
-1)),place)}follow(pointers,id,place){const before=pointers.get(id)??place;const other=[...pointers].
-find(([one])=>one!==id)?.[1];const share=other?.5:1;pointers.set(id,place);this.pan(share*(place[0]-
-before[0]),share*(place[1]-before[1]));if(!other)return;const apart=one=>Math.max(distance(one,other),
-1);const middle=[(place[0]+other[0])/2,(place[1]+other[1])/2];this.zoom(apart(before)/apart(place),middle)}};var CLICK=4;var LONG_PRESS=600;var LONG_PRESS_GRACE=100;var LONG_PRESS_SLACK=8;var PATH_STEP=3;var Pad=class{pointers=new Map;mode=null;grip=null;held=new Map;path=[];encloses=null;found=null;rests=null;#start=[
+y=y+(this.y-y)*(unit/this.unit);this.unit=unit;this.changed()}wheel(e,place){e.preventDefault();this.
+zoom(Math.exp(turnOf(e)*WHEEL_SPEED*(e.ctrlKey?PINCH:1)),place)}follow(pointers,id,place){const before=pointers.
+get(id)??place;const other=[...pointers].find(([one])=>one!==id)?.[1];const share=other?.5:1;pointers.
+set(id,place);this.pan(share*(place[0]-before[0]),share*(place[1]-before[1]));if(!other)return;const apart=one=>Math.
+max(distance(one,other),1);const middle=[(place[0]+other[0])/2,(place[1]+other[1])/2];this.zoom(apart(
+before)/apart(place),middle)}};function turnOf(e){return e.deltaMode===LINES?e.deltaY*WHEEL_LINE:e.deltaY}var CLICK=4;var LONG_PRESS=600;var LONG_PRESS_GRACE=100;var LONG_PRESS_SLACK=8;var PATH_STEP=3;var Pad=class{pointers=new Map;mode=null;grip=null;held=new Map;path=[];encloses=null;found=null;rests=null;#start=[
 0,0];#pans=false;#space=false;#tap=false;#longPress;constructor(element,view,link,behaviour){this.element=
 element;this.view=view;this.link=link;this.behaviour=behaviour;element.tabIndex=0;link.signal.addEventListener(
 "abort",()=>clearTimeout(this.#longPress));element.addEventListener("pointerdown",e=>this.#down(e));
@@ -344,10 +344,10 @@ notice.classList.toggle("glid-first",!refusal)}prepare(share){const{prepared}=th
 1;prepared.setAttribute("aria-valuenow",String(Math.round(100*share)));prepared.style.setProperty("-\
 -glid-share",String(share))}};var LONGER_SIDE=20;function constrained([x0,y0],[x,y],{axis,whole},size){const across=Math.abs(x-x0)>=
 Math.abs(y-y0);const[u,v]=whole?onPixel([x,y],size):[x,y];if(!axis)return[u,v];return across?[u,y0]:
-[x0,v]}function pixelAt([x,y],[width,height]){const unit=LONGER_SIDE/Math.max(width,height);return[x/
-unit+width/2,height/2-y/unit]}function onPixel(point,size){const[width,height]=size;if(!width||!height)
-return point;const unit=LONGER_SIDE/Math.max(width,height);const[px,py]=pixelAt(point,size).map(Math.
-round);return[(px-width/2)*unit,(height/2-py)*unit]}var BESIDE=20;var PADDING=6;var LINE=16;var FONT="600 11px system-ui, sans-serif";var GROUND="rgba(2\
+[x0,v]}function pixelAt([x,y],[width,height]){const unit=pixelOf([width,height]);return[x/unit+width/
+2,height/2-y/unit]}function onPixel(point,size){const[width,height]=size;if(!width||!height)return point;
+const unit=pixelOf(size);const[px,py]=pixelAt(point,size).map(Math.round);return[(px-width/2)*unit,(height/
+2-py)*unit]}function pixelOf([width,height]){return LONGER_SIDE/Math.max(width,height)}var BESIDE=20;var PADDING=6;var LINE=16;var FONT="600 11px system-ui, sans-serif";var GROUND="rgba(2\
 5,28,34,0.88)";var INK2="#ffffff";var GUIDE="#d55e00";function movedPin(pressed,marks,held,size){const mark=pinOf(
 pressed,marks);if(mark===void 0||!marks.targets[mark])return null;const at=held.get(mark)??marks.targets[mark];
 if(pressed.found?.part)return{at,words:turnWords(marks.ring)};const[x,y]=at;const words2=[`x ${coordinate(

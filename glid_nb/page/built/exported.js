@@ -24,12 +24,12 @@ unit+this.height/2;return[px,py]}line(points){return points.map(point=>this.toSc
 x,y]){this.x=x;this.y=y;this.changed()}pan(dx,dy){this.x-=dx*this.unit;this.y+=this.up*dy*this.unit;
 this.changed()}zoom(factor,place=[this.width/2,this.height/2]){const[x,y]=this.toWorld(place);const unit=Math.
 min(this.farthest,Math.max(this.nearest,this.unit*factor));this.x=x+(this.x-x)*(unit/this.unit);this.
-y=y+(this.y-y)*(unit/this.unit);this.unit=unit;this.changed()}wheel(e,place){e.preventDefault();const step=e.
-deltaMode===LINES?e.deltaY*WHEEL_LINE:e.deltaY;this.zoom(Math.exp(step*WHEEL_SPEED*(e.ctrlKey?PINCH:
-1)),place)}follow(pointers,id,place){const before=pointers.get(id)??place;const other=[...pointers].
-find(([one])=>one!==id)?.[1];const share=other?.5:1;pointers.set(id,place);this.pan(share*(place[0]-
-before[0]),share*(place[1]-before[1]));if(!other)return;const apart=one=>Math.max(distance(one,other),
-1);const middle=[(place[0]+other[0])/2,(place[1]+other[1])/2];this.zoom(apart(before)/apart(place),middle)}};var GLIDE=600;function playedFrom(motion,time,loop){const{start,end}=motion;const span=end-start;const from=(!loop&&
+y=y+(this.y-y)*(unit/this.unit);this.unit=unit;this.changed()}wheel(e,place){e.preventDefault();this.
+zoom(Math.exp(turnOf(e)*WHEEL_SPEED*(e.ctrlKey?PINCH:1)),place)}follow(pointers,id,place){const before=pointers.
+get(id)??place;const other=[...pointers].find(([one])=>one!==id)?.[1];const share=other?.5:1;pointers.
+set(id,place);this.pan(share*(place[0]-before[0]),share*(place[1]-before[1]));if(!other)return;const apart=one=>Math.
+max(distance(one,other),1);const middle=[(place[0]+other[0])/2,(place[1]+other[1])/2];this.zoom(apart(
+before)/apart(place),middle)}};function turnOf(e){return e.deltaMode===LINES?e.deltaY*WHEEL_LINE:e.deltaY}var GLIDE=600;function playedFrom(motion,time,loop){const{start,end}=motion;const span=end-start;const from=(!loop&&
 time>=end?start:time)-start;const lasts=loop?Infinity:1e3*(span-from);const at=ms=>ms===lasts?end:start+
 (from+ms/1e3)%span;return{plays:true,lasts,at}}function glideTo(motion,time,to){const{last,repeat}=motion;
 const from=repeat==="ping-pong"&&time>last?2*last-time:time;const goal=repeat==="loop"?nearestTurn(from,

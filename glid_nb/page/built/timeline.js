@@ -61,18 +61,17 @@ return"Proving the motion between poses…";const last=spans.at(-1);if(!last)ret
  a second pose to see the motion between them.":"";const least=Math.min(...spans.flatMap(({sigma2})=>sigma2));
 const lasts=seconds(last.end-spans[0].start);return`Proved at every instant of ${lasts}: σ₂ ≥ ${least.
 toFixed(3)}.`}function scaleOf(element){const{width,height}=element.getBoundingClientRect();const across=width/element.
-offsetWidth||1;return{across,down:height/element.offsetHeight||across}}var INSET=34;var STEP=1.5;var MOST=40;var WHEEL_SPEED=.004;var WHEEL_LINE=33;var LINES=1;var LEADS=.25;
-function scrolledTo(share,at,width){return Math.max(INSET+share*(width-2*INSET)-at,0)}var Zoom=class{factor=1;constructor(track,changed){
+offsetWidth||1;return{across,down:height/element.offsetHeight||across}}var WHEEL_LINE=33;var LINES=1;function turnOf(e){return e.deltaMode===LINES?e.deltaY*WHEEL_LINE:e.deltaY}var INSET=34;var STEP=1.5;var MOST=40;var WHEEL_SPEED=.004;var LEADS=.25;function scrolledTo(share,at,width){
+return Math.max(INSET+share*(width-2*INSET)-at,0)}var Zoom=class{factor=1;constructor(track,changed){
 this.track=track;this.changed=changed;this.box=make("div",{className:"glid-track-view"},track);this.
 box.addEventListener("wheel",e=>this.#wheel(e),{passive:false})}zoom(by,at=this.box.clientWidth/2){const{
 box,track}=this;const share=(box.scrollLeft+at-INSET)/(track.offsetWidth-2*INSET);this.factor=Math.min(
 Math.max(this.factor*by,1),MOST);track.style.width=`${100*this.factor}%`;box.scrollLeft=scrolledTo(share,
 at,track.offsetWidth);this.changed()}reveal(at){const{box}=this;if(this.factor===1)return;const seen=at>=
 box.scrollLeft&&at<=box.scrollLeft+box.clientWidth;if(!seen)box.scrollLeft=at-LEADS*box.clientWidth}#wheel(e){
-const{box}=this;const step=e.deltaMode===LINES?e.deltaY*WHEEL_LINE:e.deltaY;if(e.ctrlKey||e.metaKey){
-e.preventDefault();const at=(e.clientX-box.getBoundingClientRect().left)/scaleOf(box).across;this.zoom(
-Math.exp(-step*WHEEL_SPEED),at);return}const before=box.scrollLeft;if(!e.deltaX)box.scrollLeft+=step;
-if(box.scrollLeft!==before)e.preventDefault()}};var REPEATS=[["once","Once"],["loop","Loop"],["ping-pong","Ping-pong"]];var ONION="Onion skin: outli\
+const{box}=this;const step=turnOf(e);if(e.ctrlKey||e.metaKey){e.preventDefault();const at=(e.clientX-
+box.getBoundingClientRect().left)/scaleOf(box).across;this.zoom(Math.exp(-step*WHEEL_SPEED),at);return}
+const before=box.scrollLeft;if(!e.deltaX)box.scrollLeft+=step;if(box.scrollLeft!==before)e.preventDefault()}};var REPEATS=[["once","Once"],["loop","Loop"],["ping-pong","Ping-pong"]];var ONION="Onion skin: outli\
 nes of the poses before (blue) and after (orange) the edited pose";var KEY="Key this pose and contin\
 ue with a copy (K); at another time, key the shape that is shown there";var LEGEND=[["proved","prove\
 d"],["computing","not yet"],["refused","not proved"]];var Bar=class{recording=false;onionOn=false;constructor({

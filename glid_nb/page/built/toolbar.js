@@ -38,25 +38,23 @@ const by={ArrowDown:1,ArrowUp:-1}[e.key];if(!by)return;e.preventDefault();e.stop
 ...this.menu.querySelectorAll("button")];const focused=items.indexOf(document.activeElement);items.at(
 (focused+by)%items.length)?.focus()}};function row(role,label,onclick){return make("button",{role,onclick},
 make("span",{},label))}var TOOLS=[["","edit","Select and drag pins (Esc)"],["stiff","brush","Paint what should stay stiff (\
-B)"],["erase","eraser","Erase stiff areas (E)"]];var INSPECTOR='<svg viewBox="0 0 16 16" aria-hidden\
-="true"><path d="M2 3h12v10H2z M10 3v10"/></svg>';var Toolbar=class{constructor(model){this.model=model;
-this.view=new ViewMenu(model,()=>this.#press("p"));this.tools=TOOLS.map(([tool,icon2,title])=>{const button=iconButton(
-icon2,title,()=>save(model,{tool}));button.dataset.tool=tool||"select";return button});this.undo=iconButton(
-"undo","Undo (Ctrl+Z)",()=>model.send({type:"undo"}));this.redo=iconButton("redo","Redo (Ctrl+Shift+\
-Z)",()=>model.send({type:"redo"}));this.element=make("div",{className:"glid-skin glid-toolbar glid-t\
-ools",role:"toolbar","aria-label":"Deform"},...[...this.tools,gap(),this.undo,this.redo,gap(),this.view.
-button,this.view.menu],make("span",{className:"glid-grow"}),iconButton("fit","See everything (F)",()=>this.#press(
-"f")),this.#inspector(),iconButton("screen","Full screen (W)",()=>this.#press("w")),this.#help())}showTool(){
-const tool=this.model.get("tool")||"select";for(const button of this.tools)button.ariaPressed=String(
-button.dataset.tool===tool)}showHistory(){this.undo.disabled=!this.model.get("can_undo");this.redo.disabled=
-!this.model.get("can_redo")}#find(selector){return this.element.closest(".glid-editor")?.querySelector(
-selector)}#press(key){const event=new CustomEvent("glid:press",{detail:key});this.#find(".glid-pad:n\
-ot([inert])")?.dispatchEvent(event)}#inspector(){const title="Hide the inspector, show it again (I)";
-const look={className:"glid-icon",title,"aria-label":title,innerHTML:INSPECTOR};return make("button",
-{...look,onclick:()=>this.#press("i")})}#help(){const title="Keys and gestures (?)";const look={className:"\
-glid-help-button",title,"aria-label":title};const button=make("button",look,"?");const aim=()=>{button.
-popoverTargetElement=this.#find(".glid-pad:not([inert]) .glid-help")??null};button.addEventListener(
-"pointerenter",aim);button.addEventListener("focus",aim);return button}};function gap(){return make(
-"span",{className:"glid-gap"})}function render({model,el}){const toolbar=new Toolbar(model);el.classList.add("glid-host");el.append(
+B)"],["erase","eraser","Erase stiff areas (E)"]];var INSPECTOR="M2 3h12v10H2z M10 3v10";var Toolbar=class{constructor(model){
+this.model=model;this.view=new ViewMenu(model,()=>this.#press("p"));this.tools=TOOLS.map(([tool,icon2,
+title])=>{const button=iconButton(icon2,title,()=>save(model,{tool}));button.dataset.tool=tool||"sel\
+ect";return button});this.undo=iconButton("undo","Undo (Ctrl+Z)",()=>model.send({type:"undo"}));this.
+redo=iconButton("redo","Redo (Ctrl+Shift+Z)",()=>model.send({type:"redo"}));this.element=make("div",
+{className:"glid-skin glid-toolbar glid-tools",role:"toolbar","aria-label":"Deform"},...[...this.tools,
+gap(),this.undo,this.redo,gap(),this.view.button,this.view.menu],make("span",{className:"glid-grow"}),
+iconButton("fit","See everything (F)",()=>this.#press("f")),drawnButton(INSPECTOR,"Hide the inspecto\
+r, show it again (I)",()=>this.#press("i")),iconButton("screen","Full screen (W)",()=>this.#press("w")),
+this.#help())}showTool(){const tool=this.model.get("tool")||"select";for(const button of this.tools)
+button.ariaPressed=String(button.dataset.tool===tool)}showHistory(){this.undo.disabled=!this.model.get(
+"can_undo");this.redo.disabled=!this.model.get("can_redo")}#find(selector){return this.element.closest(
+".glid-editor")?.querySelector(selector)}#press(key){const event=new CustomEvent("glid:press",{detail:key});
+this.#find(".glid-pad:not([inert])")?.dispatchEvent(event)}#help(){const title="Keys and gestures (?\
+)";const look={className:"glid-help-button",title,"aria-label":title};const button=make("button",look,
+"?");const aim=()=>{button.popoverTargetElement=this.#find(".glid-pad:not([inert]) .glid-help")??null};
+button.addEventListener("pointerenter",aim);button.addEventListener("focus",aim);return button}};function gap(){
+return make("span",{className:"glid-gap"})}function render({model,el}){const toolbar=new Toolbar(model);el.classList.add("glid-host");el.append(
 toolbar.element);follow(model,{"change:tool":()=>toolbar.showTool(),"change:can_undo change:can_redo":()=>toolbar.
 showHistory(),"change:overlay change:shows":()=>toolbar.view.show()})}var main_default={render};export{main_default as default};

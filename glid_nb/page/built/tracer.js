@@ -164,12 +164,12 @@ unit+this.height/2;return[px,py]}line(points){return points.map(point=>this.toSc
 x,y]){this.x=x;this.y=y;this.changed()}pan(dx,dy){this.x-=dx*this.unit;this.y+=this.up*dy*this.unit;
 this.changed()}zoom(factor,place=[this.width/2,this.height/2]){const[x,y]=this.toWorld(place);const unit=Math.
 min(this.farthest,Math.max(this.nearest,this.unit*factor));this.x=x+(this.x-x)*(unit/this.unit);this.
-y=y+(this.y-y)*(unit/this.unit);this.unit=unit;this.changed()}wheel(e,place){e.preventDefault();const step=e.
-deltaMode===LINES?e.deltaY*WHEEL_LINE:e.deltaY;this.zoom(Math.exp(step*WHEEL_SPEED*(e.ctrlKey?PINCH:
-1)),place)}follow(pointers,id,place){const before=pointers.get(id)??place;const other=[...pointers].
-find(([one])=>one!==id)?.[1];const share=other?.5:1;pointers.set(id,place);this.pan(share*(place[0]-
-before[0]),share*(place[1]-before[1]));if(!other)return;const apart=one=>Math.max(distance(one,other),
-1);const middle=[(place[0]+other[0])/2,(place[1]+other[1])/2];this.zoom(apart(before)/apart(place),middle)}};function nearest(things,reach){let best=null;let least=Infinity;for(const thing of things){const far=thing.
+y=y+(this.y-y)*(unit/this.unit);this.unit=unit;this.changed()}wheel(e,place){e.preventDefault();this.
+zoom(Math.exp(turnOf(e)*WHEEL_SPEED*(e.ctrlKey?PINCH:1)),place)}follow(pointers,id,place){const before=pointers.
+get(id)??place;const other=[...pointers].find(([one])=>one!==id)?.[1];const share=other?.5:1;pointers.
+set(id,place);this.pan(share*(place[0]-before[0]),share*(place[1]-before[1]));if(!other)return;const apart=one=>Math.
+max(distance(one,other),1);const middle=[(place[0]+other[0])/2,(place[1]+other[1])/2];this.zoom(apart(
+before)/apart(place),middle)}};function turnOf(e){return e.deltaMode===LINES?e.deltaY*WHEEL_LINE:e.deltaY}function nearest(things,reach){let best=null;let least=Infinity;for(const thing of things){const far=thing.
 d+(thing.loss??0);if(thing.d>reach||far>=least)continue;best=thing;least=far}return best}function nearestVertex(loops,point,reach){
 const vertices=loops.flatMap((loop,i)=>loop.map((vertex,j)=>({loop:i,index:j,d:distance(vertex,point)})));
 return nearest(vertices,reach)}function nearestEdge(loops,point,reach){const edges=loops.flatMap(loop=>loop.

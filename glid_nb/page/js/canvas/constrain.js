@@ -30,7 +30,7 @@ export function constrained([x0, y0], [x, y], { axis, whole }, size) {
  * @returns {Point}
  */
 export function pixelAt([x, y], [width, height]) {
-  const unit = LONGER_SIDE / Math.max(width, height);
+  const unit = pixelOf([width, height]);
   return [x / unit + width / 2, height / 2 - y / unit];
 }
 
@@ -44,7 +44,16 @@ export function pixelAt([x, y], [width, height]) {
 function onPixel(point, size) {
   const [width, height] = size;
   if (!width || !height) return point;
-  const unit = LONGER_SIDE / Math.max(width, height);
+  const unit = pixelOf(size);
   const [px, py] = pixelAt(point, size).map(Math.round);
   return [(px - width / 2) * unit, (height / 2 - py) * unit];
+}
+
+/**
+ * The world units of a pixel.
+ *
+ * @param {number[]} size
+ */
+function pixelOf([width, height]) {
+  return LONGER_SIDE / Math.max(width, height);
 }

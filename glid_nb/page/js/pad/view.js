@@ -101,8 +101,7 @@ export class View {
    */
   wheel(e, place) {
     e.preventDefault();
-    const step = e.deltaMode === LINES ? e.deltaY * WHEEL_LINE : e.deltaY;
-    this.zoom(Math.exp(step * WHEEL_SPEED * (e.ctrlKey ? PINCH : 1)), place);
+    this.zoom(Math.exp(turnOf(e) * WHEEL_SPEED * (e.ctrlKey ? PINCH : 1)), place);
   }
 
   /**
@@ -123,4 +122,13 @@ export class View {
     const middle = /** @type {Point} */ ([(place[0] + other[0]) / 2, (place[1] + other[1]) / 2]);
     this.zoom(apart(before) / apart(place), middle);
   }
+}
+
+/**
+ * How far a wheel was turned, in CSS pixels.
+ *
+ * @param {WheelEvent} e
+ */
+export function turnOf(e) {
+  return e.deltaMode === LINES ? e.deltaY * WHEEL_LINE : e.deltaY;
 }

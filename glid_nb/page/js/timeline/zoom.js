@@ -2,13 +2,12 @@
 
 import { make } from "../pad/dom.js";
 import { scaleOf } from "../pad/place.js";
+import { turnOf } from "../pad/view.js";
 
 export const INSET = 34; // CSS pixels before and after the time: --glid-inset of the style sheet
 export const STEP = 1.5; // of a button
 const MOST = 40;
 const WHEEL_SPEED = 0.004;
-const WHEEL_LINE = 33; // CSS pixels
-const LINES = 1; // WheelEvent.DOM_DELTA_LINE
 const LEADS = 0.25; // of the room, where the playhead comes back into sight
 
 /**
@@ -66,7 +65,7 @@ export class Zoom {
   /** @param {WheelEvent} e */
   #wheel(e) {
     const { box } = this;
-    const step = e.deltaMode === LINES ? e.deltaY * WHEEL_LINE : e.deltaY;
+    const step = turnOf(e);
     if (e.ctrlKey || e.metaKey) {
       e.preventDefault();
       const at = (e.clientX - box.getBoundingClientRect().left) / scaleOf(box).across;

@@ -1,7 +1,7 @@
 // The bar above the canvas: tools, history, what is shown, the view.
 
 import { make, save } from "../pad/dom.js";
-import { iconButton } from "../pad/icons.js";
+import { drawnButton, iconButton } from "../pad/icons.js";
 import { ViewMenu } from "./view_menu.js";
 
 /** @import { Icon } from "../pad/icons.js" */
@@ -16,8 +16,7 @@ const TOOLS = [
 ];
 
 // Not among the icons, which pages without an inspector have too.
-const INSPECTOR =
-  '<svg viewBox="0 0 16 16" aria-hidden="true"><path d="M2 3h12v10H2z M10 3v10"/></svg>';
+const INSPECTOR = "M2 3h12v10H2z M10 3v10";
 
 export class Toolbar {
   /** @param {Model<ToolbarTraits>} model */
@@ -37,7 +36,7 @@ export class Toolbar {
       ...[...this.tools, gap(), this.undo, this.redo, gap(), this.view.button, this.view.menu],
       make("span", { className: "glid-grow" }),
       iconButton("fit", "See everything (F)", () => this.#press("f")),
-      this.#inspector(),
+      drawnButton(INSPECTOR, "Hide the inspector, show it again (I)", () => this.#press("i")),
       iconButton("screen", "Full screen (W)", () => this.#press("w")),
       this.#help(),
     );
@@ -66,12 +65,6 @@ export class Toolbar {
   #press(key) {
     const event = new CustomEvent("glid:press", { detail: key });
     this.#find(".glid-pad:not([inert])")?.dispatchEvent(event);
-  }
-
-  #inspector() {
-    const title = "Hide the inspector, show it again (I)";
-    const look = { className: "glid-icon", title, "aria-label": title, innerHTML: INSPECTOR };
-    return make("button", { ...look, onclick: () => this.#press("i") });
   }
 
   // The table of keys belongs to the canvas, which may come later than this bar.
