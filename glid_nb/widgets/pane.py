@@ -69,8 +69,8 @@ class Stage(Pad):
     solver = traitlets.Dict({}).tag(sync=True)
     """The ``options`` of the page's own solver; empty if it cannot solve what is edited."""
     rest = traitlets.Dict({}).tag(sync=True)
-    """Where the model is at rest: the ``pose``, ``coefficients`` in double precision, and the
-    ``number`` of this rest."""
+    """Where the model is at rest, or was when a drag made its pin: the ``pose``, ``coefficients``
+    in double precision, and the ``number`` of this rest."""
     marks = traitlets.Dict({key: [] for key in _MARKS}).tag(sync=True)
     """Targets and images of handles, [x, y]; indices selected, hidden; and `Drawing.ring`."""
     names = traitlets.List(traitlets.Unicode(), []).tag(sync=True)  # the handles', may be empty

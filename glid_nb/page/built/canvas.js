@@ -81,9 +81,9 @@ style.left=within(x,element.clientWidth-menu.offsetWidth);menu.style.top=within(
 menu.offsetHeight);const pressedElsewhere=e=>{const target=e.target;if(menu.contains(target))return;
 close();if(e.button===0&&element.contains(target))e.stopPropagation()};window.addEventListener("poin\
 terdown",pressedElsewhere,{capture:true,signal:ending2.signal});step(1)}function within(at,room){return`${Math.
-max(0,Math.min(at,room))}px`}var NEARLY_NOTHING="rgba(255, 255, 255, 0.004)";function painter(canvas,view,signal,draw){let due=0;
+max(0,Math.min(at,room))}px`}var NEARLY_NOTHING="rgba(255, 255, 255, 0.004)";function painter(canvas,view,signal,draw2){let due=0;
 signal.addEventListener("abort",()=>cancelAnimationFrame(due));return()=>{if(due)return;due=requestAnimationFrame(
-()=>{due=0;draw(clearedPen(canvas,view))})}}function clearedPen(canvas,{width,height}){const ratio=window.
+()=>{due=0;draw2(clearedPen(canvas,view))})}}function clearedPen(canvas,{width,height}){const ratio=window.
 devicePixelRatio||1;const wide=Math.round(width*ratio);const high=Math.round(height*ratio);if(canvas.
 width!==wide||canvas.height!==high){canvas.width=wide;canvas.height=high}const pen=penOf(canvas);pen.
 setTransform(ratio,0,0,ratio,0,0);pen.clearRect(0,0,width,height);pen.fillStyle=NEARLY_NOTHING;pen.fillRect(
@@ -206,23 +206,24 @@ options}=this.#model.get("solver");const outlined=this.#model.get("outline");if(
 outline)return;const{outline,...sizes}=outlined;this.#wire=new Wire(outline,sizes);this.#worker=this.#makeWorker(
 script);this.#solving=new Solving(this.#worker,map=>this.#take(map));await this.#solving.ask({type:"\
 shape",outline,options});this.#ready=turn===this.#turn}follow(held){if(!this.#ready||!this.#solving||
-!held.size)return;if(!this.#pose&&!this.#begin(this.#solving))return;const pose=this.#pose;const targets=pose.
+!held.size)return;if(!this.#pose&&!this.#begin(this.#solving,held))return;const pose=this.#pose;const targets=pose.
 targets.map((target,i)=>held.get(i)??target);if(targets.every((target,i)=>distance(target,pose.targets[i])===
-0))return;this.#pose={...pose,targets};this.#solving.drag(this.#pose)}#begin(solving){const{pose,coefficients}=this.#model.
-get("rest");const{targets}=this.#model.get("marks");if(pose?.targets.length!==targets.length)return false;
-if(pose.targets.some((one,i)=>distance(one,targets[i])>SAME))return false;this.#pose=pose;const floats=new Float64Array(
-coefficients.buffer.slice(coefficients.byteOffset,coefficients.byteOffset+coefficients.byteLength));
-this.#first=solving.place(pose,floats);return true}giveBack(){if(!this.#pose)return;this.#pose=null;
-this.#show(null)}close(){this.giveBack();this.#ready=false;this.#worker?.terminate?.();this.#worker=
-null;this.#solving=null}#take({id,coefficients,certificate,pins}){const pose=this.#pose;if(!pose||!this.#wire||
-id<this.#first||!certificate.certified)return;const at=(_,i)=>[pins.images[2*i],pins.images[2*i+1]];
-const images=pose.targets.map(at);const{targets}=pose;const floats=this.#wire.of(coefficients);this.#show(
-{floats,pins:{targets,images,samples:pins.samples}})}};function marksOf(marks,lead){const count=marks.
-targets.length;if(lead?.pins.targets.length!==count)return marks;const{targets,images,samples}=lead.
-pins;return{...marks,targets,images,ring:ringOf(marks,samples,count)}}function ringOf({ring,selected},samples,count){
-const last=selected.at(-1);if(ring.length===0||last===void 0)return ring;const[angle,scale,turned,scaled]=ring;
-const[x,y]=[samples[last],samples[count+last]];return[turned?angle:Math.atan2(y,x),scaled?scale:Math.
-hypot(x,y),turned,scaled]}function menuRows(does,pin,covered){return[...pin?pinRows(does,pin.pinned):shapeRows(does,covered),[
+0))return;this.#pose={...pose,targets};this.#solving.drag(this.#pose)}#begin(solving,held){const{pose,
+coefficients}=this.#model.get("rest");const{targets}=this.#model.get("marks");if(pose?.targets.length!==
+targets.length)return false;const elsewhere=(one,i)=>!held.has(i)&&distance(one,targets[i])>SAME;if(pose.
+targets.some(elsewhere))return false;this.#pose=pose;const floats=new Float64Array(coefficients.buffer.
+slice(coefficients.byteOffset,coefficients.byteOffset+coefficients.byteLength));this.#first=solving.
+place(pose,floats);return true}giveBack(){if(!this.#pose)return;this.#pose=null;this.#show(null)}close(){
+this.giveBack();this.#ready=false;this.#worker?.terminate?.();this.#worker=null;this.#solving=null}#take({
+id,coefficients,certificate,pins}){const pose=this.#pose;if(!pose||!this.#wire||id<this.#first||!certificate.
+certified)return;const at=(_,i)=>[pins.images[2*i],pins.images[2*i+1]];const images=pose.targets.map(
+at);const{targets}=pose;const floats=this.#wire.of(coefficients);this.#show({floats,pins:{targets,images,
+samples:pins.samples}})}};function marksOf(marks,lead){const count=marks.targets.length;if(lead?.pins.
+targets.length!==count)return marks;const{targets,images,samples}=lead.pins;return{...marks,targets,
+images,ring:ringOf(marks,samples,count)}}function ringOf({ring,selected},samples,count){const last=selected.
+at(-1);if(ring.length===0||last===void 0)return ring;const[angle,scale,turned,scaled]=ring;const[x,y]=[
+samples[last],samples[count+last]];return[turned?angle:Math.atan2(y,x),scaled?scale:Math.hypot(x,y),
+turned,scaled]}function menuRows(does,pin,covered){return[...pin?pinRows(does,pin.pinned):shapeRows(does,covered),[
 "Copy the pose","Ctrl+C",does.press("copy")],["Paste a pose","Ctrl+V",does.paste],["Swap left and ri\
 ght","M",does.press("m")],["Select all pins","A",does.press("a")],["The undeformed shape","0",does.press(
 "0")],["See everything","F",does.press("f")],["Paint stiff areas","B",does.press("b")],["The picture\
@@ -379,8 +380,11 @@ const{view,marks,shapes,painting}=this.canvas;if(shapes.motion||painting)return 
 marks,point,reach);return mark??ringAt(view,marks,view.toScreen(point),reach/view.unit/2)}encloses(found,e){
 const start=this.canvas.pad.grip?.points.get(found?.mark??"");this.pressed={found,start,pins:this.canvas.
 marks.targets.length};if(found)return null;if(e.shiftKey)return"box";return e.ctrlKey||e.metaKey?"la\
-sso":null}held({mark}){const{selected,targets}=this.canvas.marks;const pressed=Number(mark);const moved=selected.
-includes(pressed)?selected:[pressed];return new Map(moved.map(i=>[i,targets[i]]))}constrain(point,e){
+sso":null}get constrains(){const{axis,whole}=this.pressed?.keys??{};return Boolean(axis||whole)}madePin(){
+const{pad,model}=this.canvas;const{pressed}=this;if(!pressed||pressed.found||this.painting||pad.mode!==
+"hand")return void 0;const count=model.get("rest").pose?.targets.length??0;return count===pressed.pins+
+1&&!pad.encloses?pressed.pins:void 0}held({mark}){const{selected,targets}=this.canvas.marks;const pressed=Number(
+mark);const moved=selected.includes(pressed)?selected:[pressed];return new Map(moved.map(i=>[i,targets[i]]))}constrain(point,e){
 const{model,pad}=this.canvas;const{pressed}=this;const[from]=pad.path;if(!pressed||!from||pressed.found?.
 part||pad.encloses||e.altKey)return point;pressed.keys={axis:e.shiftKey,whole:e.ctrlKey||e.metaKey};
 pressed.start??=from;const[x,y]=pressed.start;const free=[x+point[0]-from[0],y+point[1]-from[1]];const[
@@ -458,7 +462,14 @@ classList.contains("glid-narrow");const side=shell.querySelector(".glid-side");c
 ".glid-plots-box");const beside=shell.clientWidth-(narrow?0:side?.offsetWidth??0);const plotted=Boolean(
 plots?.offsetWidth)&&!narrow&&beside-PLOTS>=BESIDE2;shell.classList.toggle("glid-beside",plotted);const width=plotted?
 beside-PLOTS:beside;const above=shell.getBoundingClientRect().top-root.getBoundingClientRect().top;return{
-width,height:Math.max(LEAST,below-above/scaleOf(root).down-PARTS),alone:0}}};var LN2_HIGH=.6931471803691238;var LN2_LOW=19082149292705877e-26;var TWO_TO_54=0x40000000000000;var L1=.6666666666666735;
+width,height:Math.max(LEAST,below-above/scaleOf(root).down-PARTS),alone:0}}};var FRAME=16;var SHARE=Math.SQRT1_2;var REST=200;var Detail=class{#views;#less=new Map;#timer;constructor(views){
+this.#views=views}moved(drawingTime2){if(drawingTime2<=FRAME)return;clearTimeout(this.#timer);this.#timer=
+setTimeout(()=>this.restore(),REST);for(const one of this.#views())void one.then(view=>this.#reduce(
+view))}restore(){clearTimeout(this.#timer);for(const[renderer,ratio]of this.#less)renderer.setPixelRatio(
+ratio);if(this.#less.size)for(const one of this.#views())void one.then(draw);this.#less.clear()}#reduce(view){
+const{renderer}=view;if(!renderer||this.#less.has(renderer))return;const ratio=renderer.getPixelRatio();
+this.#less.set(renderer,ratio);renderer.setPixelRatio(SHARE*ratio);draw(view)}};function draw(view){
+if(view.renderer&&!view.isFrozen)view.renderScene()}var LN2_HIGH=.6931471803691238;var LN2_LOW=19082149292705877e-26;var TWO_TO_54=0x40000000000000;var L1=.6666666666666735;
 var L2=.3999999999940942;var L3=.2857142874366239;var L4=.22222198432149784;var L5=.1818357216161805;
 var L6=.15313837699209373;var L7=.14798198605116586;var A0=.3333333333333293;var A1=-.19999999999876483;
 var A2=.14285714272503466;var A3=-.11111110405462356;var A4=.09090887133436507;var A5=-.0769187620504483;
@@ -607,51 +618,52 @@ if(known)return known;const{array,count}=geometry.attributes.position;const plac
 geometry,points);return points}};function movedByPage({name,visible}){return name===MOVED_BY_PAGE&&visible}
 function showsDerivatives({material}){return material.uniforms?.overlay?.value!==0}function interleave(samples,into){
 const count=samples.length/4;for(let part=0;part<4;part++){for(let i=0;i<count;i++)into[4*i+part]=samples[part*
-count+i]}}var NEAR=8;var LEAD="glid:lead";var N_TIMED=3;var MOST_FRAMES=100;var Shapes=class{motion=null;lead=null;led=()=>{};#vertices=null;#materials=[];#camera=null;#renderer=null;#loading=0;#lifted=null;#resting=null;constructor(model,view){
-this.model=model;this.view=view;model.on("change:outline",()=>this.#takeOutline());this.#takeOutline();
-model.on("change:materials change:camera change:renderer",()=>this.load())}async load(){this.#loading+=
-1;const turn=this.#loading;const{model}=this;const references=[model.get("camera"),model.get("render\
-er"),...model.get("materials")];const[camera,renderer,...materials]=await Promise.all(references.map(
-one=>model.widget_manager.get_model(one.replace("IPY_MODEL_",""))));await Promise.all([camera,renderer,
-...materials].map(one=>one.initPromise));if(turn!==this.#loading)return;this.#forget();this.#camera=
-camera;this.#renderer=renderer;this.#materials=materials;for(const material of materials)material.on(
-"change",this.refresh,this);renderer.get("scene").off("beforeRender",keepLittle).on("beforeRender",keepLittle);
-for(const view of Object.values(renderer.views))view.then(drawNoMore);renderer.on(LEAD,this.#takeLead,
-this);this.refresh()}#forget(){this.#renderer?.off(null,null,this);for(const material of this.#materials)
-material.off(null,null,this);this.#materials=[]}#takeOutline(){const outlined=this.model.get("outlin\
-e");this.#vertices=outlined?.outline?new Vertices(outlined):null}showLead(lead){this.#renderer?.trigger(
-LEAD,lead)}#takeLead(lead){this.lead=lead;this.refresh();this.led()}get movesVertices(){return this.#meshes.
-some(movedByPage)}get#meshes(){return this.#renderer?.get("scene").obj?.children??[]}refresh(){const{
-motion}=this;const moved=motion instanceof Float32Array&&motion.length?motion:null;const floats=moved??
-this.lead?.floats??toFloats(this.model.get("coefficients"));this.#vertices?.move(this.#meshes,floats);
-for(const{obj}of this.#materials){const{cage,coefficients,holes,by_margin:byMargin}=obj?.uniforms??{};
-if(byMargin?.value)byMargin.value=motion?2:1;if(!coefficients)continue;const chain=cage.value.length;
-if(floats.length!==chain+holes.value.length)continue;coefficients.value=floats.subarray(0,chain);holes.
-value=floats.subarray(chain)}this.see();this.redraw()}lift(heights){const picture=this.#renderer?.get(
-"scene").obj?.children[0];const position=picture?.geometry.attributes.position;if(!position)return;if(position.
-array!==this.#lifted)this.#resting=position.array;const resting=this.#resting;if(heights?.length===position.
-count){const lifted=position.array===resting?resting.slice():position.array;heights.forEach((height,i)=>{
-lifted[3*i+2]=height});if(position.array===resting)position.setArray(lifted);this.#lifted=lifted}else{
-if(position.array===resting)return;position.setArray(resting)}position.needsUpdate=true}see(){const{
-x,y,unit,width,height}=this.view;const w=width/2*unit;const h=height/2*unit;for(const{obj}of this.#materials){
-if(obj?.uniforms?.pixel)obj.uniforms.pixel.value=unit}this.#camera?.set({left:x-w,right:x+w,top:y+h,
-bottom:y-h})}redraw(){this.#renderer?.trigger("rerender",this.#renderer,{})}close(){this.#loading+=1;
-this.#forget()}};var ending=new WeakSet;function keepLittle(_scene,renderer){renderer.renderLists.dispose();
-if(ending.has(renderer))return;ending.add(renderer);const{dispose}=renderer;renderer.dispose=()=>{dispose.
-call(renderer);renderer.forceContextLoss()}}function drawNoMore(view){view.once("remove",()=>{view.renderScene=
-()=>{}})}function drawnBelow(pad){return pad.closest(".glid-pane")?.querySelector(".jupyter-threejs \
-canvas")}function coveredNear(pad,[x,y]){const drawn2=drawnBelow(pad);if(!drawn2)return false;const size=2*
-NEAR;const pen=penOf(make("canvas",{width:size,height:size}));const ratio=drawn2.width/pad.clientWidth;
-pen.drawImage(drawn2,NEAR-Math.floor(x*ratio),NEAR-Math.floor(y*ratio));const{data}=pen.getImageData(
-0,0,size,size);return data.some((value,i)=>i%4===3&&value>0)}function uniformVectors(){const canvas=make(
-"canvas");const gl=canvas.getContext("webgl2")||canvas.getContext("webgl");if(!gl)return 0;const count=gl.
-getParameter(gl.MAX_VERTEX_UNIFORM_VECTORS);gl.getExtension("WEBGL_lose_context")?.loseContext();return count}
-async function drawingTime(pad,shapes){const times=[];for(let i=0;i<MOST_FRAMES&&times.length<=N_TIMED;i++){
-const moving=performance.now();shapes.refresh();const moved=performance.now()-moving;await new Promise(
-go=>requestAnimationFrame(go));const canvas=drawnBelow(pad);const gl=canvas?.getContext("webgl")||canvas?.
-getContext("webgl2");if(!gl)continue;const start=performance.now();gl.readPixels(0,0,1,1,gl.RGBA,gl.
-UNSIGNED_BYTE,new Uint8Array(4));times.push(moved+performance.now()-start)}return times.length>1?Math.
-min(...times.slice(1)):0}var PAUSE=500;var Spacing=class{#put;#waits=null;#timer;constructor(put){this.#put=put}put(event,mayWait){
+count+i]}}var NEAR=8;var LEAD="glid:lead";var N_TIMED=3;var MOST_FRAMES=100;var Shapes=class{motion=null;lead=null;led=()=>{};#vertices=null;#materials=[];#camera=null;#renderer=null;#loading=0;#lifted=null;#resting=null;#detail=new Detail(
+()=>Object.values(this.#renderer?.views??{}));constructor(model,view){this.model=model;this.view=view;
+model.on("change:outline",()=>this.#takeOutline());this.#takeOutline();model.on("change:materials ch\
+ange:camera change:renderer",()=>this.load())}async load(){this.#loading+=1;const turn=this.#loading;
+const{model}=this;const references=[model.get("camera"),model.get("renderer"),...model.get("material\
+s")];const[camera,renderer,...materials]=await Promise.all(references.map(one=>model.widget_manager.
+get_model(one.replace("IPY_MODEL_",""))));await Promise.all([camera,renderer,...materials].map(one=>one.
+initPromise));if(turn!==this.#loading)return;this.#forget();this.#camera=camera;this.#renderer=renderer;
+this.#materials=materials;for(const material of materials)material.on("change",this.refresh,this);renderer.
+get("scene").off("beforeRender",keepLittle).on("beforeRender",keepLittle);for(const view of Object.values(
+renderer.views))view.then(drawNoMore);renderer.on(LEAD,this.#takeLead,this);this.refresh()}#forget(){
+this.#detail.restore();this.#renderer?.off(null,null,this);for(const material of this.#materials)material.
+off(null,null,this);this.#materials=[]}#takeOutline(){const outlined=this.model.get("outline");this.#vertices=
+outlined?.outline?new Vertices(outlined):null}showLead(lead){this.#renderer?.trigger(LEAD,lead)}#takeLead(lead){
+this.lead=lead;if(lead&&this.movesVertices)this.#detail.moved(this.model.get("drawing_time"));this.refresh();
+this.led()}get movesVertices(){return this.#meshes.some(movedByPage)}get#meshes(){return this.#renderer?.
+get("scene").obj?.children??[]}refresh(){const{motion}=this;const moved=motion instanceof Float32Array&&
+motion.length?motion:null;const floats=moved??this.lead?.floats??toFloats(this.model.get("coefficien\
+ts"));this.#vertices?.move(this.#meshes,floats);for(const{obj}of this.#materials){const{cage,coefficients,
+holes,by_margin:byMargin}=obj?.uniforms??{};if(byMargin?.value)byMargin.value=motion?2:1;if(!coefficients)
+continue;const chain=cage.value.length;if(floats.length!==chain+holes.value.length)continue;coefficients.
+value=floats.subarray(0,chain);holes.value=floats.subarray(chain)}this.see();this.redraw()}lift(heights){
+const picture=this.#renderer?.get("scene").obj?.children[0];const position=picture?.geometry.attributes.
+position;if(!position)return;if(position.array!==this.#lifted)this.#resting=position.array;const resting=this.#resting;
+if(heights?.length===position.count){const lifted=position.array===resting?resting.slice():position.
+array;heights.forEach((height,i)=>{lifted[3*i+2]=height});if(position.array===resting)position.setArray(
+lifted);this.#lifted=lifted}else{if(position.array===resting)return;position.setArray(resting)}position.
+needsUpdate=true}see(){const{x,y,unit,width,height}=this.view;const w=width/2*unit;const h=height/2*
+unit;for(const{obj}of this.#materials){if(obj?.uniforms?.pixel)obj.uniforms.pixel.value=unit}this.#camera?.
+set({left:x-w,right:x+w,top:y+h,bottom:y-h})}redraw(){this.#renderer?.trigger("rerender",this.#renderer,
+{})}close(){this.#loading+=1;this.#forget()}};var ending=new WeakSet;function keepLittle(_scene,renderer){
+renderer.renderLists.dispose();if(ending.has(renderer))return;ending.add(renderer);const{dispose}=renderer;
+renderer.dispose=()=>{dispose.call(renderer);renderer.forceContextLoss()}}function drawNoMore(view){
+view.once("remove",()=>{view.renderScene=()=>{}})}function drawnBelow(pad){return pad.closest(".glid\
+-pane")?.querySelector(".jupyter-threejs canvas")}function coveredNear(pad,[x,y]){const drawn2=drawnBelow(
+pad);if(!drawn2)return false;const size=2*NEAR;const pen=penOf(make("canvas",{width:size,height:size}));
+const ratio=drawn2.width/pad.clientWidth;pen.drawImage(drawn2,NEAR-Math.floor(x*ratio),NEAR-Math.floor(
+y*ratio));const{data}=pen.getImageData(0,0,size,size);return data.some((value,i)=>i%4===3&&value>0)}
+function uniformVectors(){const canvas=make("canvas");const gl=canvas.getContext("webgl2")||canvas.getContext(
+"webgl");if(!gl)return 0;const count=gl.getParameter(gl.MAX_VERTEX_UNIFORM_VECTORS);gl.getExtension(
+"WEBGL_lose_context")?.loseContext();return count}async function drawingTime(pad,shapes){const times=[];
+for(let i=0;i<MOST_FRAMES&&times.length<=N_TIMED;i++){const moving=performance.now();shapes.refresh();
+const moved=performance.now()-moving;await new Promise(go=>requestAnimationFrame(go));const canvas=drawnBelow(
+pad);const gl=canvas?.getContext("webgl")||canvas?.getContext("webgl2");if(!gl)continue;const start=performance.
+now();gl.readPixels(0,0,1,1,gl.RGBA,gl.UNSIGNED_BYTE,new Uint8Array(4));times.push(moved+performance.
+now()-start)}return times.length>1?Math.min(...times.slice(1)):0}var PAUSE=500;var Spacing=class{#put;#waits=null;#timer;constructor(put){this.#put=put}put(event,mayWait){
 if(mayWait&&this.#timer!==void 0){this.#waits=event;return Promise.resolve(null)}this.#flush();if(mayWait)
 this.#pause();return this.#put(event)}close(){clearTimeout(this.#timer)}#pause(){this.#timer=setTimeout(
 ()=>{if(this.#flush())this.#pause()},PAUSE)}#flush(){clearTimeout(this.#timer);this.#timer=void 0;const event=this.#waits;
@@ -671,49 +683,52 @@ interactive){this.box.append(shield(this.corner),this.help.table,resizeGrip(mode
 box,e=>this.pad.keydown(e),signal);this.box.addEventListener("glid:press",e=>this.#pressed(e))}this.#takeFirst()}close(){
 clearTimeout(this.#saving);this.ahead.close();this.shapes.close()}get marks(){return marksOf(this.model.
 get("marks"),this.shapes.lead)}prepareSolver(){if(this.interactive)void this.ahead.prepare()}rested(){
-if(!this.pad.grip)this.ahead.giveBack()}followHand(){if(this.pad.grip&&!this.shapes.motion)this.ahead.
-follow(this.pad.held)}#listener(signal){const put=event=>{const drags=event.type==="up"||this.pad.grip&&
-/^(down|move)$/.test(event.type);if(!drags)this.ahead.giveBack();const leads=this.ahead.leads&&this.
-shapes.movesVertices;return spacing.put(event,leads&&event.type==="move")};const spacing=new Spacing(
-event=>this.link.put(event));signal.addEventListener("abort",()=>spacing.close());return{put,signal}}get brush(){
-const brush=this.model.get("brush");return"radius"in brush?brush:null}get painting(){return this.brush!==
-null}say(notice){save(this.model,{notice})}openMenu(place,found={mark:this.marks.selected.at(-1)}){const{
-selected,targets}=this.marks;const mark=found?.mark===void 0?null:Number(found.mark);const centre=[this.
-view.x,this.view.y];const point=mark===null?this.model.get("cursor")??centre:targets[mark];const at=place??
-this.view.toScreen(point);const does={press:(key,shift=false)=>{return()=>this.pad.press(key,{shiftKey:shift})},
-pin:()=>void this.pad.send("pin",at),paste:()=>void this.clipboard.paste(),alone:()=>this.room?.alone(),
-fullScreen:()=>this.room?.fullScreen(),showKeys:this.help.toggle};const pinned=mark!==null&&selected.
-includes(mark)?selected.length:1;const covered=mark===null&&coveredNear(this.box,at);openMenu(this.box,
-at,menuRows(does,mark===null?null:{pinned},covered))}showMotion(motion=null,playing=STILL,heights=null){
-this.#playing=playing;this.shapes.motion=motion;this.shapes.lift(heights);this.showLegend();this.shapes.
-refresh();this.redraw()}showLegend(){this.legend.show(this.model,Boolean(this.shapes.motion))}takeFocus(){
-const{painting}=this;const chosen=painting&&!this.#painted;this.#painted=painting;const side=this.box.
-closest(".glid-editor")?.querySelector(".glid-side");if(chosen&&side?.contains(document.activeElement))
-this.box.focus({preventScroll:true})}showNotice(){const first=this.interactive&&!this.marks.targets.
-length;this.notices.tell(this.model.get("notice"),this.painting,first)}fit(){const{model,view,box}=this;
-view.width=model.get("width");view.height=model.get("height");[view.x,view.y,view.unit]=model.get("v\
-iew");box.style.width=`${view.width}px`;box.style.height=`${view.height}px`;this.room?.shrink();this.#see()}reveal(){
-const{selected,targets,images}=this.marks;const now=selected.length===1?selected[0]:void 0;if(now===
-this.#chosen)return;this.#chosen=now;if(now===void 0||this.pad.mode)return;if(inSight(this.view,targets[now])||
-inSight(this.view,images[now]))return;this.view.centreOn(targets[now])}pressedAt(){if(!this.shapes.motion)
-return void 0;this.#presses=true;return this.#playing.pause()}#pressed(e){const{detail}=e;const act=this.
-pad.behaviour.actions?.[detail];if(act)act();else this.pad.press(detail,{})}#takeFirst(){const goBack=e=>{
-if(!this.shapes.motion)return;e.stopImmediatePropagation();e.preventDefault();this.#playing.release()};
-const capture=true;this.box.addEventListener("pointerdown",e=>e.button===2&&goBack(e),{capture});const ours=e=>!e.
-ctrlKey&&!e.metaKey&&KEYS.test(keyOf(e));this.box.addEventListener("keydown",e=>ours(e)&&goBack(e),{
-capture});const openedByKeys=e=>{if(e.key!=="F10"||!e.shiftKey)return;e.stopImmediatePropagation();e.
-preventDefault();this.openMenu()};this.box.addEventListener("keydown",openedByKeys,{capture});const followArrow=e=>{
-const target=arrowAt(this.view,this.marks,this.pad.place(e));if(!target||e.target!==this.box)return;
-this.view.centreOn(target);e.stopImmediatePropagation()};this.box.addEventListener("pointerdown",followArrow,
-{capture})}#makeCorner(){const look="glid-help-button";return make("div",{className:"glid-corner"},this.
-help.button,iconButton("screen","Full screen (W)",()=>this.room?.fullScreen(),look),iconButton("rect\
-angle","The picture alone (P)",()=>this.room?.alone(),look))}#report(){const{busy,refusal}=this.link;
-if(this.#presses&&this.link.idle&&this.pad.mode===null){this.#presses=false;this.#playing.release()}
-if(!busy&&refusal&&refusal!==this.model.get("notice"))this.say(refusal)}#viewMoved(){this.#see();clearTimeout(
-this.#saving);this.#saving=setTimeout(()=>{const{x,y,unit}=this.view;save(this.model,{view:[x,y,unit]})},
-SAVE_VIEW_AFTER)}#see(){this.shapes.see();this.redraw()}#drawNumbers(pen){const{model,view,pad,marks}=this;
-const{pressed}=this.behaviour;const drags=pad.mode==="hand"&&pad.path.length>1&&!pad.encloses;const moved=drags&&
-pressed&&movedPin(pressed,marks,pad.held,model.get("picture_size"));if(!moved)return;const{start,keys}=pressed;
+if(this.pad.grip)return;const made=this.behaviour.madePin();if(made===void 0)this.ahead.giveBack();else
+this.#hold(made)}#hold(made){const{pad,view,behaviour}=this;const[from]=pad.path;const[place]=pad.pointers.
+values();pad.grip={from,points:new Map([[made,from]])};if(!behaviour.constrains)pad.held.set(made,view.
+toWorld(place));this.followHand()}followHand(){if(this.pad.grip&&!this.shapes.motion)this.ahead.follow(
+this.pad.held)}#listener(signal){const put=event=>{const drags=event.type==="up"||this.pad.grip&&/^(down|move)$/.
+test(event.type);if(!drags)this.ahead.giveBack();const leads=this.ahead.leads&&this.shapes.movesVertices;
+return spacing.put(event,leads&&event.type==="move")};const spacing=new Spacing(event=>this.link.put(
+event));signal.addEventListener("abort",()=>spacing.close());return{put,signal}}get brush(){const brush=this.
+model.get("brush");return"radius"in brush?brush:null}get painting(){return this.brush!==null}say(notice){
+save(this.model,{notice})}openMenu(place,found={mark:this.marks.selected.at(-1)}){const{selected,targets}=this.
+marks;const mark=found?.mark===void 0?null:Number(found.mark);const centre=[this.view.x,this.view.y];
+const point=mark===null?this.model.get("cursor")??centre:targets[mark];const at=place??this.view.toScreen(
+point);const does={press:(key,shift=false)=>{return()=>this.pad.press(key,{shiftKey:shift})},pin:()=>void this.
+pad.send("pin",at),paste:()=>void this.clipboard.paste(),alone:()=>this.room?.alone(),fullScreen:()=>this.
+room?.fullScreen(),showKeys:this.help.toggle};const pinned=mark!==null&&selected.includes(mark)?selected.
+length:1;const covered=mark===null&&coveredNear(this.box,at);openMenu(this.box,at,menuRows(does,mark===
+null?null:{pinned},covered))}showMotion(motion=null,playing=STILL,heights=null){this.#playing=playing;
+this.shapes.motion=motion;this.shapes.lift(heights);this.showLegend();this.shapes.refresh();this.redraw()}showLegend(){
+this.legend.show(this.model,Boolean(this.shapes.motion))}takeFocus(){const{painting}=this;const chosen=painting&&
+!this.#painted;this.#painted=painting;const side=this.box.closest(".glid-editor")?.querySelector(".g\
+lid-side");if(chosen&&side?.contains(document.activeElement))this.box.focus({preventScroll:true})}showNotice(){
+const first=this.interactive&&!this.marks.targets.length;this.notices.tell(this.model.get("notice"),
+this.painting,first)}fit(){const{model,view,box}=this;view.width=model.get("width");view.height=model.
+get("height");[view.x,view.y,view.unit]=model.get("view");box.style.width=`${view.width}px`;box.style.
+height=`${view.height}px`;this.room?.shrink();this.#see()}reveal(){const{selected,targets,images}=this.
+marks;const now=selected.length===1?selected[0]:void 0;if(now===this.#chosen)return;this.#chosen=now;
+if(now===void 0||this.pad.mode)return;if(inSight(this.view,targets[now])||inSight(this.view,images[now]))
+return;this.view.centreOn(targets[now])}pressedAt(){if(!this.shapes.motion)return void 0;this.#presses=
+true;return this.#playing.pause()}#pressed(e){const{detail}=e;const act=this.pad.behaviour.actions?.[detail];
+if(act)act();else this.pad.press(detail,{})}#takeFirst(){const goBack=e=>{if(!this.shapes.motion)return;
+e.stopImmediatePropagation();e.preventDefault();this.#playing.release()};const capture=true;this.box.
+addEventListener("pointerdown",e=>e.button===2&&goBack(e),{capture});const ours=e=>!e.ctrlKey&&!e.metaKey&&
+KEYS.test(keyOf(e));this.box.addEventListener("keydown",e=>ours(e)&&goBack(e),{capture});const openedByKeys=e=>{
+if(e.key!=="F10"||!e.shiftKey)return;e.stopImmediatePropagation();e.preventDefault();this.openMenu()};
+this.box.addEventListener("keydown",openedByKeys,{capture});const followArrow=e=>{const target=arrowAt(
+this.view,this.marks,this.pad.place(e));if(!target||e.target!==this.box)return;this.view.centreOn(target);
+e.stopImmediatePropagation()};this.box.addEventListener("pointerdown",followArrow,{capture})}#makeCorner(){
+const look="glid-help-button";return make("div",{className:"glid-corner"},this.help.button,iconButton(
+"screen","Full screen (W)",()=>this.room?.fullScreen(),look),iconButton("rectangle","The picture alo\
+ne (P)",()=>this.room?.alone(),look))}#report(){const{busy,refusal}=this.link;if(this.#presses&&this.
+link.idle&&this.pad.mode===null){this.#presses=false;this.#playing.release()}if(!busy&&refusal&&refusal!==
+this.model.get("notice"))this.say(refusal)}#viewMoved(){this.#see();clearTimeout(this.#saving);this.#saving=
+setTimeout(()=>{const{x,y,unit}=this.view;save(this.model,{view:[x,y,unit]})},SAVE_VIEW_AFTER)}#see(){
+this.shapes.see();this.redraw()}#drawNumbers(pen){const{model,view,pad,marks}=this;const{pressed}=this.
+behaviour;const drags=pad.mode==="hand"&&pad.path.length>1&&!pad.encloses;const moved=drags&&pressed&&
+movedPin(pressed,marks,pad.held,model.get("picture_size"));if(!moved)return;const{start,keys}=pressed;
 if(start&&keys?.axis)drawAxis(pen,view,start,moved.at);drawNumbers(pen,view,moved)}#draw(pen){const{
 model,view,pad,marks,brush}=this;const{motion}=this.shapes;const through=!motion&&knobInCorner(view,
 marks,pad.held);this.corner.classList.toggle("glid-through",through);if(motion)return;drawOnion(pen,

@@ -113,9 +113,26 @@ export class Canvas {
     if (this.interactive) void this.ahead.prepare();
   }
 
-  /** Goes over to the kernel's map, unless a drag goes on. */
+  /** Goes over to the kernel's map, unless a drag goes on; a drag of the shape has a pin by now. */
   rested() {
-    if (!this.pad.grip) this.ahead.giveBack();
+    if (this.pad.grip) return;
+    const made = this.behaviour.madePin();
+    if (made === undefined) this.ahead.giveBack();
+    else this.#hold(made);
+  }
+
+  /**
+   * Holds a pin that the present drag has made, where the pointer is.
+   *
+   * @param {number} made
+   */
+  #hold(made) {
+    const { pad, view, behaviour } = this;
+    const [from] = pad.path;
+    const [place] = pad.pointers.values();
+    pad.grip = { from, points: new Map([[made, from]]) };
+    if (!behaviour.constrains) pad.held.set(made, view.toWorld(place)); // else with the next move
+    this.followHand();
   }
 
   /** Has the page's own solver follow what is dragged. */

@@ -87,6 +87,21 @@ export class PinBehaviour {
     return e.ctrlKey || e.metaKey ? "lasso" : null;
   }
 
+  /** Whether a key constrains the present drag. */
+  get constrains() {
+    const { axis, whole } = this.pressed?.keys ?? {};
+    return Boolean(axis || whole);
+  }
+
+  /** The pin that the kernel has made of the present drag of the shape; undefined for none. */
+  madePin() {
+    const { pad, model } = this.canvas;
+    const { pressed } = this;
+    if (!pressed || pressed.found || this.painting || pad.mode !== "hand") return undefined;
+    const count = model.get("rest").pose?.targets.length ?? 0;
+    return count === pressed.pins + 1 && !pad.encloses ? pressed.pins : undefined;
+  }
+
   /**
    * @param {Found} found
    * @returns {Map<Mark, Point>}

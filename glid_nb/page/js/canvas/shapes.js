@@ -1,6 +1,7 @@
 // Puts the kernel's coefficients and the page's view into pythreejs's objects.
 
 import { make, penOf, toFloats } from "../pad/dom.js";
+import { Detail } from "./detail.js";
 import { movedByPage, Vertices } from "./vertices.js";
 
 /** @import { Model, Point } from "../types.js" */
@@ -42,6 +43,7 @@ export class Shapes {
   #lifted = null;
   /** @type {Float32Array | null} the vertices as the kernel sent them */
   #resting = null;
+  #detail = new Detail(() => Object.values(this.#renderer?.views ?? {}));
 
   /**
    * @param {Model<CanvasTraits>} model
@@ -78,6 +80,7 @@ export class Shapes {
   }
 
   #forget() {
+    this.#detail.restore();
     this.#renderer?.off(null, null, this);
     for (const material of this.#materials) material.off(null, null, this);
     this.#materials = [];
@@ -101,6 +104,7 @@ export class Shapes {
   /** @param {Lead | null} lead */
   #takeLead(lead) {
     this.lead = lead;
+    if (lead && this.movesVertices) this.#detail.moved(this.model.get("drawing_time"));
     this.refresh();
     this.led();
   }
