@@ -48,7 +48,7 @@ class Animation(Observed):
     def __init__(self, deformation: Deformation) -> None:
         super().__init__()
         self.deformation = deformation
-        self._spans: tuple[Span, ...] = ()
+        self._spans: dict[int, tuple[Span, ...]] = {}  # of each part, by its key
         self.recording = False  # whether the current or next drag becomes keyframes
         self._task: EditState | None = None
         self._asked = False
@@ -63,11 +63,18 @@ class Animation(Observed):
     def spans(self) -> tuple[Span, ...]:
         """The spans from each keyframe to the next; in a loop also from the last to the first.
 
-        They always belong to the present poses.
+        They always belong to the present poses. Of several parts they are those of the edited one.
         """
+        with self.deformation.locked():
+            state = self.deformation.state
+            return self.spans_of(state.keys[state.part])
+
+    def spans_of(self, key: int) -> tuple[Span, ...]:
+        """The spans of the part with a key."""
         with self.deformation.locked(), self.locked():
             state = self.deformation.state
-            return self._spans if _same_motion(state, self._task) else _spans(state)
+            known = self._spans if _same_motion(state, self._task) else _all_spans(state)
+            return known[key]
 
     @property
     def motion(self) -> Motion:
@@ -77,28 +84,38 @@ class Animation(Observed):
         """
         return motion_of(self.deformation.solved_state())
 
-    def at(self, time: float) -> HarmonicMap | None:
-        """The proved map at a time, or the last proved map before it; None outside the motion."""
-        span = next((s for s in self.spans if s.start <= time <= s.end), None)
-        if span is None:
-            return None
-        if not span.pieces:
-            return span.map
-        piece = next((p for p in span.pieces if time <= p.end), span.pieces[-1])
-        return piece.at(min(time, piece.end))
+    def at(self, time: float, key: int | None = None) -> HarmonicMap | None:
+        """The map at a time, or the last one before it at which all parts are proved; None outside
+        the motion. It is that of the edited part, or of the part with a key."""
+        with self.deformation.locked():
+            spans = self.spans if key is None else self.spans_of(key)
+            number = next((i for i, s in enumerate(spans) if s.start <= time <= s.end), None)
+            if number is None:
+                return None
+            span, keys = spans[number], self.deformation.state.keys
+            ends = (_proved_until(self.spans_of(one)[number]) for one in keys)
+            time = min(time, *ends)
+        piece = next((p for p in span.pieces if time <= p.end), None)
+        return span.map if piece is None else piece.at(time)
 
-    def seen(self, time: float) -> tuple[HarmonicMap, Order] | None:
-        """Map and order of the parts at a time, after the last keyframe those of its pose. None
-        before the first keyframe, and without a motion."""
-        state = self.deformation.state
-        if self.is_later(time):
-            return state.poses[-1].map, state.orders[-1]
-        map_ = self.at(time)
-        return None if map_ is None else (map_, self.order(time))
+    def seen(self, time: float, key: int | None = None) -> tuple[HarmonicMap, Order] | None:
+        """Map and order of a shape's sheets at a time, after the last keyframe those of its pose.
+        None before the first keyframe, and without a motion. Parts are as in `at`."""
+        with self.deformation.locked():
+            state = self._shape(key)
+            if self.is_later(time):
+                return state.poses[-1].map, state.orders[-1]
+            map_ = self.at(time, key)
+            return None if map_ is None else (map_, self.order(time, key))
 
-    def order(self, time: float) -> Order:
-        """The order of the shape's parts at a time, interpolated between two keyframes."""
+    def _shape(self, key: int | None) -> EditState:
+        """The state of the part with a key; without one, that of the edited part."""
         state = self.deformation.state
+        return state if key is None else state.shapes[state.keys.index(key)]
+
+    def order(self, time: float, key: int | None = None) -> Order:
+        """The order of a shape's sheets at a time, interpolated between two keyframes."""
+        state = self._shape(key)
         orders, times = state.orders, state.timeline.closed_times
         i = max(min(bisect.bisect_right(times, time), len(times) - 1) - 1, 0)
         first, last = orders[i], orders[(i + 1) % len(orders)]
@@ -113,11 +130,14 @@ class Animation(Observed):
             return self.deformation.keep_after(time)
         if time in times or not self.spans:
             return self.deformation.save_pose()
-        pieces = (piece for span in self.spans for piece in span.pieces)
-        piece = next((p for p in pieces if p.start <= time <= p.end), None)
-        if piece is None:
-            raise EditError(f"nothing is proved at {time:.2f} s, so there is no shape to keep")
-        return self.deformation.keep_between(time, piece.at(time))
+        with self.deformation.locked():
+            every = [self.spans_of(key) for key in self.deformation.state.keys]
+            pieces = [[piece for span in spans for piece in span.pieces] for spans in every]
+            now = [next((p for p in one if p.start <= time <= p.end), None) for one in pieces]
+            if None in now:
+                raise EditError(f"nothing is proved at {time:.2f} s, so there is no shape to keep")
+            maps = [piece.at(time) for piece in now if piece is not None]
+            return self.deformation.keep_between(time, *maps)
 
     def is_later(self, time: float) -> bool:
         """Whether a time is after the last keyframe, where nothing is played."""
@@ -168,8 +188,8 @@ class Animation(Observed):
         if not _same_motion(task, self._task):
             self.worker.cancel()
             self._asked = False
-            spans = _spans(task)
-            if [(*s[:2], "computing") for s in spans] != [(*s[:2], s.status) for s in self._spans]:
+            spans = _all_spans(task)
+            if _told(spans) != _told(self._spans):
                 self.tell("motion")
             self._spans = spans
         self._task = task
@@ -209,29 +229,50 @@ class Animation(Observed):
     # Proving
 
     def _prove(self, task: EditState, worker: LatestWins[EditState]) -> None:
-        spans, told = list(_spans(task)), time.monotonic()
-        reasons = [self.deformation.why_unsolved(pose) for pose in task.poses]
-        for i, span in proved_spans(task, reasons, worker):
-            spans[i] = span
-            if time.monotonic() - told > _INTERVAL:
-                told = time.monotonic()
-                self._publish(task, spans)
+        spans, told = _all_spans(task), time.monotonic()
+        for key, shape in zip(task.keys, task.shapes, strict=True):
+            reasons = [self.deformation.why_unsolved(pose) for pose in shape.poses]
+            for i, span in proved_spans(shape, reasons, worker):
+                spans[key] = (*spans[key][:i], span, *spans[key][i + 1 :])
+                if time.monotonic() - told > _INTERVAL:
+                    told = time.monotonic()
+                    self._publish(task, spans)
         if not worker.overtaken:
             self._publish(task, spans)
 
-    def _publish(self, task: EditState, spans: list[Span]) -> None:
+    def _publish(self, task: EditState, spans: dict[int, tuple[Span, ...]]) -> None:
         with self.locked():
             if _same_motion(task, self._task):
-                self._spans = tuple(spans)
+                self._spans = dict(spans)
                 self.tell("motion")
 
 
 def _same_motion(task: EditState, other: EditState | None) -> bool:
     """Whether two states have the same motion and the same solved poses. Names do not matter."""
-    if other is None or task.timeline != other.timeline:
+    if other is None or task.timeline != other.timeline or set(task.keys) != set(other.keys):
         return False
-    pairs = zip(task.poses, other.poses, strict=True)
+    shapes = dict(zip(other.keys, other.shapes, strict=True))
+    pairs = [
+        pair
+        for key, shape in zip(task.keys, task.shapes, strict=True)
+        for pair in zip(shape.poses, shapes[key].poses, strict=True)
+    ]
     return all(pose.map is its.map and pose.solution is its.solution for pose, its in pairs)
+
+
+def _all_spans(task: EditState) -> dict[int, tuple[Span, ...]]:
+    """The unproved spans of all parts, by their keys."""
+    return {key: _spans(shape) for key, shape in zip(task.keys, task.shapes, strict=True)}
+
+
+def _told(spans: dict[int, tuple[Span, ...]]) -> dict[int, list[tuple[float, float, str]]]:
+    """What views show of spans."""
+    return {key: [(s.start, s.end, s.status) for s in each] for key, each in spans.items()}
+
+
+def _proved_until(span: Span) -> float:
+    """The last proved instant of a span; its start if nothing is proved."""
+    return span.pieces[-1].end if span.pieces else span.start
 
 
 def _spans(task: EditState) -> tuple[Span, ...]:
