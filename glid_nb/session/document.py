@@ -197,6 +197,15 @@ class Document:
         if edited.domain is not self.domain or edited.poses != self.poses:
             raise DocumentError("part: the edited part is not the document's shape")
 
+    def of_part(self, index: int) -> Self:
+        """A document with one of the parts as its only shape; itself without parts."""
+        if not self.parts:
+            return self
+        part = self.parts[index]
+        shape = {"image": part.image, "cage": part.cage, "domain": part.domain}
+        traced = {"trace_options": part.trace_options, "scribbles": part.scribbles}
+        return replace(self, **shape, **traced, poses=part.poses, parts=(), part=0)
+
     @property
     def unsolved(self) -> tuple[NamedPose, ...]:
         """The poses that are not yet solved on this cage (`NamedPose.unsolved`)."""

@@ -21,7 +21,7 @@ from glid_nb.session.deformation import Deformation
 from glid_nb.session.document import Document, DocumentError, DocumentPart
 from glid_nb.session.document_file import load_document, save_document
 from glid_nb.session.edit_state import EditError, EditState, Part
-from glid_nb.session.look import FILLED, Layers, Look, filled_behind
+from glid_nb.session.look import Layers, Look, background_behind
 from glid_nb.session.model import History, Observed
 from glid_nb.session.parts import FIRST_KEY, NewPart, add_parts
 from glid_nb.session.timeline import Timeline
@@ -248,9 +248,9 @@ class EditorModel(Observed):
     @property
     def background(self) -> Backdrop:
         """What lies behind all shapes."""
-        if len(shapes := self.shapes) == 1 or self._look.background != FILLED:
-            return self.layers.background
-        return filled_behind([shape.layers for shape in shapes])
+        if len(shapes := self.shapes) == 1:
+            return shapes[0].layers.background
+        return background_behind([shape.layers for shape in shapes])
 
     def _layers_of(self, state: EditState, domain: Domain, part: Part | None) -> Layers:
         session, look = self._session, self._look

@@ -94,10 +94,15 @@ class Layers:
         return filled_loops(self.cage, PixelFrame(*self.picture.shape[1::-1]))
 
 
-def filled_behind(layers: Sequence[Layers]) -> Backdrop:
-    """The common picture of several shapes without all of them; None if they have no common one
-    or it is transparent."""
-    picture = layers[0].picture
+def background_behind(layers: Sequence[Layers]) -> Backdrop:
+    """What lies behind several shapes of one look.
+
+    The look "filled" fills their common picture in; without a common one, or if it is transparent,
+    nothing is known of the background.
+    """
+    picture, behind = layers[0].picture, layers[0].look.background
+    if behind != FILLED:
+        return behind
     if not layers[0].opaque or any(one.picture is not picture for one in layers):
         return None
     return filled(picture, np.logical_or.reduce([one.hole for one in layers]))
