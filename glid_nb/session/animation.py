@@ -3,7 +3,7 @@
 import bisect
 import itertools
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 from typing import Literal, NamedTuple
 
@@ -17,7 +17,7 @@ from glid_nb.motion import Motion, MotionError, Piece, unlike_turns
 from glid_nb.session.deformation import Deformation
 from glid_nb.session.document import AS_SEEN, NamedPose
 from glid_nb.session.edit_state import EditError, EditState, Moment
-from glid_nb.session.model import Observed
+from glid_nb.session.model import Observed, Observer
 from glid_nb.session.timeline import LEAST_GAP, on_grid, thinned
 from glid_nb.session.worker import LatestWins, weakly
 
@@ -58,6 +58,11 @@ class Animation(Observed):
         self.worker: LatestWins[EditState] = LatestWins(prove, self, "motion", waits=False)
         self._stop = deformation.observe(weakly(self._on_model))
         self._on_model("state")
+
+    @property
+    def state(self) -> EditState:
+        """The present state of the deformation."""
+        return self.deformation.state
 
     @property
     def spans(self) -> tuple[Span, ...]:
@@ -192,7 +197,9 @@ class Animation(Observed):
             if _told(spans) != _told(self._spans):
                 self.tell("motion")
             self._spans = spans
-        self._task = task
+        before, self._task = self._task, task
+        if before is not None and before.keys[before.part] != task.keys[task.part]:
+            self.tell("motion")  # of another part
         if not self._asked and len(task.poses) > 1 and self.deformation.settled():
             self._asked = True
             self.worker.submit(task)
@@ -245,6 +252,31 @@ class Animation(Observed):
             if _same_motion(task, self._task):
                 self._spans = dict(spans)
                 self.tell("motion")
+
+
+class PartAnimation:
+    """The motion of one part, with what a view of an `Animation` reads."""
+
+    def __init__(self, animation: Animation, key: int) -> None:
+        self.animation, self.key = animation, key
+
+    @property
+    def state(self) -> EditState:
+        """The state of the part alone."""
+        state = self.animation.deformation.state
+        return state.shapes[state.keys.index(self.key)]
+
+    @property
+    def spans(self) -> tuple[Span, ...]:
+        return self.animation.spans_of(self.key)
+
+    def seen(self, time: float) -> tuple[HarmonicMap, Order] | None:
+        """As `Animation.seen`, of the part."""
+        return self.animation.seen(time, self.key)
+
+    def observe(self, observer: Observer) -> Callable[[], None]:
+        """As `Animation.observe`."""
+        return self.animation.observe(observer)
 
 
 def _same_motion(task: EditState, other: EditState | None) -> bool:

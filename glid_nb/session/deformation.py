@@ -192,6 +192,7 @@ class Deformation(Undoable[EditState], AbstractContextManager["Deformation"]):
     keep_after = _step(actions.keep_after)
     add_parts = _step(parts.add_parts)
     select_part = _step(parts.select_part)
+    select_next_part = _step(parts.select_next)
     show_part = _step(parts.show_part)
     rename_part = _step(parts.rename_part)
     move_part = _step(parts.move_part)

@@ -137,6 +137,7 @@ class EditorModel(Observed):
         self._saved_work: tuple[Any, ...] = ()
         self._look = look or Look()
         self._layers: dict[Domain, Layers] = {}  # of the present shapes
+        self._behind: tuple[tuple[Layers, ...], Backdrop] | None = None  # what lies behind them
         with self.locked():
             if document is None:
                 self.tracing = TracingModel(image)
@@ -250,7 +251,11 @@ class EditorModel(Observed):
         """What lies behind all shapes."""
         if len(shapes := self.shapes) == 1:
             return shapes[0].layers.background
-        return background_behind([shape.layers for shape in shapes])
+        layers = tuple(shape.layers for shape in shapes)
+        known = self._behind
+        if known is None or known[0] != layers:  # the layers are compared by identity
+            known = self._behind = layers, background_behind(layers)
+        return known[1]
 
     def _layers_of(self, state: EditState, domain: Domain, part: Part | None) -> Layers:
         session, look = self._session, self._look
@@ -315,16 +320,19 @@ class EditorModel(Observed):
     def keep_pieces(self, pieces: Iterable[TracingState]) -> int:
         """Apply the tracing, and add the pieces that other states trace as parts in front.
 
-        It is one step for undo if the tracing was applied before. Returns how many parts were
-        added. Raises an EditError if no piece can be traced.
+        Pieces that are parts already are left out. It is one step for undo if the tracing was
+        applied before. Returns how many parts were added. Raises an EditError if there are none.
         """
         with self.locked():
             self.apply_tracing()
             new, image = [], self._session.image if self._session is not None else None
-            count = len(self.deformation.state.parts) or 1
+            parts = self.deformation.state.parts
+            count = len(parts) or 1
             for source in pieces:
                 domain = self.tracing.outcome_of(source).domain
-                if domain is not None and source.image is not None:
+                if domain is None or any(p.domain.cage.equals(domain.cage) for p in parts):
+                    continue
+                if source.image is not None:
                     self._sources[domain] = replace(source, fallback=domain)
                     new.append(NewPart(f"Part {count + len(new) + 1}", source.image, domain))
             if not new:
@@ -332,22 +340,35 @@ class EditorModel(Observed):
             self.deformation.add_parts(new, "Part 1", image)
             return len(new)
 
+    def add_picture(self, name: str, image: ImageSource) -> None:
+        """Add the shape of another picture of the same size as a part in front.
+
+        Raises a TraceError for a picture that cannot be read, an EditError for another size.
+        """
+        with self.locked():
+            deformation, session = self.deformation, self._session
+            assert session is not None
+            new = self._traced_part(name, TracingModel(image))
+            deformation.add_parts([new], name=self.name, image=session.image)
+
+    def _traced_part(self, name: str, model: TracingModel) -> NewPart:
+        """The traced shape of a picture. If that would be a guess, as of a background, it is the
+        whole picture."""
+        if model.domain is None or model.doubt:
+            model.draw()
+        domain, image = model.domain, model.image
+        if domain is None or image is None:
+            raise TraceError(f"the part {name!r} has no shape")
+        self._sources[domain] = replace(model.state, fallback=domain)
+        return NewPart(name, image, domain)
+
     def _open_parts(self, images: Mapping[str, ImageSource]) -> None:
         """Begin with a part for each picture. The rearmost is edited."""
-        traced: dict[str, TracingModel] = {}
-        for name, image in images.items():
-            traced[name] = model = TracingModel(image)
-            if model.domain is None:
-                why = model.problems[0].message if model.problems else "it has no shape"
-                raise TraceError(f"the part {name!r} cannot be traced: {why}")
-        (first, self.tracing), *others = traced.items()
+        traced = {name: TracingModel(image) for name, image in images.items()}
+        every = [self._traced_part(name, model) for name, model in traced.items()]
+        first, self.tracing = next(iter(traced.items()))
         self.apply_tracing()
-        new = []
-        for name, model in others:
-            assert model.domain is not None
-            assert model.image is not None
-            self._sources[model.domain] = replace(model.state, fallback=model.domain)
-            new.append(NewPart(name, model.image, model.domain))
+        new = every[1:]
         deformation, image = self.deformation, self.tracing.image
         deformation.history = History(add_parts(deformation.state, new, first, image))
 

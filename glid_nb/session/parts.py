@@ -93,15 +93,32 @@ def add_parts(
 
 
 def select_part(state: EditState, index: int) -> EditState:
-    """Edit another part."""
+    """Edit another part, which is shown from then on."""
     part = state.parts[_checked_part(state, index)]
     if index == state.part:
         return state
+    state = _with_part(state, index, visible=True)
     return replace(state, part=index, domain=part.domain, poses=part.poses)
 
 
+def select_next(state: EditState, step: int) -> EditState:
+    """Edit the next visible part in front (1) or behind (-1), around the ends."""
+    count = len(state.parts)
+    order = [(state.part + step * i) % count for i in range(1, count)]
+    following = next((i for i in order if state.parts[i].visible), state.part)
+    return select_part(state, following) if state.parts else state
+
+
 def show_part(state: EditState, index: int, visible: bool) -> EditState:
-    """Show or hide a part, on the canvas and in exports."""
+    """Show or hide a part, on the canvas and in exports.
+
+    If the edited part is hidden, the next visible one is edited. Refused for the last visible one.
+    """
+    _checked_part(state, index)
+    if not visible and index == state.part:
+        state = select_next(state, 1)
+        if index == state.part:
+            raise EditError("this is the only visible part; show another one first")
     return _with_part(state, index, visible=bool(visible))
 
 
@@ -128,12 +145,12 @@ def remove_part(state: EditState, index: int) -> EditState:
     _checked_part(state, index)
     if len(state.parts) == 1:
         raise EditError("the only part cannot be removed")
+    if index == state.part:
+        state = select_next(state, 1)
+    if index == state.part:  # all others are hidden
+        state = select_part(state, (index + 1) % len(state.parts))
     parts = (*state.parts[:index], *state.parts[index + 1 :])
-    if index != state.part:
-        return replace(state, parts=parts, part=state.part - (index < state.part))
-    part = min(index, len(parts) - 1)
-    shown = parts[part]
-    return replace(state, parts=parts, part=part, domain=shown.domain, poses=shown.poses)
+    return replace(state, parts=parts, part=state.part - (index < state.part))
 
 
 def checked_name(name: str) -> str:

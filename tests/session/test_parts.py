@@ -194,8 +194,11 @@ def test_order_names_and_visibility_change_in_steps(model: EditorModel) -> None:
     assert (model.layers.picture == BLUE).all()
     with pytest.raises(EditError, match="only part"):
         deformation.remove_part(0)
+    with pytest.raises(EditError, match="only visible part"):
+        deformation.show_part(0, False)
     with pytest.raises(EditError, match="there is no part 3"):
         deformation.select_part(2)
+    assert model.shapes[0].visible  # it is edited now
     deformation.undo()
     assert names(deformation.state) == ["red 2", "red"]
     assert (model.layers.picture == RED).all()
@@ -363,5 +366,7 @@ def test_any_actions_on_parts_leave_a_whole_state(steps: list[Any], three: EditS
         assert part is not None
         assert part.domain is state.domain
         assert part.poses is state.poses
-        if name in ("move_part", "show_part", "rename_part"):
+        if name in ("select_part", "show_part", "remove_part"):
+            assert part.visible
+        if name in ("move_part", "rename_part"):
             assert state.keys[state.part] == before.keys[before.part]
