@@ -3,7 +3,7 @@
 import bisect
 import itertools
 import time
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from typing import Literal, NamedTuple
 
@@ -37,6 +37,11 @@ class Span(NamedTuple):
     pieces: tuple[Piece, ...] = ()
     """The proved part, from the start on; the whole motion if the status is "proved"."""
     sigma2: tuple[float, ...] = ()  # the certified bound on each piece
+
+    @property
+    def until(self) -> float:
+        """The last instant that is proved."""
+        return self.pieces[-1].end if self.pieces else self.start
 
 
 class Animation(Observed):
@@ -249,6 +254,13 @@ def motion_of(task: EditState, first: int = 0, last: int | None = None) -> Motio
     times = timeline.closed_times[first : last + 1]
     chosen = (maps + maps[:1])[first : last + 1]
     return Motion(chosen, times, easing=timeline.easing[first:last])
+
+
+def proved_by_all(time: float, animations: Iterable[Animation]) -> float:
+    """The instant that is shown at a time of several motions with the same keyframes: if some are
+    not proved there, the last one before it, in the same interval, that is proved for all."""
+    spans = (s for animation in animations for s in animation.spans if s.start <= time <= s.end)
+    return min([time, *(span.until for span in spans)])
 
 
 def proved_spans(
