@@ -3,7 +3,7 @@
 import bisect
 import itertools
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import replace
 from typing import Literal, NamedTuple
 
@@ -37,6 +37,11 @@ class Span(NamedTuple):
     pieces: tuple[Piece, ...] = ()
     """The proved part, from the start on; the whole motion if the status is "proved"."""
     sigma2: tuple[float, ...] = ()  # the certified bound on each piece
+
+    @property
+    def until(self) -> float:
+        """The last instant that is proved."""
+        return self.pieces[-1].end if self.pieces else self.start
 
 
 class Animation(Observed):
@@ -97,9 +102,9 @@ class Animation(Observed):
             number = next((i for i, s in enumerate(spans) if s.start <= time <= s.end), None)
             if number is None:
                 return None
-            span, keys = spans[number], self.deformation.state.keys
-            ends = (_proved_until(self.spans_of(one)[number]) for one in keys)
-            time = min(time, *ends)
+            span, state = spans[number], self.deformation.state
+            shown = [part.key for part in state.parts if part.visible] or state.keys
+            time = min(time, span.until, *(self.spans_of(one)[number].until for one in shown))
         piece = next((p for p in span.pieces if time <= p.end), None)
         return span.map if piece is None else piece.at(time)
 
@@ -255,7 +260,10 @@ class Animation(Observed):
 
 
 class PartAnimation:
-    """The motion of one part, with what a view of an `Animation` reads."""
+    """The motion of one part, with what a view of an `Animation` reads.
+
+    A part that has just been removed has no motion; its view goes soon.
+    """
 
     def __init__(self, animation: Animation, key: int) -> None:
         self.animation, self.key = animation, key
@@ -264,15 +272,20 @@ class PartAnimation:
     def state(self) -> EditState:
         """The state of the part alone."""
         state = self.animation.deformation.state
-        return state.shapes[state.keys.index(self.key)]
+        return state.shapes[state.keys.index(self.key)] if self.key in state.keys else state
 
     @property
     def spans(self) -> tuple[Span, ...]:
-        return self.animation.spans_of(self.key)
+        """As `Animation.spans`, of the part."""
+        with self.animation.deformation.locked():
+            known = self.key in self.animation.deformation.state.keys
+            return self.animation.spans_of(self.key) if known else ()
 
     def seen(self, time: float) -> tuple[HarmonicMap, Order] | None:
         """As `Animation.seen`, of the part."""
-        return self.animation.seen(time, self.key)
+        with self.animation.deformation.locked():
+            known = self.key in self.animation.deformation.state.keys
+            return self.animation.seen(time, self.key) if known else None
 
     def observe(self, observer: Observer) -> Callable[[], None]:
         """As `Animation.observe`."""
@@ -302,11 +315,6 @@ def _told(spans: dict[int, tuple[Span, ...]]) -> dict[int, list[tuple[float, flo
     return {key: [(s.start, s.end, s.status) for s in each] for key, each in spans.items()}
 
 
-def _proved_until(span: Span) -> float:
-    """The last proved instant of a span; its start if nothing is proved."""
-    return span.pieces[-1].end if span.pieces else span.start
-
-
 def _spans(task: EditState) -> tuple[Span, ...]:
     times = task.timeline.closed_times if len(task.poses) > 1 else ()
     ends = itertools.pairwise(times)
@@ -322,6 +330,13 @@ def motion_of(task: EditState, first: int = 0, last: int | None = None) -> Motio
     times = timeline.closed_times[first : last + 1]
     chosen = (maps + maps[:1])[first : last + 1]
     return Motion(chosen, times, easing=timeline.easing[first:last])
+
+
+def proved_by_all(time: float, animations: Iterable["Animation | PartAnimation"]) -> float:
+    """The instant that is shown at a time of several motions with the same keyframes: if some are
+    not proved there, the last one before it, in the same interval, that is proved for all."""
+    spans = (s for animation in animations for s in animation.spans if s.start <= time <= s.end)
+    return min([time, *(span.until for span in spans)])
 
 
 def proved_spans(
