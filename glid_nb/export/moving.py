@@ -110,6 +110,16 @@ class MovingMesh:
         return self.heights[0] if still else _between(self.height_times, self.heights, time)
 
 
+@dataclass(frozen=True, eq=False)
+class MovingPart:
+    """A shape of an animation: its picture, its motion, and a pose for each keyframe."""
+
+    image: ArrayLike
+    motion: Motion
+    poses: Sequence[Pose] | None = None
+    name: str = ""  # of one of several
+
+
 def _between(times: Array, values: Array, time: float) -> Array:
     """Interpolate values (n, ...), given at times, linearly at one time."""
     i = int(np.clip(np.searchsorted(times, time, side="right") - 1, 0, len(times) - 2))
@@ -118,9 +128,7 @@ def _between(times: Array, values: Array, time: float) -> Array:
 
 
 def frames(
-    image: ArrayLike,
-    motion: Motion,
-    poses: Sequence[Pose] | None,
+    parts: Sequence[MovingPart],
     size: int,
     fps: float,
     background: Backdrop,
@@ -128,23 +136,30 @@ def frames(
 ) -> Frames:
     """Pictures at even times. All show the same part of the plane.
 
-    It contains all shapes, or it is the rectangle of a picture that is the background.
+    It contains all shapes, or it is the rectangle of a picture that is the background. The motions
+    of all parts have the same times; later parts cover earlier ones.
     """
-    times = motion.frame_times(fps)
+    times = parts[0].motion.frame_times(fps)
     report(progress, 0, len(times))
-    corners = images_under(motion.keyframes, motion.domain.cage.exterior).reshape(-1, 2)
-    tolerance = TOLERANCE_PX * float(np.ptp(corners, axis=0).max()) / size
-    mesh = MovingMesh.of(motion, poses, _VERTICES, tolerance)
-    frame = frame_around(mesh.images.reshape(-1, 2), size, background)
+    corners = [images_under(p.motion.keyframes, p.motion.domain.cage.exterior) for p in parts]
+    extent = np.ptp(np.concatenate([each.reshape(-1, 2) for each in corners]), axis=0)
+    tolerance = TOLERANCE_PX * float(extent.max()) / size
+    meshes = [MovingMesh.of(p.motion, p.poses, _VERTICES, tolerance) for p in parts]
+    places = np.concatenate([mesh.images.reshape(-1, 2) for mesh in meshes])
+    frame = frame_around(places, size, background)
     behind = drawn_backdrop(background, frame)
-    texture = _scaled(as_rgba8(image), mesh, frame)
+    pairs = zip(parts, meshes, strict=True)
+    drawn = [(_scaled(as_rgba8(part.image), mesh, frame), mesh) for part, mesh in pairs]
     done, one_at_a_time = itertools.count(1), threading.Lock()
 
     def draw(number: int) -> NDArray[np.uint8]:
-        drawn = over(draw_mesh(texture, mesh.at(float(times[number])), frame), behind)
+        pixels = behind
+        for texture, mesh in drawn:
+            pixels = over(draw_mesh(texture, mesh.at(float(times[number])), frame), pixels)
+        assert pixels is not None
         with one_at_a_time:
             report(progress, next(done), len(times))
-        return drawn
+        return pixels
 
     return Frames((frame.width, frame.height), len(times), draw)
 

@@ -131,6 +131,11 @@ class Sheets:
             return None
         return found[np.lexsort((self._order(found), self._opaque(found)))[-1]]
 
+    def visible(self, point: Any) -> Array | None:
+        """Like `source`, but None where everything at the point is transparent."""
+        found = self.source(point)
+        return found if found is not None and self._opaque(found[None])[0] else None
+
     def sources(self, places: Array) -> Array:
         """Like `source` for many places (k, 2), with a mesh's accuracy; NaN outside the shape."""
         which, found, _ = self._overlay.sources(places)

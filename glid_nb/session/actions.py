@@ -23,6 +23,7 @@ from glid_nb.motion.settings import Easing, Repeat
 from glid_nb.pose import DEEPEST, PER_HANDLE, Pose, Stiffness, misplaced
 from glid_nb.session.document import NamedPose, check_room
 from glid_nb.session.edit_state import EditError, EditState
+from glid_nb.session.parts import everywhere, over_parts
 from glid_nb.session.timeline import LEAST_GAP
 from glid_nb.solvers import Method
 
@@ -209,18 +210,21 @@ def drop_hole(state: EditState, index: int) -> EditState:
     return set_domain(state, Domain(cage, offset_cage, points, old.notes))
 
 
+@everywhere
 def save_pose(state: EditState, name: str | None = None) -> EditState:
     """Save the pose under a name, and edit a copy behind it in the list."""
     kept = state.current if name is None else replace(state.current, name=_checked_name(name))
     return _with_inserted(state.with_current(kept), state.active + 1, kept)
 
 
+@everywhere
 def duplicate_pose(state: EditState, index: int) -> EditState:
     """Insert a copy behind a pose, and edit the copy."""
     pose = state.poses[_checked_pose(state, index)]
     return _with_inserted(state, index + 1, pose)
 
 
+@everywhere
 def rename_pose(state: EditState, index: int, name: str) -> EditState:
     """Rename a pose."""
     poses = list(state.poses)
@@ -228,6 +232,7 @@ def rename_pose(state: EditState, index: int, name: str) -> EditState:
     return replace(state, poses=tuple(poses))
 
 
+@everywhere
 def delete_pose(state: EditState, index: int) -> EditState:
     """Delete a pose. Refused for the only pose."""
     _checked_pose(state, index)
@@ -238,6 +243,7 @@ def delete_pose(state: EditState, index: int) -> EditState:
     return replace(state, poses=poses, active=active, timeline=state.timeline.without(index))
 
 
+@everywhere
 def move_pose(state: EditState, index: int, time: float) -> EditState:
     """Show a pose at another time, in seconds. The index after the last one is a loop's return."""
     if not (index == len(state.poses) and state.timeline.repeat == "loop"):
@@ -259,8 +265,15 @@ def set_repeat(state: EditState, repeat: Repeat) -> EditState:
     return replace(state, timeline=replace(state.timeline, repeat=repeat))
 
 
-def keep_between(state: EditState, time: float, map: HarmonicMap) -> EditState:
-    """Save a map between two poses as a pose at its time, with the handles of the pose before."""
+def keep_between(state: EditState, time: float, *maps: HarmonicMap) -> EditState:
+    """Save a map between two poses as a pose at its time, with the handles of the pose before.
+
+    With several parts, there is a map for each.
+    """
+    return over_parts(state, lambda shape, i: _kept_between(shape, time, maps[i]))
+
+
+def _kept_between(state: EditState, time: float, map: HarmonicMap) -> EditState:
     index = bisect.bisect_right(state.timeline.times, time)
     if not index or np.abs(np.subtract(state.timeline.times, time)).min() < LEAST_GAP:
         raise EditError(f"there is already a pose at {time:g} s, or no pose before that")
@@ -272,6 +285,7 @@ def keep_between(state: EditState, time: float, map: HarmonicMap) -> EditState:
     return _with_inserted(state, index, pose, time)
 
 
+@everywhere
 def keep_after(state: EditState, time: float) -> EditState:
     """Save the last pose again at a later time."""
     if not time - state.timeline.times[-1] >= LEAST_GAP:
@@ -285,8 +299,22 @@ def record(
     """Insert a recorded drag into the timeline.
 
     ``first`` replaces the edited pose, then ``poses`` follow, and the edited pose is the last.
-    ``offsets`` are the times of all but the first, in seconds since the first.
+    ``offsets`` are the times of all but the first, in seconds since the first. Other parts stay
+    where they are meanwhile.
     """
+
+    def recorded(shape: EditState, index: int) -> EditState:
+        if index == state.part:
+            return _recorded(shape, first, poses, offsets)
+        still = shape.current
+        return _recorded(shape, still, [still] * (len(offsets) - 1), offsets)
+
+    return over_parts(state, recorded)
+
+
+def _recorded(
+    state: EditState, first: NamedPose, poses: Sequence[NamedPose], offsets: Sequence[float]
+) -> EditState:
     check_room((*state.poses, *poses, first))
     names = itertools.islice(_free_names(state, first.name), len(offsets))
     new = (*poses, state.current)

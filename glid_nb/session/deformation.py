@@ -20,7 +20,7 @@ from glid_nb.geometry import Domain
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging.order import Sheets
 from glid_nb.pose import Pose
-from glid_nb.session import actions, pose_text
+from glid_nb.session import actions, parts, pose_text
 from glid_nb.session.document import NamedPose, Solution
 from glid_nb.session.edit_state import EditError, EditState, Frame, Moment, Task
 from glid_nb.session.live_solver import LiveSolver, solve_edited
@@ -190,6 +190,13 @@ class Deformation(Undoable[EditState], AbstractContextManager["Deformation"]):
     set_repeat = _step(actions.set_repeat)
     keep_between = _step(actions.keep_between)
     keep_after = _step(actions.keep_after)
+    add_parts = _step(parts.add_parts)
+    select_part = _step(parts.select_part)
+    select_next_part = _step(parts.select_next)
+    show_part = _step(parts.show_part)
+    rename_part = _step(parts.rename_part)
+    move_part = _step(parts.move_part)
+    remove_part = _step(parts.remove_part)
 
     def add_handle(self, point: ArrayLike, to: ArrayLike | None = None) -> int:
         """Add a handle at a point of the undeformed shape. Returns its index."""
@@ -245,7 +252,8 @@ class Deformation(Undoable[EditState], AbstractContextManager["Deformation"]):
             if new is before:
                 return
             self._go_to(self.history.step(new))
-            self.dragged = _still_there(held, before.pose, new.pose)
+            if new.keys[new.part] == before.keys[before.part]:
+                self.dragged = _still_there(held, before.pose, new.pose)
 
     # Dragging: many small moves are one step for undo
 
@@ -379,7 +387,7 @@ class Deformation(Undoable[EditState], AbstractContextManager["Deformation"]):
         return self._wait(timeout)
 
     def solved_state(self, *, only_current: bool = False) -> EditState:
-        """Wait until all poses, or only the edited one, are solved. Returns the state.
+        """Wait until all poses, or only the edited one of each part, are solved. Returns the state.
 
         Raises an EditError that names the unsolved poses and says why: the solver is paused or has
         failed, or the pose's method gives no certified map.
@@ -387,7 +395,8 @@ class Deformation(Undoable[EditState], AbstractContextManager["Deformation"]):
         self.finish()
         with self.locked():
             state = self.state
-            wanted = (state.current,) if only_current else state.poses
+            poses = [pose for shape in state.shapes for pose in shape.poses]
+            wanted = [shape.current for shape in state.shapes] if only_current else poses
             reasons = [reason for pose in wanted if (reason := self.why_unsolved(pose)) is not None]
         if reasons:
             raise EditError("; ".join(reasons))
@@ -397,6 +406,8 @@ class Deformation(Undoable[EditState], AbstractContextManager["Deformation"]):
         """Why a pose is not solved, in words; None if it is solved."""
         with self.locked():
             name, error = f"the pose {pose.name!r}", self._failures.get(pose)
+            if part := next((part for part in self.state.parts if pose in part.poses), None):
+                name += f" of {part.name!r}"
             if not pose.unsolved:
                 return None
             if not pose.method.certified:
@@ -474,7 +485,9 @@ class Deformation(Undoable[EditState], AbstractContextManager["Deformation"]):
             same_method = frame.task.pose.method is new.current.method
             if frame.map is not new.map or (frame.mesh is not None and not same_method):
                 self._frame = None
-        self.selection = _still_there(self.selection, old.pose, new.pose)
+        same_part = new.keys[new.part] == old.keys[old.part]
+        selected = self.selection if same_part else ()
+        self.selection = _still_there(selected, old.pose, new.pose)
         self._submit()
         self._go_on()
         self.tell("state", "frame", "selection", "status")
@@ -546,7 +559,8 @@ class Deformation(Undoable[EditState], AbstractContextManager["Deformation"]):
         if self._paused or self._closed or self.dragged:
             return None
         state = self.state
-        others = (pose for pose in state.poses if pose is not state.current)
+        poses = (pose for shape in state.shapes for pose in shape.poses)
+        others = (pose for pose in poses if pose is not state.current)
         left = (p for p in others if p.unsolved and p.method.certified)
         return next((pose for pose in left if pose not in self._failures), None)
 
@@ -580,8 +594,7 @@ class Deformation(Undoable[EditState], AbstractContextManager["Deformation"]):
         with self.locked():
             state = self.state
             if pose is not state.current and not self._closed:
-                poses = tuple(solved if each is pose else each for each in state.poses)
-                self.history = self.history.amended(replace(state, poses=poses))
+                self.history = self.history.amended(state.with_solved(pose, solved))
                 self.tell("state")
 
 

@@ -19,7 +19,7 @@ from glid_nb.imaging.options import Point
 from glid_nb.imaging.read import ImageSource, as_rgba8, read_image
 from glid_nb.imaging.trace import with_changes
 from glid_nb.session import loop_edits
-from glid_nb.session.document import Document
+from glid_nb.session.document import Document, DocumentPart
 from glid_nb.session.look import Layers
 from glid_nb.session.loop_edits import AnyLoops
 from glid_nb.session.model import History, Undoable
@@ -27,6 +27,7 @@ from glid_nb.session.worker import weakly
 
 Brush = Literal["foreground", "background"]
 
+_SPECK = 0.005  # a smaller share of the traced component's area is no piece to keep
 _KEPT_OUTCOMES = 12  # each holds a mask of the picture's size
 
 
@@ -100,7 +101,7 @@ class TracingModel(Undoable[TracingState]):
         self._outcome_of = functools.lru_cache(_KEPT_OUTCOMES)(weakly(self._evaluate))
 
     @classmethod
-    def from_document(cls, document: Document, name: str = "") -> Self:
+    def from_document(cls, document: Document | DocumentPart, name: str = "") -> Self:
         """A model with the document's picture, options, scribbles and cage."""
         model = cls()
         options, loops = document.trace_options, document.cage.loops
@@ -324,6 +325,31 @@ class TracingModel(Undoable[TracingState]):
         with self.locked():
             if state is not self.state:
                 self._go_to(self.history.step(state))
+
+    def show(self, history: History[TracingState]) -> None:
+        """Continue with another history, that of another part of the session."""
+        with self.locked():
+            self._go_to(history)
+
+    def pieces(self, cages: Iterable[Cage] = ()) -> list[TracingState]:
+        """The states that trace the other pieces of the picture, the largest first.
+
+        They are those of some cages, or else the other components of the foreground, without
+        specks.
+        """
+        with self.locked():
+            state, tracing = self.state, self.outcome.tracing
+            if cages := list(cages):
+                return [replace(state, loops=cage.loops, fallback=None) for cage in cages]
+            if tracing is None:
+                return []
+            least = _SPECK * tracing.component.area
+            others = (c for c in tracing.components if c.rank != tracing.component.rank)
+            changes = (
+                {"component": c.rank, "component_at": None} for c in others if c.area > least
+            )
+            options = (with_changes(state.options, change) for change in changes)
+            return [replace(state, options=o, loops=None, fallback=None) for o in options]
 
     def cancel(self, gesture: Any) -> bool:
         """Go back to the state before a gesture, without redo. Returns False if the gesture was

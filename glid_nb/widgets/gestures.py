@@ -287,6 +287,8 @@ class PinGestures(Gestures):
         plain |= {"0": model.reset, "m": model.mirror_pose, "f": self._fit}
         plain |= {"x": lambda: model.set_pins(model.selection, angles=None, scales=None)}
         plain |= {"a": lambda: model.select(range(len(model.pose)))}
+        parts = model.select_next_part
+        plain |= {"n": lambda: parts(-1 if event["shift"] else 1)}
         plain |= {",": lambda: self._next(-1), ".": lambda: self._next(1)}
         if key in ARROWS:
             self._arrow(event)

@@ -201,6 +201,12 @@ class TraceGestures(Gestures):
         in_middle = len(pieces) == 1 and len(pieces[0].loops) > before
         self._cut = Cut(pieces, 0, in_middle, self.model.state, gesture)
 
+    def pieces(self) -> list[TracingState]:
+        """The other pieces: those of the last cut, or else of the picture."""
+        cut = self.cut
+        others = [] if cut is None else [p for i, p in enumerate(cut.pieces) if i != cut.kept]
+        return self.model.pieces(others)
+
     def _keep_piece(self, number: int) -> None:
         """Keep another piece of the last cut."""
         if (cut := self.cut) is None or not 0 <= number < len(cut.pieces):

@@ -44,6 +44,7 @@ function shown(changes = {}) {
     inside: [],
     cut: null,
     selected: [],
+    keeps: false,
     ...changes,
   };
 }

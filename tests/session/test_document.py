@@ -397,7 +397,7 @@ NAN, INFINITY = float("nan"), float("inf")
 BAD: list[tuple[str, Callable[[Data], Any], str]] = [
     ("a list", lambda d: [d], "object"),
     ("another format", changed(format="glid_nb-map"), "format"),
-    ("a newer version", changed(version=7), "version 7 .*newer"),
+    ("a newer version", changed(version=8), "version 8 .*newer"),
     ("a version as text", changed(version="1"), "version '1'"),
     *[
         (f"no {key}", without(key), key)

@@ -317,19 +317,20 @@ shape there"],["Delete","remove the selected pins; with Shift keep the shape"],[
 Alt on the pin","turn the shape there; the ring's knob scales it too"],["< >, + -, X","turn, scale; \
 free both again"],["Page Down, Page Up, [ ]","send selected pins and their surroundings back, forwar\
 d"],["Arrow keys","nudge selected pins, with Shift farther; else move a cursor"],["Enter","show the \
-cursor; pin or select there"]]],["Selecting",[["Shift-click, A","select several pins, all pins"],["S\
-hift and drag, Ctrl and drag","select the pins in a box, in a lasso"],[", .","select the pin before,\
- the next pin, and bring it into view; so does a click on an arrow at the edge"],["Esc","cancel a dr\
-ag; select nothing"]]],["Poses",[["Ctrl+Z, Ctrl+Shift+Z","undo, redo"],["Ctrl+C, Ctrl+V","copy the p\
-ose, put it on this or a similar shape"],["M","swap left and right"],["0","back to the undeformed sh\
-ape"]]],["Stiff areas",[["B, E","paint stiff areas, erase them; Esc ends painting"]]],["View",[["Whe\
-el, two fingers","zoom"],["Middle button, Space and drag","move the view"],["F","see everything"],["\
-P","the picture alone, for lectures; Esc brings the rest back"],["W","the whole screen, without the \
-inspector"],["I","hide the inspector, show it again"]]],["Timeline",[["K","make a keyframe of what i\
-s shown"],["Space","play the motion through the poses, pause; on the canvas too"],["Arrow keys, Home\
-, End","step a frame, with Shift to the next pose; first, last pose"],["Ctrl and wheel","zoom the ti\
-meline; then the wheel alone moves along it"],["Double click a pose, F2","type its name"],["Alt and \
-arrow keys","move the pose in time; Delete removes it"]]]];var Legend=class{element=make("div",{className:"glid-legend"});show(model,moving){const bars=[model.
+cursor; pin or select there"]]],["Selecting",[["Shift-click, A","select several pins, all pins"],["N\
+, Shift+N, click a part","edit another part, if there are several"],["Shift and drag, Ctrl and drag",
+"select the pins in a box, in a lasso"],[", .","select the pin before, the next pin, and bring it in\
+to view; so does a click on an arrow at the edge"],["Esc","cancel a drag; select nothing"]]],["Poses",
+[["Ctrl+Z, Ctrl+Shift+Z","undo, redo"],["Ctrl+C, Ctrl+V","copy the pose, put it on this or a similar\
+ shape"],["M","swap left and right"],["0","back to the undeformed shape"]]],["Stiff areas",[["B, E",
+"paint stiff areas, erase them; Esc ends painting"]]],["View",[["Wheel, two fingers","zoom"],["Middl\
+e button, Space and drag","move the view"],["F","see everything"],["P","the picture alone, for lectu\
+res; Esc brings the rest back"],["W","the whole screen, without the inspector"],["I","hide the inspe\
+ctor, show it again"]]],["Timeline",[["K","make a keyframe of what is shown"],["Space","play the mot\
+ion through the poses, pause; on the canvas too"],["Arrow keys, Home, End","step a frame, with Shift\
+ to the next pose; first, last pose"],["Ctrl and wheel","zoom the timeline; then the wheel alone mov\
+es along it"],["Double click a pose, F2","type its name"],["Alt and arrow keys","move the pose in ti\
+me; Delete removes it"]]]];var Legend=class{element=make("div",{className:"glid-legend"});show(model,moving){const bars=[model.
 get("legend"),model.get("panel_legend")].filter(bar=>bar.title);this.element.replaceChildren(...bars.
 map(bar=>colorBar(bar,moving)));this.element.hidden=!bars.length;this.element.dataset.corner=model.get(
 "legend_corner")}};function colorBar({title,moving,colors,ticks,about},moves){const gradient=`backgr\
@@ -365,7 +366,7 @@ const left=x+BESIDE+width<=view.width?x+BESIDE:x-BESIDE-width;const top=Math.min
 pen.fill();pen.fillStyle=INK2;pen.textBaseline="middle";words2.forEach((text,i)=>{pen.fillText(text,
 left+PADDING,top+PADDING/2+LINE*(i+.5))})}function drawAxis(pen,view,start,at){const[x,y]=view.toScreen(
 start);const across=start[1]===at[1];const line=across?[[0,y],[view.width,y]]:[[x,0],[x,view.height]];
-tracePath(pen,[line],false);strokePath(pen,[[1,GUIDE]],[4,4])}var REACH={mouse:13,pen:16,touch:26};var KEYS=/^(Arrow\w+|Page\w+|Delete|Backspace|Escape|Enter|[0fa,.[\]<>+=xmbe-])$/i;
+tracePath(pen,[line],false);strokePath(pen,[[1,GUIDE]],[4,4])}var REACH={mouse:13,pen:16,touch:26};var KEYS=/^(Arrow\w+|Page\w+|Delete|Backspace|Escape|Enter|[0fa,.[\]<>+=xmbne-])$/i;
 var TARGET_TIP="where it should be. Drag it; Alt turns it; a right click shows more; Shift-click sel\
 ects several";var IMAGE_TIP="where the shape is now. The cyan disk is where it should be";var COVERED="\
 . Another part of the shape covers it";var RING_TIPS={turn:"Drag around the pin to turn the shape th\
@@ -605,50 +606,63 @@ re.set(c.re,i*evenly(columns));this.#coordinates.im.set(c.im,i*evenly(columns))}
 return{images:this.images(coefficients),samples:this.samples(coefficients)}}images(coefficients){const[
 fr,fi,gr,gi]=quarters(samplesAt(this.#coordinates,coefficients));const images=new Float64Array(2*this.
 count);for(let i=0;i<this.count;i++){images[2*i]=fr[i]+gr[i];images[2*i+1]=fi[i]-gi[i]}return images}samples(coefficients){
-this.#rows??=rowsAt(this.#domain,this.#points);return samplesAt(this.#rows,slopesOf(this.#domain,coefficients))}};var MOVED_BY_PAGE="moved by the page";var Vertices=class{#domain;#wire;#points=new WeakMap;constructor({
-outline,...sizes}){this.#domain=new Domain(outline);this.#wire=new Wire(outline,sizes)}move(meshes,wire){
+this.#rows??=rowsAt(this.#domain,this.#points);return samplesAt(this.#rows,slopesOf(this.#domain,coefficients))}};var MOVED_BY_PAGE="moved by the page";var pointsIn=new WeakMap;var imagesIn=new WeakMap;var Vertices=class{#domain;#wire;constructor({
+outline,...sizes}){this.#domain=new Domain(outline);this.#wire=new Wire(outline,sizes)}move(meshes,wire,still=false){
 const moved=meshes.filter(movedByPage);if(!moved.length||wire.length!==this.#wire.length)return;const coefficients=this.#wire.
 coefficients(wire);const distorted=new Set(moved.filter(showsDerivatives).map(mesh=>mesh.geometry));
-for(const geometry of new Set(moved.map(mesh=>mesh.geometry))){const points=this.#pointsOf(geometry);
-const{image,derivatives}=geometry.attributes;image.array.set(points.images(coefficients));image.needsUpdate=
-true;if(distorted.has(geometry)){interleave(points.samples(coefficients),derivatives.array);derivatives.
-needsUpdate=true}geometry.userData.wire=wire}}#pointsOf(geometry){const known=this.#points.get(geometry);
-if(known)return known;const{array,count}=geometry.attributes.position;const places=Array.from({length:count},
-(_,i)=>[array[3*i],array[3*i+1]]);const points=new FieldPoints(this.#domain,places);this.#points.set(
-geometry,points);return points}};function movedByPage({name,visible}){return name===MOVED_BY_PAGE&&visible}
-function showsDerivatives({material}){return material.uniforms?.overlay?.value!==0}function interleave(samples,into){
-const count=samples.length/4;for(let part=0;part<4;part++){for(let i=0;i<count;i++)into[4*i+part]=samples[part*
-count+i]}}var NEAR=8;var LEAD="glid:lead";var N_TIMED=3;var MOST_FRAMES=100;var Shapes=class{motion=null;lead=null;led=()=>{};#vertices=null;#materials=[];#camera=null;#renderer=null;#loading=0;#lifted=null;#resting=null;#detail=new Detail(
+for(const geometry of new Set(moved.map(mesh=>mesh.geometry))){const{image,derivatives}=geometry.attributes;
+if(still&&imagesIn.get(image.array)===wire)continue;const points=this.#pointsOf(geometry);imagesIn.set(
+image.array,wire);image.array.set(points.images(coefficients));image.needsUpdate=true;if(distorted.has(
+geometry)){interleave(points.samples(coefficients),derivatives.array);derivatives.needsUpdate=true}geometry.
+userData.wire=wire}}#pointsOf(geometry){const known=pointsIn.get(geometry);if(known)return known;const{
+array,count}=geometry.attributes.position;const places=Array.from({length:count},(_,i)=>[array[3*i],
+array[3*i+1]]);const points=new FieldPoints(this.#domain,places);pointsIn.set(geometry,points);return points}};
+function movedByPage({name,visible}){return name===MOVED_BY_PAGE&&visible}function showsDerivatives({
+material}){return material.uniforms?.overlay?.value!==0}function interleave(samples,into){const count=samples.
+length/4;for(let part=0;part<4;part++){for(let i=0;i<count;i++)into[4*i+part]=samples[part*count+i]}}var MovedShape=class{materials=[];#vertices=null;#told;#floats=toFloats();constructor(outlined){if(outlined?.
+outline)this.#vertices=new Vertices(outlined)}of(meshes){return meshes.filter(({material})=>this.materials.
+some(({obj})=>obj===material))}move(meshes,floats,moving){const still=floats===this.#floats;this.#vertices?.
+move(this.of(meshes),floats,still);for(const{obj}of this.materials){const{cage,coefficients,holes,by_margin:byMargin}=obj?.
+uniforms??{};if(byMargin?.value)byMargin.value=moving?2:1;if(!coefficients)continue;const chain=cage.
+value.length;if(floats.length!==chain+holes.value.length)continue;coefficients.value=floats.subarray(
+0,chain);holes.value=floats.subarray(chain)}}rest(meshes,wire){if(this.#told!==wire)this.#floats=toFloats(
+wire);this.#told=wire;this.move(meshes,this.#floats,false)}lift(meshes,heights){const geometry=this.
+of(meshes)[0]?.geometry;if(!geometry)return;const{position}=geometry.attributes;const kept=geometry.
+userData;if(position.array!==kept.lifted)kept.resting=position.array;const{resting}=kept;if(heights?.
+length===position.count){kept.lifted=position.array===resting?resting.slice():position.array;heights.
+forEach((height,i)=>{kept.lifted[3*i+2]=height});if(position.array===resting)position.setArray(kept.
+lifted)}else{if(position.array===resting)return;position.setArray(resting)}position.needsUpdate=true}};var NEAR=8;var LEAD="glid:lead";var N_TIMED=3;var MOST_FRAMES=100;var Shapes=class{motion=null;partMotions={};lead=null;led=()=>{};#edited=new MovedShape;#around=new Map;#camera=null;#renderer=null;#loading=0;#loaded="";#detail=new Detail(
 ()=>Object.values(this.#renderer?.views??{}));constructor(model,view){this.model=model;this.view=view;
-model.on("change:outline",()=>this.#takeOutline());this.#takeOutline();model.on("change:materials ch\
-ange:camera change:renderer",()=>this.load())}async load(){this.#loading+=1;const turn=this.#loading;
-const{model}=this;const references=[model.get("camera"),model.get("renderer"),...model.get("material\
-s")];const[camera,renderer,...materials]=await Promise.all(references.map(one=>model.widget_manager.
-get_model(one.replace("IPY_MODEL_",""))));await Promise.all([camera,renderer,...materials].map(one=>one.
-initPromise));if(turn!==this.#loading)return;this.#forget();this.#camera=camera;this.#renderer=renderer;
-this.#materials=materials;for(const material of materials)material.on("change",this.refresh,this);renderer.
-get("scene").off("beforeRender",keepLittle).on("beforeRender",keepLittle);for(const view of Object.values(
-renderer.views))view.then(drawNoMore);renderer.on(LEAD,this.#takeLead,this);this.refresh()}#forget(){
-this.#detail.restore();this.#renderer?.off(null,null,this);for(const material of this.#materials)material.
-off(null,null,this);this.#materials=[]}#takeOutline(){const outlined=this.model.get("outline");this.#vertices=
-outlined?.outline?new Vertices(outlined):null}showLead(lead){this.#renderer?.trigger(LEAD,lead)}#takeLead(lead){
-this.lead=lead;if(lead&&this.movesVertices)this.#detail.moved(this.model.get("drawing_time"));this.refresh();
-this.led()}get movesVertices(){return this.#meshes.some(movedByPage)}get#meshes(){return this.#renderer?.
-get("scene").obj?.children??[]}refresh(){const{motion}=this;const moved=motion instanceof Float32Array&&
-motion.length?motion:null;const floats=moved??this.lead?.floats??toFloats(this.model.get("coefficien\
-ts"));this.#vertices?.move(this.#meshes,floats);for(const{obj}of this.#materials){const{cage,coefficients,
-holes,by_margin:byMargin}=obj?.uniforms??{};if(byMargin?.value)byMargin.value=motion?2:1;if(!coefficients)
-continue;const chain=cage.value.length;if(floats.length!==chain+holes.value.length)continue;coefficients.
-value=floats.subarray(0,chain);holes.value=floats.subarray(chain)}this.see();this.redraw()}lift(heights){
-const picture=this.#renderer?.get("scene").obj?.children[0];const position=picture?.geometry.attributes.
-position;if(!position)return;if(position.array!==this.#lifted)this.#resting=position.array;const resting=this.#resting;
-if(heights?.length===position.count){const lifted=position.array===resting?resting.slice():position.
-array;heights.forEach((height,i)=>{lifted[3*i+2]=height});if(position.array===resting)position.setArray(
-lifted);this.#lifted=lifted}else{if(position.array===resting)return;position.setArray(resting)}position.
-needsUpdate=true}see(){const{x,y,unit,width,height}=this.view;const w=width/2*unit;const h=height/2*
-unit;for(const{obj}of this.#materials){if(obj?.uniforms?.pixel)obj.uniforms.pixel.value=unit}this.#camera?.
+const loaded="change:materials change:part_shapes change:camera change:renderer";model.on(loaded,()=>this.
+load())}async load(){this.#loading+=1;const turn=this.#loading;const{model}=this;const parts=model.get(
+"part_shapes")??[];const[[camera,renderer],materials,...others]=await Promise.all([this.#models([model.
+get("camera"),model.get("renderer")]),this.#models(model.get("materials")),...parts.map(part=>this.#models(
+part.materials))]);if(turn!==this.#loading)return;this.#forget();this.#camera=camera;this.#renderer=
+renderer;this.#edited=shapeOf(model.get("outline"),materials);this.#around=new Map(parts.map((part,i)=>[
+part.key,shapeOf(part,others[i])]));this.#loaded=this.#references;for(const material of this.#materials)
+material.on("change",this.refresh,this);renderer.get("scene").off("beforeRender",keepLittle).on("bef\
+oreRender",keepLittle);for(const view of Object.values(renderer.views))view.then(drawNoMore);renderer.
+on(LEAD,this.#takeLead,this);this.refresh()}async#models(references){const{widget_manager:manager}=this.
+model;const models=await Promise.all(references.map(one=>manager.get_model(one.replace("IPY_MODEL_",
+""))));await Promise.all(models.map(one=>one.initPromise));return models}get#materials(){return[this.#edited,
+...this.#around.values()].flatMap(({materials})=>materials)}#forget(){this.#detail.restore();this.#renderer?.
+off(null,null,this);for(const material of this.#materials)material.off(null,null,this);this.#edited=
+new MovedShape;this.#around.clear();this.#loaded=""}get#references(){const parts=this.model.get("par\
+t_shapes")??[];return JSON.stringify([this.model.get("materials"),parts.map(({materials})=>materials)])}showLead(lead){
+this.#renderer?.trigger(LEAD,lead)}#takeLead(lead){this.lead=lead;if(lead&&this.movesVertices)this.#detail.
+moved(this.model.get("drawing_time"));this.refresh();this.led()}get movesVertices(){return this.#meshes.
+some(movedByPage)}get#meshes(){return this.#renderer?.get("scene").obj?.children??[]}refresh(){if(this.#loaded===
+this.#references)this.#move();this.see();this.redraw()}#move(){const{motion}=this;const moved=motion instanceof
+Float32Array&&motion.length?motion:null;const floats=moved??this.lead?.floats??toFloats(this.model.get(
+"coefficients"));this.#edited.move(this.#meshes,floats,Boolean(motion));for(const[key,shape]of this.#around){
+const seen=motion instanceof Float32Array?this.partMotions[key]:void 0;if(seen)shape.move(this.#meshes,
+seen.floats,true);else shape.rest(this.#meshes,this.model.get("part_maps")[key])}}lift(heights){this.#edited.
+lift(this.#meshes,heights);for(const[key,shape]of this.#around){shape.lift(this.#meshes,this.partMotions[key]?.
+heights??null)}}see(){const{x,y,unit,width,height}=this.view;const w=width/2*unit;const h=height/2*unit;
+for(const{obj}of this.#materials){if(obj?.uniforms?.pixel)obj.uniforms.pixel.value=unit}this.#camera?.
 set({left:x-w,right:x+w,top:y+h,bottom:y-h})}redraw(){this.#renderer?.trigger("rerender",this.#renderer,
-{})}close(){this.#loading+=1;this.#forget()}};var ending=new WeakSet;function keepLittle(_scene,renderer){
+{})}close(){this.#loading+=1;this.#forget()}};function shapeOf(outlined,materials){const shape=new MovedShape(
+outlined);shape.materials=materials;return shape}var ending=new WeakSet;function keepLittle(_scene,renderer){
 renderer.renderLists.dispose();if(ending.has(renderer))return;ending.add(renderer);const{dispose}=renderer;
 renderer.dispose=()=>{dispose.call(renderer);renderer.forceContextLoss()}}function drawNoMore(view){
 view.once("remove",()=>{view.renderScene=()=>{}})}function drawnBelow(pad){return pad.closest(".glid\
@@ -699,36 +713,36 @@ point);const does={press:(key,shift=false)=>{return()=>this.pad.press(key,{shift
 pad.send("pin",at),paste:()=>void this.clipboard.paste(),alone:()=>this.room?.alone(),fullScreen:()=>this.
 room?.fullScreen(),showKeys:this.help.toggle};const pinned=mark!==null&&selected.includes(mark)?selected.
 length:1;const covered=mark===null&&coveredNear(this.box,at);openMenu(this.box,at,menuRows(does,mark===
-null?null:{pinned},covered))}showMotion(motion=null,playing=STILL,heights=null){this.#playing=playing;
-this.shapes.motion=motion;this.shapes.lift(heights);this.showLegend();this.shapes.refresh();this.redraw()}showLegend(){
-this.legend.show(this.model,Boolean(this.shapes.motion))}takeFocus(){const{painting}=this;const chosen=painting&&
-!this.#painted;this.#painted=painting;const side=this.box.closest(".glid-editor")?.querySelector(".g\
-lid-side");if(chosen&&side?.contains(document.activeElement))this.box.focus({preventScroll:true})}showNotice(){
-const first=this.interactive&&!this.marks.targets.length;this.notices.tell(this.model.get("notice"),
-this.painting,first)}fit(){const{model,view,box}=this;view.width=model.get("width");view.height=model.
-get("height");[view.x,view.y,view.unit]=model.get("view");box.style.width=`${view.width}px`;box.style.
-height=`${view.height}px`;this.room?.shrink();this.#see()}reveal(){const{selected,targets,images}=this.
-marks;const now=selected.length===1?selected[0]:void 0;if(now===this.#chosen)return;this.#chosen=now;
-if(now===void 0||this.pad.mode)return;if(inSight(this.view,targets[now])||inSight(this.view,images[now]))
-return;this.view.centreOn(targets[now])}pressedAt(){if(!this.shapes.motion)return void 0;this.#presses=
-true;return this.#playing.pause()}#pressed(e){const{detail}=e;const act=this.pad.behaviour.actions?.[detail];
-if(act)act();else this.pad.press(detail,{})}#takeFirst(){const goBack=e=>{if(!this.shapes.motion)return;
-e.stopImmediatePropagation();e.preventDefault();this.#playing.release()};const capture=true;this.box.
-addEventListener("pointerdown",e=>e.button===2&&goBack(e),{capture});const ours=e=>!e.ctrlKey&&!e.metaKey&&
-KEYS.test(keyOf(e));this.box.addEventListener("keydown",e=>ours(e)&&goBack(e),{capture});const openedByKeys=e=>{
-if(e.key!=="F10"||!e.shiftKey)return;e.stopImmediatePropagation();e.preventDefault();this.openMenu()};
-this.box.addEventListener("keydown",openedByKeys,{capture});const followArrow=e=>{const target=arrowAt(
-this.view,this.marks,this.pad.place(e));if(!target||e.target!==this.box)return;this.view.centreOn(target);
-e.stopImmediatePropagation()};this.box.addEventListener("pointerdown",followArrow,{capture})}#makeCorner(){
-const look="glid-help-button";return make("div",{className:"glid-corner"},this.help.button,iconButton(
-"screen","Full screen (W)",()=>this.room?.fullScreen(),look),iconButton("rectangle","The picture alo\
-ne (P)",()=>this.room?.alone(),look))}#report(){const{busy,refusal}=this.link;if(this.#presses&&this.
-link.idle&&this.pad.mode===null){this.#presses=false;this.#playing.release()}if(!busy&&refusal&&refusal!==
-this.model.get("notice"))this.say(refusal)}#viewMoved(){this.#see();clearTimeout(this.#saving);this.#saving=
-setTimeout(()=>{const{x,y,unit}=this.view;save(this.model,{view:[x,y,unit]})},SAVE_VIEW_AFTER)}#see(){
-this.shapes.see();this.redraw()}#drawNumbers(pen){const{model,view,pad,marks}=this;const{pressed}=this.
-behaviour;const drags=pad.mode==="hand"&&pad.path.length>1&&!pad.encloses;const moved=drags&&pressed&&
-movedPin(pressed,marks,pad.held,model.get("picture_size"));if(!moved)return;const{start,keys}=pressed;
+null?null:{pinned},covered))}showMotion(motion=null,playing=STILL,heights=null,parts={}){this.#playing=
+playing;this.shapes.motion=motion;this.shapes.partMotions=parts;this.shapes.lift(heights);this.showLegend();
+this.shapes.refresh();this.redraw()}showLegend(){this.legend.show(this.model,Boolean(this.shapes.motion))}takeFocus(){
+const{painting}=this;const chosen=painting&&!this.#painted;this.#painted=painting;const side=this.box.
+closest(".glid-editor")?.querySelector(".glid-side");if(chosen&&side?.contains(document.activeElement))
+this.box.focus({preventScroll:true})}showNotice(){const first=this.interactive&&!this.marks.targets.
+length;this.notices.tell(this.model.get("notice"),this.painting,first)}fit(){const{model,view,box}=this;
+view.width=model.get("width");view.height=model.get("height");[view.x,view.y,view.unit]=model.get("v\
+iew");box.style.width=`${view.width}px`;box.style.height=`${view.height}px`;this.room?.shrink();this.#see()}reveal(){
+const{selected,targets,images}=this.marks;const now=selected.length===1?selected[0]:void 0;if(now===
+this.#chosen)return;this.#chosen=now;if(now===void 0||this.pad.mode)return;if(inSight(this.view,targets[now])||
+inSight(this.view,images[now]))return;this.view.centreOn(targets[now])}pressedAt(){if(!this.shapes.motion)
+return void 0;this.#presses=true;return this.#playing.pause()}#pressed(e){const{detail}=e;const act=this.
+pad.behaviour.actions?.[detail];if(act)act();else this.pad.press(detail,{})}#takeFirst(){const goBack=e=>{
+if(!this.shapes.motion)return;e.stopImmediatePropagation();e.preventDefault();this.#playing.release()};
+const capture=true;this.box.addEventListener("pointerdown",e=>e.button===2&&goBack(e),{capture});const ours=e=>!e.
+ctrlKey&&!e.metaKey&&KEYS.test(keyOf(e));this.box.addEventListener("keydown",e=>ours(e)&&goBack(e),{
+capture});const openedByKeys=e=>{if(e.key!=="F10"||!e.shiftKey)return;e.stopImmediatePropagation();e.
+preventDefault();this.openMenu()};this.box.addEventListener("keydown",openedByKeys,{capture});const followArrow=e=>{
+const target=arrowAt(this.view,this.marks,this.pad.place(e));if(!target||e.target!==this.box)return;
+this.view.centreOn(target);e.stopImmediatePropagation()};this.box.addEventListener("pointerdown",followArrow,
+{capture})}#makeCorner(){const look="glid-help-button";return make("div",{className:"glid-corner"},this.
+help.button,iconButton("screen","Full screen (W)",()=>this.room?.fullScreen(),look),iconButton("rect\
+angle","The picture alone (P)",()=>this.room?.alone(),look))}#report(){const{busy,refusal}=this.link;
+if(this.#presses&&this.link.idle&&this.pad.mode===null){this.#presses=false;this.#playing.release()}
+if(!busy&&refusal&&refusal!==this.model.get("notice"))this.say(refusal)}#viewMoved(){this.#see();clearTimeout(
+this.#saving);this.#saving=setTimeout(()=>{const{x,y,unit}=this.view;save(this.model,{view:[x,y,unit]})},
+SAVE_VIEW_AFTER)}#see(){this.shapes.see();this.redraw()}#drawNumbers(pen){const{model,view,pad,marks}=this;
+const{pressed}=this.behaviour;const drags=pad.mode==="hand"&&pad.path.length>1&&!pad.encloses;const moved=drags&&
+pressed&&movedPin(pressed,marks,pad.held,model.get("picture_size"));if(!moved)return;const{start,keys}=pressed;
 if(start&&keys?.axis)drawAxis(pen,view,start,moved.at);drawNumbers(pen,view,moved)}#draw(pen){const{
 model,view,pad,marks,brush}=this;const{motion}=this.shapes;const through=!motion&&knobInCorner(view,
 marks,pad.held);this.corner.classList.toggle("glid-through",through);if(motion)return;drawOnion(pen,
@@ -738,13 +752,14 @@ focused?model.get("cursor"):null;drawMarks(pen,view,marks,{hovered:pad.found?.ma
 if(brush)drawBrush(pen,view,brush,pad);else this.#drawNumbers(pen);if(pad.encloses&&pad.path.length>
 2)drawLasso(pen,view,pad.path)}};function render(context){const{model,signal}=context;const canvas=new Canvas(context);follow(model,{
 "change:width change:height change:view":()=>canvas.fit(),"change:coefficients":()=>canvas.shapes.lead||
-canvas.shapes.refresh(),"change:solver_script change:solver change:outline":()=>canvas.prepareSolver(),
-"change:rest":()=>canvas.rested(),"change:drawing_time":()=>model.get("drawn")&&!model.get("drawing_\
-time")&&measure(canvas,signal),"change:marks change:cursor change:onion change:stiff change:brush":()=>canvas.
-redraw(),"glid:motion":(...shown)=>canvas.showMotion(...shown),"change:legend change:panel_legend ch\
-ange:legend_corner":()=>canvas.showLegend(),"change:notice change:marks change:brush":()=>canvas.showNotice(),
-"change:marks":()=>canvas.reveal(),"change:brush":()=>canvas.takeFocus(),"change:prepared":()=>canvas.
-notices.prepare(model.get("prepared"))});measure(canvas,signal);if(model.get("uniform_vectors")===0){
-save(model,{uniform_vectors:uniformVectors()||-1})}return()=>canvas.close()}async function measure({
-box,model,shapes},signal){await shapes.load();const time=await drawingTime(box,shapes);if(!signal.aborted)
-save(model,{drawn:true,drawing_time:time})}var main_default={render};export{main_default as default};
+canvas.shapes.refresh(),"change:part_maps":()=>canvas.shapes.refresh(),"change:solver_script change:\
+solver change:outline":()=>canvas.prepareSolver(),"change:rest":()=>canvas.rested(),"change:drawing_\
+time":()=>model.get("drawn")&&!model.get("drawing_time")&&measure(canvas,signal),"change:marks chang\
+e:cursor change:onion change:stiff change:brush":()=>canvas.redraw(),"glid:motion":(...shown)=>canvas.
+showMotion(...shown),"change:legend change:panel_legend change:legend_corner":()=>canvas.showLegend(),
+"change:notice change:marks change:brush":()=>canvas.showNotice(),"change:marks":()=>canvas.reveal(),
+"change:brush":()=>canvas.takeFocus(),"change:prepared":()=>canvas.notices.prepare(model.get("prepar\
+ed"))});measure(canvas,signal);if(model.get("uniform_vectors")===0){save(model,{uniform_vectors:uniformVectors()||
+-1})}return()=>canvas.close()}async function measure({box,model,shapes},signal){await shapes.load();
+const time=await drawingTime(box,shapes);if(!signal.aborted)save(model,{drawn:true,drawing_time:time})}
+var main_default={render};export{main_default as default};

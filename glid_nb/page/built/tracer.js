@@ -118,18 +118,19 @@ make("label",{className:"glid-row"},this.invert,"Swap foreground and background"
 "Shape"),brush("background","Background"),make("button",{onclick:()=>act("clear_scribbles")},"Clear"));
 this.component=make("select",{"aria-label":"Component",onchange:()=>this.#choose({component:Number(this.
 component.value),component_at:null})});this.components=row2(make("span",{className:"glid-grow"},"Com\
-ponent"),this.component,make("button",{"data-tool":"component"},"Pick"));this.doubt=make("p");this.byHand=
-make("div",{className:"glid-by-hand"},this.doubt,...this.#outlines());this.holesTitle=make("h4");this.
-holes=make("div",{className:"glid-holes"});this.notes=make("ul");this.notesBox=make("details",{className:"\
-glid-notes"},make("summary",{},"Notes"),this.notes);this.element=this.#laidOut()}#laidOut(){const group={
+ponent"),this.component,make("button",{"data-tool":"component"},"Pick"));this.keep=row2(make("button",
+{onclick:()=>act("keep_pieces")},"Keep all as parts"));this.doubt=make("p");this.byHand=make("div",{
+className:"glid-by-hand"},this.doubt,...this.#outlines());this.holesTitle=make("h4");this.holes=make(
+"div",{className:"glid-holes"});this.notes=make("ul");this.notesBox=make("details",{className:"glid-\
+notes"},make("summary",{},"Notes"),this.notes);this.element=this.#laidOut()}#laidOut(){const group={
 className:"glid-methods",role:"radiogroup","aria-label":"Method"};const[threshold,smoothing,offset,simplify,
 leastHole]=this.numbers.map(({element})=>element);return make("div",{className:"glid-panel"},make("h\
 4",{},"By hand"),this.byHand,make("h4",{},"Foreground"),make("div",group,...this.methods),...[this.scribbles,
-this.pickColor,threshold,this.inverts,smoothing,this.components],make("h4",{},"Outline"),...[offset,
-simplify,this.holesTitle,leastHole,this.holes,this.notesBox])}#outlines(){const buttons=OUTLINES.map(
-([tool,label,title2])=>{return make("button",{title:title2,"data-tool":tool},label)});const title="E\
-verything, the background too";const whole=make("button",{title,onclick:()=>this.act("draw")},"Whole\
- picture");return[...buttons,whole]}#choose(changes,gesture){this.act("set_options",{changes,gesture,
+this.pickColor,threshold,this.inverts,smoothing,this.components],this.keep,make("h4",{},"Outline"),...[
+offset,simplify,this.holesTitle,leastHole,this.holes,this.notesBox])}#outlines(){const buttons=OUTLINES.
+map(([tool,label,title2])=>{return make("button",{title:title2,"data-tool":tool},label)});const title="\
+Everything, the background too";const whole=make("button",{title,onclick:()=>this.act("draw")},"Whol\
+e picture");return[...buttons,whole]}#choose(changes,gesture){this.act("set_options",{changes,gesture,
 replaces:gesture})}update(shown){this.element.hidden=!shown.size;if(!shown.size)return;for(const control of this.
 numbers)control.update(shown);this.#showMethod(shown);this.#showDoubt(shown);this.#showComponents(shown);
 this.#showHoles(shown);this.notesBox.hidden=!shown.notes.length;this.notes.replaceChildren(...shown.
@@ -140,22 +141,23 @@ used!=="scribbles";this.pickColor.hidden=used!=="color";this.inverts.hidden=used
 threshold";this.invert.checked=invert===true;this.invert.indeterminate=invert===null&&used==="thresh\
 old"}#showDoubt({doubt,loops}){const guess=Boolean(doubt)||!loops.length;this.byHand.classList.toggle(
 "glid-guess",guess);this.doubt.hidden=!guess;const why=doubt?`This outline is a guess: ${doubt}. `:"";
-this.doubt.textContent=`${why}Show it the shape:`}#showComponents({component,n_components:count}){this.
-components.hidden=count<2;const listed=Math.min(count,MOST_LISTED);if(this.component.length!==listed){
-const options=Array.from({length:listed},(_,i)=>{return new Option(i?`${i+1}.`:"Largest",String(i))});
-this.component.replaceChildren(...options)}this.component.value=String(component)}#showHoles({holes:listed,
-n_holes:count,n_filled:filled,loops}){const small=filled?`, ${filled} small filled`:"";this.holesTitle.
-textContent=`${holesIn(loops.length-1)} in the cage${small}`;const rows=listed.map((hole,i)=>this.#holeRow(
-hole,i));const left=count-listed.length;const root=this.holes.getRootNode();const focused=[...this.holes.
-children].findIndex(one=>one.contains(root.activeElement));this.holes.replaceChildren(...rows);if(left){
-this.holes.append(make("div",{className:"glid-unit"},`and ${left} smaller ones`))}rows[focused]?.querySelector(
-"input")?.focus()}#holeRow(hole,i){const size=hole.area>=LARGE?`${(hole.area/1e3).toFixed(0)}k px²`:
-`${hole.area.toFixed(0)} px²`;const made=hole.by_offset?" (made by the offset)":"";return make("lab\
-el",{className:"glid-hole",onpointerenter:()=>this.stage.highlightHole(i),onpointerleave:()=>this.stage.
-highlightHole(null)},make("input",{type:"checkbox",checked:hole.kept,onchange:()=>this.act("toggle_h\
-ole",{number:i})}),make("span",{className:"glid-grow"},`Hole ${i+1}${made}`),make("span",{className:"\
-glid-unit"},size))}};function row2(...parts){return make("div",{className:"glid-row"},...parts)}function brush(tool,label){
-return make("button",{className:`glid-brush glid-${tool}`,"data-tool":tool},label)}var WHEEL_SPEED=.0015;var WHEEL_LINE=33;var LINES=1;var PINCH=5;function distance([x,y],[u,v]){return Math.
+this.doubt.textContent=`${why}Show it the shape:`}#showComponents({component,n_components:count,keeps}){
+this.components.hidden=count<2;this.keep.hidden=count<2||!keeps;const listed=Math.min(count,MOST_LISTED);
+if(this.component.length!==listed){const options=Array.from({length:listed},(_,i)=>{return new Option(
+i?`${i+1}.`:"Largest",String(i))});this.component.replaceChildren(...options)}this.component.value=String(
+component)}#showHoles({holes:listed,n_holes:count,n_filled:filled,loops}){const small=filled?`, ${filled}\
+ small filled`:"";this.holesTitle.textContent=`${holesIn(loops.length-1)} in the cage${small}`;const rows=listed.
+map((hole,i)=>this.#holeRow(hole,i));const left=count-listed.length;const root=this.holes.getRootNode();
+const focused=[...this.holes.children].findIndex(one=>one.contains(root.activeElement));this.holes.replaceChildren(
+...rows);if(left){this.holes.append(make("div",{className:"glid-unit"},`and ${left} smaller ones`))}
+rows[focused]?.querySelector("input")?.focus()}#holeRow(hole,i){const size=hole.area>=LARGE?`${(hole.
+area/1e3).toFixed(0)}k px²`:`${hole.area.toFixed(0)} px²`;const made=hole.by_offset?" (made by the\
+ offset)":"";return make("label",{className:"glid-hole",onpointerenter:()=>this.stage.highlightHole(
+i),onpointerleave:()=>this.stage.highlightHole(null)},make("input",{type:"checkbox",checked:hole.kept,
+onchange:()=>this.act("toggle_hole",{number:i})}),make("span",{className:"glid-grow"},`Hole ${i+1}${made}`),
+make("span",{className:"glid-unit"},size))}};function row2(...parts){return make("div",{className:"g\
+lid-row"},...parts)}function brush(tool,label){return make("button",{className:`glid-brush glid-${tool}`,
+"data-tool":tool},label)}var WHEEL_SPEED=.0015;var WHEEL_LINE=33;var LINES=1;var PINCH=5;function distance([x,y],[u,v]){return Math.
 hypot(x-u,y-v)}var View=class{x=0;y=0;unit=1;width=0;height=0;constructor(changed,{up=1,nearest:nearest2,
 farthest}){this.changed=changed;this.up=up;this.nearest=nearest2;this.farthest=farthest}toWorld([px,
 py]){const x=this.x+(px-this.width/2)*this.unit;const y=this.y-this.up*(py-this.height/2)*this.unit;
@@ -389,18 +391,19 @@ return button});for(const name of TOOL_NAMES){this.stage.actions[TOOLS[name].key
 name)}this.undo=iconButton("undo","Undo (Ctrl+Z)",()=>this.act("undo"));this.redo=iconButton("redo",
 "Redo (Ctrl+Shift+Z)",()=>this.act("redo"));this.discard=make("button",{title:"Go back to the outlin\
 e as traced",onclick:()=>this.act("discard_edits")},"Discard edits");this.question=this.#askAbout();
-this.pieces=this.#askWhichPiece();this.stage.element.append(this.question,this.pieces);const keys=help(
-HELP);this.stage.element.append(keys.table);this.stage.actions["?"]=keys.toggle;this.root.append(this.#toolbar(
-keys.button),make("div",{className:"glid-body"},this.stage.element,this.panel.element),this.status);
-keysAround(this.stage.element,e=>this.stage.pad.keydown(e),signal,this.root);this.root.addEventListener(
-"click",e=>this.#clicked(e));el.classList.add("glid-host");el.append(this.root)}close(){this.stage.close()}get shown(){
-const shown=this.model.get("shown");return shown.loops?shown:null}act(type,content={},buffers=[]){return this.
-link.put({type,...content},buffers)}async upload(file){const name=file.name||"the picture";let start=0;
-let refused=null;do{const data=await file.slice(start,start+PART).arrayBuffer();const part={name,size:file.
-size,start,buffered:true};refused=await this.act("upload",part,[data]);start+=PART}while(!refused&&start<
-file.size)}showState(){const{shown,stage}=this;if(!shown)return;stage.update(shown);this.panel.update(
-shown);this.undo.disabled=!shown.can_undo;this.redo.disabled=!shown.can_redo;this.discard.hidden=!shown.
-edited;this.question.hidden=!shown.inside.length;this.pieces.hidden=(shown.cut?.shares.length??1)<2;
+this.keepAll=this.#answer("Keep all as parts",()=>this.act("keep_pieces"));this.pieces=this.#askWhichPiece();
+this.stage.element.append(this.question,this.pieces);const keys=help(HELP);this.stage.element.append(
+keys.table);this.stage.actions["?"]=keys.toggle;this.root.append(this.#toolbar(keys.button),make("di\
+v",{className:"glid-body"},this.stage.element,this.panel.element),this.status);keysAround(this.stage.
+element,e=>this.stage.pad.keydown(e),signal,this.root);this.root.addEventListener("click",e=>this.#clicked(
+e));el.classList.add("glid-host");el.append(this.root)}close(){this.stage.close()}get shown(){const shown=this.
+model.get("shown");return shown.loops?shown:null}act(type,content={},buffers=[]){return this.link.put(
+{type,...content},buffers)}async upload(file){const name=file.name||"the picture";let start=0;let refused=null;
+do{const data=await file.slice(start,start+PART).arrayBuffer();const part={name,size:file.size,start,
+buffered:true};refused=await this.act("upload",part,[data]);start+=PART}while(!refused&&start<file.size)}showState(){
+const{shown,stage}=this;if(!shown)return;stage.update(shown);this.panel.update(shown);this.undo.disabled=
+!shown.can_undo;this.redo.disabled=!shown.can_redo;this.discard.hidden=!shown.edited;this.question.hidden=
+!shown.inside.length;this.pieces.hidden=(shown.cut?.shares.length??1)<2;this.keepAll.hidden=!shown.keeps;
 for(const button of this.tools)button.disabled=!shown.size;if(this.link.idle)this.#showTool(shown.tool);
 this.showStatus()}showStatus(){const{shown}=this;if(!shown)return;const{kind,text}=statusOf(shown,this.
 link.refusal,this.link.busy);this.root.dataset.status=kind;this.status.textContent=text}async showPicture(){
@@ -411,9 +414,9 @@ x`:"")}#askAbout(){const answer=(label,what)=>this.#answer(label,()=>this.act("d
 "What you drew","What you drew lies inside the shape. It is ",answer("a hole","hole"),answer("the ne\
 w outline","outline"),answer("nothing",""))}#askWhichPiece(){const keepNext=()=>{const{shares,kept}=this.
 shown?.cut??{shares:[],kept:0};return this.act("keep_piece",{number:(kept+1)%shares.length})};return question(
-"Pieces of the cut","Only the outlined piece is kept. ",this.#answer("Keep another",keepNext),this.#answer(
-"Undo the cut",()=>this.act("undo")))}#answer(label,act){const onclick=()=>{act();this.stage.canvas.
-focus({preventScroll:true})};return make("button",{onclick},label)}#toolbar(help2){const input=make(
+"Pieces of the cut","Only the outlined piece is kept. ",this.#answer("Keep another",keepNext),this.keepAll,
+this.#answer("Undo the cut",()=>this.act("undo")))}#answer(label,act){const onclick=()=>{act();this.
+stage.canvas.focus({preventScroll:true})};return make("button",{onclick},label)}#toolbar(help2){const input=make(
 "input",{type:"file",accept:"image/*",hidden:true});input.addEventListener("change",()=>{if(input.files?.[0])
 this.upload(input.files[0])});const open=iconButton("open","Open a picture",()=>{input.value="";input.
 click()});const{stage}=this;return make("div",{className:"glid-toolbar",role:"toolbar","aria-label":"\

@@ -27,6 +27,7 @@ import { Spacing } from "./spacing.js";
 
 /** @import { Context, Found, Point } from "../types.js" */
 /** @import { Pen } from "../pad/pen.js" */
+/** @import { PartSeen } from "./moved_shape.js" */
 /** @import { Seen } from "./shapes.js" */
 /** @import { Brush, CanvasTraits } from "./traits.js" */
 
@@ -207,10 +208,12 @@ export class Canvas {
    * @param {Seen} motion null for the pose that is edited
    * @param {Playing} playing
    * @param {Float32Array | null} heights of the picture's vertices
+   * @param {Record<string, PartSeen>} parts what is seen of the shapes around, by their keys
    */
-  showMotion(motion = null, playing = STILL, heights = null) {
+  showMotion(motion = null, playing = STILL, heights = null, parts = {}) {
     this.#playing = playing;
     this.shapes.motion = motion;
+    this.shapes.partMotions = parts;
     this.shapes.lift(heights);
     this.showLegend();
     this.shapes.refresh();

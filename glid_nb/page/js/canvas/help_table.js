@@ -26,6 +26,7 @@ export const HELP = [
     "Selecting",
     [
       ["Shift-click, A", "select several pins, all pins"],
+      ["N, Shift+N, click a part", "edit another part, if there are several"],
       ["Shift and drag, Ctrl and drag", "select the pins in a box, in a lasso"],
       [
         ", .",

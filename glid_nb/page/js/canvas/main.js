@@ -14,6 +14,7 @@ function render(context) {
   follow(model, {
     "change:width change:height change:view": () => canvas.fit(),
     "change:coefficients": () => canvas.shapes.lead || canvas.shapes.refresh(),
+    "change:part_maps": () => canvas.shapes.refresh(),
     "change:solver_script change:solver change:outline": () => canvas.prepareSolver(),
     "change:rest": () => canvas.rested(),
     "change:drawing_time": () =>

@@ -9,7 +9,7 @@ import { markAt, ringAt } from "./marks.js";
 /** @import { Canvas } from "./canvas.js" */
 
 const REACH = { mouse: 13, pen: 16, touch: 26 }; // CSS pixels
-export const KEYS = /^(Arrow\w+|Page\w+|Delete|Backspace|Escape|Enter|[0fa,.[\]<>+=xmbe-])$/i;
+export const KEYS = /^(Arrow\w+|Page\w+|Delete|Backspace|Escape|Enter|[0fa,.[\]<>+=xmbne-])$/i;
 const TARGET_TIP =
   "where it should be. Drag it; Alt turns it; a right click shows more; Shift-click selects several";
 const IMAGE_TIP = "where the shape is now. The cyan disk is where it should be";

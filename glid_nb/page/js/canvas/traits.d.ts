@@ -35,6 +35,12 @@ export interface Outlined {
   shaderHoles: number;
 }
 
+/** A shape that is drawn but not edited. */
+export interface PartShape extends Outlined {
+  key: string;
+  materials: string[];
+}
+
 /** A pose whose map the kernel has found. */
 export interface Rest {
   number: number;
@@ -49,6 +55,8 @@ export interface CanvasTraits {
   view: [x: number, y: number, unit: number];
   coefficients: DataView;
   outline: Outlined;
+  part_shapes: PartShape[];
+  part_maps: Record<string, DataView>;
   solver_script: string;
   solver: { options: SolverOptions } | Record<string, never>;
   rest: Rest | Record<string, never>;

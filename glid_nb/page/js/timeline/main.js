@@ -29,6 +29,7 @@ function render(context) {
     "change:rate": () => timeline.showRate(),
     "change:motion": () => timeline.showMotion(),
     "change:heights": () => timeline.showHeights(),
+    "change:part_motions": () => timeline.showOthers(),
     "change:thumbnails": () => timeline.showKeys(),
   });
 

@@ -68,6 +68,7 @@ export class Panel {
       this.component,
       make("button", { "data-tool": "component" }, "Pick"),
     );
+    this.keep = row(make("button", { onclick: () => act("keep_pieces") }, "Keep all as parts"));
     this.doubt = make("p");
     this.byHand = make("div", { className: "glid-by-hand" }, this.doubt, ...this.#outlines());
     this.holesTitle = make("h4");
@@ -95,6 +96,7 @@ export class Panel {
       make("h4", {}, "Foreground"),
       make("div", group, ...this.methods),
       ...[this.scribbles, this.pickColor, threshold, this.inverts, smoothing, this.components],
+      this.keep,
       make("h4", {}, "Outline"),
       ...[offset, simplify, this.holesTitle, leastHole, this.holes, this.notesBox],
     );
@@ -155,8 +157,9 @@ export class Panel {
   }
 
   /** @param {Shown} shown */
-  #showComponents({ component, n_components: count }) {
+  #showComponents({ component, n_components: count, keeps }) {
     this.components.hidden = count < 2;
+    this.keep.hidden = count < 2 || !keeps;
     const listed = Math.min(count, MOST_LISTED);
     if (this.component.length !== listed) {
       const options = Array.from({ length: listed }, (_, i) => {

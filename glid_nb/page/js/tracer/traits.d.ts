@@ -49,6 +49,8 @@ export interface Shown {
   /** What the knife did last: its pieces as shares of the shape, and which one is kept. */
   cut: { shares: number[]; kept: number; in_middle: boolean } | null;
   selected: [loop: number, index: number][];
+  /** Whether the other pieces of a picture or cut can be kept as parts. */
+  keeps: boolean;
 }
 
 export type Tool =
