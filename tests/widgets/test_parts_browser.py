@@ -94,7 +94,8 @@ def test_two_islands_are_kept_dragged_played_saved_and_exported(
     page.get_by_role("button", name="Bring the part forward").click()
     book.wait_for("[part.name for part in model.state.parts] == ['Part 2', 'Part 1']")
     hand.wait_for_color(edge, red)
-    book.screenshot("parts-red-in-front")
+    rim = _rim(book.screenshot("parts-red-in-front", of=hand.pad))
+    assert rim.max() < 450, "the white of the page is seen between the parts"
 
     # Both motions are proved, and both play.
     book.wait_for("editor.timeline.animation.wait(60)")
@@ -128,6 +129,18 @@ def test_two_islands_are_kept_dragged_played_saved_and_exported(
     # Opened again, it is the same session.
     names = book.value("[part.name for part in again.deformation.state.parts]", OPENED)
     assert names == ["Part 2", "Part 1"]
+
+
+def _rim(path: Path) -> np.ndarray:
+    """The brightness (red, green and blue together) of the canvas's pixels between both parts."""
+    with Image.open(path) as picture:
+        pixels = np.asarray(picture.convert("RGB")).astype(int)
+    middle = pixels[len(pixels) // 2 - 60 : len(pixels) // 2 + 60]
+    is_red = middle[..., 0] > middle[..., 2] + 60
+    is_blue = middle[..., 2] > middle[..., 0] + 60
+    first = is_red.shape[1] - 1 - is_red[:, ::-1].argmax(axis=1)  # the last red pixel of each row
+    rows = np.flatnonzero(is_blue.any(axis=1) & is_red.any(axis=1))
+    return np.array([middle[row, first[row] : first[row] + 5].sum(axis=1).max() for row in rows])
 
 
 def _bytes(text: str) -> bytes:
