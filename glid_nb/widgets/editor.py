@@ -466,6 +466,7 @@ class Editor(ClosingWidget, ipywidgets.VBox):
     def _deform_tab(self) -> ipywidgets.Widget:
         model, layers = self.model.deformation, self.model.layers
         self._layers, self._around, self._edited = layers, None, self._edited_key
+        self._known_parts = {self._edited}  # the keys of the parts that the view was fitted to
         shown = {**self._asked, "background": self.model.background}
         # Before the canvas's own observer: another part comes with its picture.
         model.observe(lambda what: self._show_layers() if what == "state" else None)
@@ -586,6 +587,9 @@ class Editor(ClosingWidget, ipywidgets.VBox):
         if [_look_of(*one) for one in before] != [_look_of(*one) for one in around]:
             self.canvas.show_scenery([_scenery(*one) for one in around])
             self._accompany()
+        if new := {shape.key for shape, _ in around} - self._known_parts:
+            self._known_parts |= new
+            self.canvas.fit()
 
     def _accompany(self) -> None:
         animation = self.timeline.animation

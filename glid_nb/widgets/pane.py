@@ -256,8 +256,7 @@ class Pane(ClosingWidget, ipywidgets.GridBox):
         scene.show(drawing)
         if rearranged:
             unused = around.show(scene, unused, self._textures)
-        if self._renderer.scene.children != (meshes := self._meshes):
-            self._renderer.scene.children = meshes
+        self._draw_in_order(self._meshes)
         panels = drawing.panels is not None and drawing.comparison is None
         with stage.hold_sync():
             stage.materials = scene.materials
@@ -275,6 +274,20 @@ class Pane(ClosingWidget, ipywidgets.GridBox):
         for one in unused:
             one.close()
         self._textures.keep([self._image, *(shape.picture for shape in around.scenery)])
+
+    def _draw_in_order(self, meshes: list[Any]) -> None:
+        """Let the page draw these meshes, in their order.
+
+        The page keeps the order of the meshes that it has and appends new ones. So if that is
+        another order, it first drops all of them.
+        """
+        drawn = self._renderer.scene
+        kept = [mesh for mesh in drawn.children if mesh in meshes]
+        appended = [*kept, *(mesh for mesh in meshes if mesh not in kept)]
+        if appended != meshes:
+            drawn.children = []
+        if drawn.children != meshes:
+            drawn.children = meshes
 
     def place_legend(self) -> None:
         """Move the colour bars to the corner where they hide least of the shape and targets."""

@@ -612,14 +612,15 @@ const moved=meshes.filter(movedByPage);if(!moved.length||wire.length!==this.#wir
 coefficients(wire);const distorted=new Set(moved.filter(showsDerivatives).map(mesh=>mesh.geometry));
 for(const geometry of new Set(moved.map(mesh=>mesh.geometry))){const{image,derivatives}=geometry.attributes;
 if(still&&imagesIn.get(image.array)===wire)continue;const points=this.#pointsOf(geometry);imagesIn.set(
-image.array,wire);image.array.set(points.images(coefficients));image.needsUpdate=true;if(distorted.has(
-geometry)){interleave(points.samples(coefficients),derivatives.array);derivatives.needsUpdate=true}geometry.
-userData.wire=wire}}#pointsOf(geometry){const known=pointsIn.get(geometry);if(known)return known;const{
-array,count}=geometry.attributes.position;const places=Array.from({length:count},(_,i)=>[array[3*i],
-array[3*i+1]]);const points=new FieldPoints(this.#domain,places);pointsIn.set(geometry,points);return points}};
-function movedByPage({name,visible}){return name===MOVED_BY_PAGE&&visible}function showsDerivatives({
-material}){return material.uniforms?.overlay?.value!==0}function interleave(samples,into){const count=samples.
-length/4;for(let part=0;part<4;part++){for(let i=0;i<count;i++)into[4*i+part]=samples[part*count+i]}}var MovedShape=class{materials=[];#vertices=null;#told;#floats=toFloats();constructor(outlined){if(outlined?.
+image.array,wire);image.array.set(points.images(coefficients));renew(image);if(distorted.has(geometry)){
+interleave(points.samples(coefficients),derivatives.array);renew(derivatives)}geometry.userData.wire=
+wire}}#pointsOf(geometry){const known=pointsIn.get(geometry);if(known)return known;const{array,count}=geometry.
+attributes.position;const places=Array.from({length:count},(_,i)=>[array[3*i],array[3*i+1]]);const points=new FieldPoints(
+this.#domain,places);pointsIn.set(geometry,points);return points}};var newest=0;function renew(attribute){
+newest=Math.max(newest,attribute.version)+1;attribute.version=newest}function movedByPage({name,visible}){
+return name===MOVED_BY_PAGE&&visible}function showsDerivatives({material}){return material.uniforms?.
+overlay?.value!==0}function interleave(samples,into){const count=samples.length/4;for(let part=0;part<
+4;part++){for(let i=0;i<count;i++)into[4*i+part]=samples[part*count+i]}}var MovedShape=class{materials=[];#vertices=null;#told;#floats=toFloats();constructor(outlined){if(outlined?.
 outline)this.#vertices=new Vertices(outlined)}of(meshes){return meshes.filter(({material})=>this.materials.
 some(({obj})=>obj===material))}move(meshes,floats,moving){const still=floats===this.#floats;this.#vertices?.
 move(this.of(meshes),floats,still);for(const{obj}of this.materials){const{cage,coefficients,holes,by_margin:byMargin}=obj?.
@@ -631,7 +632,7 @@ of(meshes)[0]?.geometry;if(!geometry)return;const{position}=geometry.attributes;
 userData;if(position.array!==kept.lifted)kept.resting=position.array;const{resting}=kept;if(heights?.
 length===position.count){kept.lifted=position.array===resting?resting.slice():position.array;heights.
 forEach((height,i)=>{kept.lifted[3*i+2]=height});if(position.array===resting)position.setArray(kept.
-lifted)}else{if(position.array===resting)return;position.setArray(resting)}position.needsUpdate=true}};var NEAR=8;var LEAD="glid:lead";var N_TIMED=3;var MOST_FRAMES=100;var Shapes=class{motion=null;partMotions={};lead=null;led=()=>{};#edited=new MovedShape;#around=new Map;#camera=null;#renderer=null;#loading=0;#loaded="";#detail=new Detail(
+lifted)}else{if(position.array===resting)return;position.setArray(resting)}renew(position)}};var NEAR=8;var LEAD="glid:lead";var N_TIMED=3;var MOST_FRAMES=100;var Shapes=class{motion=null;partMotions={};lead=null;led=()=>{};#edited=new MovedShape;#around=new Map;#camera=null;#renderer=null;#loading=0;#loaded="";#detail=new Detail(
 ()=>Object.values(this.#renderer?.views??{}));constructor(model,view){this.model=model;this.view=view;
 const loaded="change:materials change:part_shapes change:camera change:renderer";model.on(loaded,()=>this.
 load())}async load(){this.#loading+=1;const turn=this.#loading;const{model}=this;const parts=model.get(

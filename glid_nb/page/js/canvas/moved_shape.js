@@ -1,7 +1,7 @@
 // One shape of a canvas: takes maps, as the kernel writes them, into three.js's objects.
 
 import { toFloats } from "../pad/dom.js";
-import { Vertices } from "./vertices.js";
+import { renew, Vertices } from "./vertices.js";
 
 /** @import { Outlined } from "./traits.js" */
 
@@ -95,6 +95,6 @@ export class MovedShape {
       if (position.array === resting) return;
       position.setArray(resting);
     }
-    position.needsUpdate = true;
+    renew(position);
   }
 }

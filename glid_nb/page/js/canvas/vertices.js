@@ -41,10 +41,10 @@ export class Vertices {
       const points = this.#pointsOf(geometry);
       imagesIn.set(image.array, wire);
       image.array.set(points.images(coefficients));
-      image.needsUpdate = true;
+      renew(image);
       if (distorted.has(geometry)) {
         interleave(points.samples(coefficients), derivatives.array);
-        derivatives.needsUpdate = true;
+        renew(derivatives);
       }
       geometry.userData.wire = wire; // what is drawn, for whoever looks at the page's objects
     }
@@ -61,6 +61,19 @@ export class Vertices {
     pointsIn.set(geometry, points);
     return points;
   }
+}
+
+let newest = 0;
+
+/**
+ * Has three.js take an attribute anew. pythreejs may set its version back to one that was taken before,
+ * so every change gets a number of its own.
+ *
+ * @param {any} attribute three.js's
+ */
+export function renew(attribute) {
+  newest = Math.max(newest, attribute.version) + 1;
+  attribute.version = newest;
 }
 
 /**
