@@ -24,7 +24,9 @@ from glid_nb.motion import file, settings
 from glid_nb.motion.boundary import boundary_of
 from glid_nb.motion.bounded import Bounded
 from glid_nb.motion.curve import Curve, Piece, blend, linear_pieces, through_mended, through_solved
-from glid_nb.motion.settings import Between, Easing, MotionError, Repeat, checked
+from glid_nb.motion.easing import Easing, checked_easings
+from glid_nb.motion.errors import MotionError
+from glid_nb.motion.settings import Between, Repeat, checked
 
 _TOLERANCE = 0.002
 _MOST_FRAMES = 100_000
@@ -62,7 +64,9 @@ class Motion(Rebuilt):
     """Seconds, strictly increasing; by default 0, 1, 2 and so on. A loop may have one more time,
     for its return to the first keyframe; by default that takes as long as a mean interval."""
     easing: tuple[Easing, ...]
-    """One of "linear", "in", "out" or "in-out", for all intervals or for each."""
+    """For all intervals or for each, "linear", "in", "out", "in-out", "hold", or the handles
+    (x1, y1, x2, y2) of a cubic Bezier curve from (0, 0) to (1, 1), as in CSS, all from 0 to 1.
+    "hold" stays for 99 % of the time, then moves evenly through all maps."""
     repeat: Repeat
     """Either "once"; "loop", back to the first keyframe after the last; or "ping-pong"."""
     between: Between
@@ -101,7 +105,7 @@ class Motion(Rebuilt):
         vars(self).update(
             keyframes=maps,
             times=all_times,
-            easing=settings.checked_each("easing", Easing, easing, count),
+            easing=checked_easings(easing, count),
             repeat=checked("repeat", Repeat, repeat),
             between=checked("between", Between, between),
             tolerance=checked("tolerance", float, tolerance, above=0),

@@ -1,34 +1,21 @@
 """Settings of a motion, checked; every error names the culprit."""
 
 import itertools
-from collections.abc import Callable
 from typing import Any, Literal
 
 import numpy as np
 
 from glid_nb._arguments import unmet
-from glid_nb._errors import InputError
 from glid_nb.certificate import Certificate, certificate_of
 from glid_nb.geometry import loop_name
 from glid_nb.harmonic import HarmonicMap
+from glid_nb.motion.errors import MotionError
 
-Easing = Literal["linear", "in", "out", "in-out"]
 Between = Literal["auto", "bounded", "solved", "linear"]
 Repeat = Literal["once", "loop", "ping-pong"]
 
-EASINGS: dict[str, Callable[[float], float]] = {
-    "linear": lambda s: s,
-    "in": lambda s: s * s,
-    "out": lambda s: s * (2 - s),
-    "in-out": lambda s: s * s * (3 - 2 * s),
-}
-"""Monotone maps of [0, 1] to itself, so easing adds no map to a motion."""
 LATEST = 1e9  # seconds
 _LEAST_GAP = 1e-9  # of the largest time, or of 1 s if that is more: room for thousands of pieces
-
-
-class MotionError(InputError):
-    """Keyframes, times or settings that make no motion, or a file of one that is not valid."""
 
 
 def checked(name: str, kind: Any, value: Any, **limits: float) -> Any:

@@ -41,7 +41,7 @@ from glid_nb.solvers import Newton, Options
 T = TypeVar("T")
 
 FORMAT = "glid_nb-document"
-FORMAT_VERSION = 6
+FORMAT_VERSION = 7
 
 _JSON, _IMAGE = "document.json", "image.png"
 _MASKS = {key: f"scribbles-{key}.png" for key in ("foreground", "background")}

@@ -12,7 +12,8 @@ from scipy.interpolate import CubicSpline
 from glid_nb._arrays import Array
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.motion import Motion, MotionError, settings
-from glid_nb.motion.settings import Easing, Repeat, checked
+from glid_nb.motion.easing import Easing, checked_easings
+from glid_nb.motion.settings import Repeat, checked
 
 LATEST = 3600.0  # seconds; no keyframe is moved later than this
 
@@ -42,7 +43,7 @@ class Timeline:
             raise MotionError("times must be a list of at least one number")
         times = settings.checked_times(self.times, len(self.times), False)
         checked("the first of times", float, times[0], most=1e9)
-        easing = settings.checked_each("easing", Easing, self.easing, len(times))
+        easing = checked_easings(self.easing, len(times))
         checked("repeat", Repeat, self.repeat)
         back = checked("back", float, self.back, above=0, most=1e9)
         if self.repeat == "loop":

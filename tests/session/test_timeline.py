@@ -13,7 +13,7 @@ from hypothesis import given, settings
 from scipy.interpolate import CubicSpline
 
 from glid_nb.harmonic import HarmonicMap
-from glid_nb.motion.settings import MotionError
+from glid_nb.motion import MotionError
 from glid_nb.pose import Pose
 from glid_nb.session import actions
 from glid_nb.session.edit_state import EditError, EditState
@@ -24,7 +24,10 @@ from ..support.domains import domain
 
 index = st.integers(-1, 6)
 time = st.floats(-2, 12)
-easing = st.sampled_from(["linear", "in", "out", "in-out"])
+easing = st.one_of(
+    st.sampled_from(["linear", "in", "out", "in-out", "hold"]),
+    st.tuples(*[st.floats(0, 1)] * 4),
+)
 steps = st.one_of(
     st.tuples(st.just("save_pose")),
     st.tuples(st.sampled_from(["duplicate_pose", "delete_pose", "go_to_pose"]), index),
@@ -142,6 +145,8 @@ def test_settings_that_are_not_valid_are_refused() -> None:
         {"times": (-1.0,)},
         {"times": (0.0, 0.0), "easing": ("in", "in")},
         {"easing": ("up",)},
+        {"easing": ((0.5, 0, 0.5),)},
+        {"easing": ((0.5, -0.1, 0.5, 1),)},
         {"repeat": "twice"},
         {"back": 0.0},
         {"repeat": "loop", "back": 1e-12},
