@@ -251,7 +251,7 @@ def move_pose(state: EditState, index: int, time: float) -> EditState:
 
 
 def set_easing(state: EditState, index: int, easing: Easing) -> EditState:
-    """Set the easing of the motion from a pose to the next one."""
+    """Set the easing of the motion from a pose to the next one, or of a loop's return."""
     timeline = state.timeline.eased(_checked_pose(state, index), easing)
     return state if timeline == state.timeline else replace(state, timeline=timeline)
 

@@ -46,8 +46,8 @@ class TimelinePanel(Pad):
     rate = traitlets.Float(25.0).tag(sync=True)
     """Frames in a second of an export, which the ruler counts."""
     shown = traitlets.Dict({}).tag(sync=True)
-    """``keyframes`` (``name``, ``time``, ``easing``, ``thumbnail``), the index ``active``, the
-    timeline's ``repeat`` and ``back``, and the states of the switches."""
+    """``keyframes`` (``name``, ``time``, ``easing`` to the next, ``thumbnail``), the index
+    ``active``, the timeline's ``repeat`` and ``back``, and the states of the switches."""
     motion = traitlets.Dict({"spans": []}).tag(sync=True)
     """``spans`` from keyframe to keyframe: ``start``, ``end``, ``status``, ``reason``. For the
     proved part: ``times`` of the knots, ``floats`` (their coefficients), and ``sigma2`` between

@@ -326,7 +326,8 @@ el, two fingers","zoom"],["Middle button, Space and drag","move the view"],["F",
 P","the picture alone, for lectures; Esc brings the rest back"],["W","the whole screen, without the \
 inspector"],["I","hide the inspector, show it again"]]],["Timeline",[["K","make a keyframe of what i\
 s shown"],["Space","play the motion through the poses, pause; on the canvas too"],["Arrow keys, Home\
-, End","step a frame, with Shift to the next pose; first, last pose"],["Ctrl and wheel","zoom the ti\
+, End","step a frame, with Shift to the next pose; first, last pose"],["Click a curve between poses,\
+ Enter","ease the motion there: drag its two handles, or arrow keys"],["Ctrl and wheel","zoom the ti\
 meline; then the wheel alone moves along it"],["Double click a pose, F2","type its name"],["Alt and \
 arrow keys","move the pose in time; Delete removes it"]]]];var Legend=class{element=make("div",{className:"glid-legend"});show(model,moving){const bars=[model.
 get("legend"),model.get("panel_legend")].filter(bar=>bar.title);this.element.replaceChildren(...bars.

@@ -1,11 +1,13 @@
 // What the kernel says of a timeline: the traits of `TimelinePanel` in glid_nb/widgets/timeline.py.
 
 import type { Repeat } from "../motion/motion.js";
+import type { Easing } from "./ease.js";
 
 export interface Keyframe {
   name: string;
   time: number;
-  easing: string;
+  /** Of the motion to the next keyframe. */
+  easing: Easing;
   /** The key of its picture in `thumbnails`. */
   thumbnail?: string;
 }
