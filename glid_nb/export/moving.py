@@ -20,6 +20,7 @@ from glid_nb.export.picture import frame_around
 from glid_nb.harmonic import HarmonicMap, images_under
 from glid_nb.imaging import DeformedMesh, PixelFrame, as_rgba8, fine_mesh, order_of
 from glid_nb.imaging.backdrop import Backdrop, drawn_backdrop, over
+from glid_nb.imaging.order import Order
 from glid_nb.imaging.progress import Progress, report
 from glid_nb.imaging.render import TOLERANCE_PX, check_fits, draw_mesh
 from glid_nb.imaging.texture import Texture, texels_per_pixel
@@ -61,11 +62,12 @@ class MovingMesh:
     def of(
         cls,
         shown: Motion | HarmonicMap,
-        pose: Sequence[Pose] | Pose | None,
+        pose: Sequence[Pose | Order] | Pose | None,
         n_vertices: int,
         tolerance: float | None = None,
     ) -> Self:
-        """A mesh that is fine enough for all maps. Each keyframe's pose gives the heights."""
+        """A mesh that is fine enough for all maps. Each keyframe's pose, or order, gives the
+        heights."""
         check_type(
             "the motion",
             shown,
@@ -75,7 +77,8 @@ class MovingMesh:
         )
         poses = list(pose) if isinstance(pose, Sequence) else [pose]
         for one in poses:
-            check_type("a pose", one, Pose | None, "give one for each keyframe", InputError)
+            kinds = Pose | Order | None
+            check_type("a pose", one, kinds, "give one for each keyframe", InputError)
         if isinstance(shown, HarmonicMap):
             maps, times, pose_times = (shown,), (0.0,), (0.0,)
         else:
@@ -89,7 +92,7 @@ class MovingMesh:
         cage = shown.domain.cage
         image = functools.partial(images_under, maps)
         vertices, images, triangles = fine_mesh(cage, image, n_vertices, tolerance)
-        orders = [order_of(cage, one) for one in poses]
+        orders = [one if isinstance(one, Order) else order_of(cage, one) for one in poses]
         if all(order is orders[0] for order in orders):
             del orders[1:]
         heights = np.stack([order(vertices) for order in orders])
@@ -120,7 +123,7 @@ def _between(times: Array, values: Array, time: float) -> Array:
 def frames(
     image: ArrayLike,
     motion: Motion,
-    poses: Sequence[Pose] | None,
+    poses: Sequence[Pose | Order] | None,
     size: int,
     fps: float,
     background: Backdrop,

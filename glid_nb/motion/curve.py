@@ -45,6 +45,11 @@ class Piece(NamedTuple):
         s = (time - self.start) / (self.end - self.start)
         return HarmonicMap(self.start_map.domain, *blend((self.start_map, self.end_map), 0, s))
 
+    def within(self, start: float, end: float) -> "Piece":
+        """What of it lies between two times."""
+        start, end = max(start, self.start), min(end, self.end)
+        return Piece(start, end, self.at(start), self.at(end))
+
 
 def linear_pieces(times: Sequence[float], maps: Sequence[HarmonicMap]) -> tuple[Piece, ...]:
     spans = zip(itertools.pairwise(times), itertools.pairwise(maps), strict=True)

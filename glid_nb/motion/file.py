@@ -24,6 +24,7 @@ Maps = list[HarmonicMap]
 _VERSION, MOST_KNOTS = 2, 10_000
 _EASINGS_BEFORE = {"linear", "in", "out", "in-out"}  # that version 1 knows
 SETTINGS = ("easing", "repeat", "between", "tolerance", "turns")
+OF_INTERVALS = ("easing", "turns")  # one value for each interval
 _REQUIRED = {
     **_json.keys("format", "version", *maps.DOMAIN_KEYS, *SETTINGS),
     "times": _json.check_list,

@@ -227,6 +227,35 @@ class Motion(Rebuilt):
         return times, tuple(self(float(time)) for time in times)
 
     @single_blas_thread()
+    def part(self, start: float, end: float) -> Self:
+        """The motion from a time to a later one on the way forth, proved anew; it plays once.
+
+        It moves as this motion does, on the same straight pieces, the first and the last shortened.
+        Its keyframes are the maps at both times and the keyframes between.
+        """
+        start, end = (checked("time", float, t, least=-settings.LATEST) for t in (start, end))
+        least = settings.least_gap(self.times)
+        if not self.start <= start <= end - least < end <= self.times[-1]:
+            asked = f"there is no motion from {start:g} to {end:g} s"
+            raise MotionError(f"{asked}; choose times from {self.start:g} to {self.times[-1]:g} s")
+        spans = enumerate(itertools.pairwise(self.times))
+        across = [i for i, (before, after) in spans if before < end and after > start]
+        pieces = [piece for i in across for piece in self.interval(i)[0]]
+        inside = [time for time in self.times if start + least <= time <= end - least]
+        times = [start, *inside, end]
+        runs = [
+            [piece.within(a, b) for piece in pieces if piece.start < b and piece.end > a]
+            for a, b in itertools.pairwise(times)
+        ]
+        keyframes = [runs[0][0].start_map, *(run[-1].end_map for run in runs)]
+        known = {key: value for key, value in self.settings.items() if key not in file.OF_INTERVALS}
+        part = type(self)(keyframes, times, **{**known, "repeat": "once"})
+        for i, run in enumerate(runs):
+            maps = [run[0].start_map, *(piece.end_map for piece in run)]
+            part._intervals[i] = tuple(run), tuple(certify_pieces(maps))
+        return part
+
+    @single_blas_thread()
     def interval(self, index: int) -> tuple[tuple[Piece, ...], tuple[PieceCertificate, ...]]:
         """The pieces from a keyframe to the next, and their proofs; computed on first use."""
         if index not in self._intervals:

@@ -1,6 +1,7 @@
 """Settings of a motion, checked; every error names the culprit."""
 
 import itertools
+from collections.abc import Sequence
 from typing import Any, Literal
 
 import numpy as np
@@ -71,6 +72,11 @@ def unlike_turns(first: Certificate, last: Certificate) -> str:
     )
 
 
+def least_gap(times: Sequence[float]) -> float:
+    """The least seconds between keyframes at about these times."""
+    return _LEAST_GAP * max(map(abs, [1.0, *times]))
+
+
 def checked_times(times: Any, count: int, closed: bool) -> tuple[float, ...]:
     """Increasing times of the keyframes, and of a loop's return."""
     times = range(count + closed) if times is None else times
@@ -81,7 +87,7 @@ def checked_times(times: Any, count: int, closed: bool) -> tuple[float, ...]:
     if len(values) not in (count, count + closed):
         wanted = f"{count} or {count + 1}" if closed else f"{count}"
         raise MotionError(f"there are {len(values)} times for {count} keyframes; give {wanted}")
-    least = _LEAST_GAP * max(map(abs, [1.0, *values]))
+    least = least_gap(values)
     for i, (before, after) in enumerate(itertools.pairwise(values)):
         if after - before < least:
             given = f"times[{i + 1}] is {after:.16g} and times[{i}] is {before:.16g}"

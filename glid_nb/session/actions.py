@@ -261,6 +261,12 @@ def set_repeat(state: EditState, repeat: Repeat) -> EditState:
     return replace(state, timeline=replace(state.timeline, repeat=repeat))
 
 
+def set_loop_range(state: EditState, part: tuple[float, float] | None) -> EditState:
+    """Set the part of the motion that plays over and over; None for the whole motion."""
+    timeline = replace(state.timeline, loop_range=part)
+    return state if timeline == state.timeline else replace(state, timeline=timeline)
+
+
 def keep_between(state: EditState, time: float, map: HarmonicMap) -> EditState:
     """Save a map between two poses as a pose at its time, with the handles of the pose before."""
     index = bisect.bisect_right(state.timeline.times, time)

@@ -18,7 +18,7 @@ from glid_nb.session.deformation import Deformation
 from glid_nb.session.document import AS_SEEN, NamedPose
 from glid_nb.session.edit_state import EditError, EditState, Moment
 from glid_nb.session.model import Observed
-from glid_nb.session.timeline import LEAST_GAP, on_grid, thinned
+from glid_nb.session.timeline import LEAST_GAP, Timeline, on_grid, thinned
 from glid_nb.session.worker import LatestWins, weakly
 
 _THINNED = 0.02  # largest error of a recorded target, as a share of the cage's longer side
@@ -98,11 +98,7 @@ class Animation(Observed):
 
     def order(self, time: float) -> Order:
         """The order of the shape's parts at a time, interpolated between two keyframes."""
-        state = self.deformation.state
-        orders, times = state.orders, state.timeline.closed_times
-        i = max(min(bisect.bisect_right(times, time), len(times) - 1) - 1, 0)
-        first, last = orders[i], orders[(i + 1) % len(orders)]
-        return first.towards(last, (time - times[i]) / (times[i + 1] - times[i]))
+        return order_at(self.deformation.state, time)
 
     def keep(self, time: float) -> None:
         """Save the map at a time as a pose. Between poses, the map must be proved. After the last
@@ -227,11 +223,16 @@ class Animation(Observed):
 
 
 def _same_motion(task: EditState, other: EditState | None) -> bool:
-    """Whether two states have the same motion and the same solved poses. Names do not matter."""
-    if other is None or task.timeline != other.timeline:
+    """Whether two states have the same motion and the same solved poses. Names do not matter, nor
+    does the part that is played."""
+    if other is None or _whole(task) != _whole(other):
         return False
     pairs = zip(task.poses, other.poses, strict=True)
     return all(pose.map is its.map and pose.solution is its.solution for pose, its in pairs)
+
+
+def _whole(task: EditState) -> Timeline:
+    return replace(task.timeline, loop_range=None)
 
 
 def _spans(task: EditState) -> tuple[Span, ...]:
@@ -249,6 +250,14 @@ def motion_of(task: EditState, first: int = 0, last: int | None = None) -> Motio
     times = timeline.closed_times[first : last + 1]
     chosen = (maps + maps[:1])[first : last + 1]
     return Motion(chosen, times, easing=timeline.easing[first:last])
+
+
+def order_at(state: EditState, time: float) -> Order:
+    """The order of the shape's parts at a time, interpolated between two keyframes."""
+    orders, times = state.orders, state.timeline.closed_times
+    i = max(min(bisect.bisect_right(times, time), len(times) - 1) - 1, 0)
+    first, last = orders[i], orders[(i + 1) % len(orders)]
+    return first.towards(last, (time - times[i]) / (times[i + 1] - times[i]))
 
 
 def proved_spans(

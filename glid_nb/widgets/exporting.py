@@ -19,14 +19,14 @@ from glid_nb.imaging.backdrop import WHITE
 from glid_nb.imaging.read import png
 from glid_nb.imaging.render import View
 from glid_nb.motion import Motion, unlike_turns
-from glid_nb.session.animation import Animation, motion_of
+from glid_nb.session.animation import Animation, motion_of, order_at
 from glid_nb.session.document_file import document_bytes
 from glid_nb.session.editor_model import EditorModel
 from glid_nb.session.look import FILLED, WHOLE_CAGE, Look
 from glid_nb.session.script import python_code
 from glid_nb.session.worker import LatestWins, weakly
 from glid_nb.widgets.closing import ClosingWidget
-from glid_nb.widgets.controls import REFUSED, button
+from glid_nb.widgets.controls import REFUSED, button, toggle
 
 _MOST_CHOICES = 10_000  # most bytes of the file with an export's choices
 _NUMBER = {"width": "70px", "flex": "0 0 auto"}
@@ -91,7 +91,8 @@ def export(
         files = {path.name: live_page(model, path.name)}
     elif path.name.lower().endswith(tuple(MOTION_FORMATS.keys() - FORMATS.keys())):
         motion = motion_of(model.deformation.solved_state())
-        files = _motion_files(model, motion, path.name, **({"size": max(size)} if size else {}))
+        sized: dict[str, Any] = {"size": max(size)} if size else {}
+        files = _motion_files(model, motion, path.name, **sized)
     else:
         files = exported(model, path, size, view)
     (name, data), *others = files.items()
@@ -185,12 +186,22 @@ def write(
     return list(contents)
 
 
-def _motion_files(model: EditorModel, motion: Motion, name: str, **how: Any) -> dict[str, bytes]:
+def _motion_files(
+    model: EditorModel,
+    motion: Motion,
+    name: str,
+    part: tuple[float, float] | None = None,
+    **how: Any,
+) -> dict[str, bytes]:
+    """The files of a motion, or of its part between two times, which then plays over and over."""
     layers, background = model.layers, model.layers.background
     if background is None and name.lower().endswith((".gif", ".mp4")):
         background = WHITE  # they have no transparency
-    poses, loop = [pose.pose for pose in model.document.poses], motion.repeat != "once"
-    how |= {"loop": loop, "background": background}
+    poses: list[Any] = [pose.pose for pose in model.document.poses]
+    if part is not None:
+        motion = motion.part(*part)
+        poses = [order_at(model.deformation.state, time) for time in motion.times]
+    how |= {"loop": part is not None or motion.repeat != "once", "background": background}
     return to.motion_files(name, layers.image, motion, poses, **how)
 
 
@@ -246,6 +257,8 @@ class MotionExport(ClosingWidget, ipywidgets.HBox):
         self.size = ipywidgets.BoundedIntText(480, min=16, max=4096, tooltip=tip, layout=_NUMBER)
         tip = "Frames per second"
         self.rate = ipywidgets.BoundedFloatText(25, min=1, max=100, tooltip=tip, layout=_NUMBER)
+        tip = "Only the part between the two marks on the timeline's ruler"
+        self.part = toggle("Loop range", "repeat", tip, {"width": "auto"})
         self.progress = ipywidgets.IntProgress(layout={"width": "auto", "flex": "1 1 40px"})
         """The number of drawn frames; hidden without an export."""
         self.worker: LatestWins[_Task] = LatestWins(weakly(self._draw), self, "export")
@@ -255,8 +268,15 @@ class MotionExport(ClosingWidget, ipywidgets.HBox):
         names = "Size", "px", "fps"
         name, px, fps = (ipywidgets.Label(text, layout={"flex": "0 0 auto"}) for text in names)
         layout = {"flex": "1 1 auto", "min_width": "0", "flex_flow": "row wrap"}
-        super().__init__([name, self.size, px, self.rate, fps, *self._running], layout=layout)
-        self._endings = (self.worker.close,)
+        shown = [name, self.size, px, self.rate, fps, self.part, *self._running]
+        super().__init__(shown, layout=layout)
+        self._endings = (animation.deformation.observe(weakly(self._on_model)), self.worker.close)
+        self._on_model("state")
+
+    def _on_model(self, what: str) -> None:
+        if what == "state":
+            part = self._animation.deformation.state.timeline.played_range
+            self.part.layout.display = "none" if part is None else None
 
     def start(self, name: str, deliver: Callable[[dict[str, bytes]], str]) -> str:
         """Draw a file in the background, then deliver it. Returns a message at once."""
@@ -279,6 +299,8 @@ class MotionExport(ClosingWidget, ipywidgets.HBox):
                 return self._say("Stopped; nothing was written.", "")
             name, deliver = task
             how: Any = {"size": self.size.value, "frames_per_second": self.rate.value}
+            if self.part.value:
+                how["part"] = self._animation.deformation.state.timeline.played_range
             files = _motion_files(self._model, motion, name, progress=report, **how)
             stopped = worker.cancelled or not files
             self._say("Stopped; nothing was written." if stopped else deliver(files), "")

@@ -47,7 +47,8 @@ class TimelinePanel(Pad):
     """Frames in a second of an export, which the ruler counts."""
     shown = traitlets.Dict({}).tag(sync=True)
     """``keyframes`` (``name``, ``time``, ``easing`` to the next, ``thumbnail``), the index
-    ``active``, the timeline's ``repeat`` and ``back``, and the states of the switches."""
+    ``active``, the timeline's ``repeat`` and ``back``, its ``range`` (the times between which it
+    plays, None for all), and the states of the switches."""
     motion = traitlets.Dict({"spans": []}).tag(sync=True)
     """``spans`` from keyframe to keyframe: ``start``, ``end``, ``status``, ``reason``. For the
     proved part: ``times`` of the knots, ``floats`` (their coefficients), and ``sigma2`` between
@@ -79,6 +80,7 @@ class TimelinePanel(Pad):
             "move_pose": asked(model.move_pose, "index", "time"),
             "set_easing": asked(model.set_easing, "index", "easing"),
             "set_repeat": asked(model.set_repeat, "repeat"),
+            "set_loop_range": asked(model.set_loop_range, "range"),
         }
         actions |= {k: asked(getattr(model, k), "index") for k in _OF_A_POSE}
         actions |= {"undo": asked(model.undo), "redo": asked(model.redo)}
@@ -155,6 +157,7 @@ class TimelinePanel(Pad):
             "active": state.active,
             "repeat": timeline.repeat,
             "back": timeline.back,
+            "range": timeline.played_range,
             "recording": self.animation.recording,
             "onion": self.canvas.show_onion,
             "kernel": self.canvas.pane.scene.evaluated_in == "kernel",

@@ -390,6 +390,24 @@ def test_pieces_follow_the_curve_within_the_tolerance() -> None:
         assert off <= 1.5 * tolerance * size
 
 
+@pytest.mark.parametrize("repeat", ["once", "loop", "ping-pong"])
+def test_a_part_moves_as_the_whole_does_and_is_proved(repeat: Any, tmp_path: Path) -> None:
+    motion = Motion(poses("twin", 0, 1.0, 0.2), [0, 1, 2], easing="in-out", repeat=repeat)
+    end = motion.times[-1]
+    for start, stop in ((0.3, 1.6), (1.0, end), (0.2, 0.4)):
+        part = motion.part(start, stop)
+        assert part.repeat == "once"
+        assert part.times == (start, *(t for t in motion.times if start < t < stop), stop)
+        assert part.certificate.certified
+        for time in np.linspace(start, stop, 9)[:-1]:
+            assert part(time).distance(motion(time)) < 1e-12
+        part.save(tmp_path / "part")
+        assert Motion.load(tmp_path / "part")(stop).distance(part(stop)) == 0
+    for start, stop in ((-0.1, 1), (1, end + 0.1), (0.5, 0.5), (1, 0)):
+        with pytest.raises(MotionError, match="there is no motion from"):
+            motion.part(start, stop)
+
+
 def test_resampling_gives_even_times() -> None:
     motion = Motion(poses("ell", 0, 1.0), [2, 3])
     times, maps = motion.resample(30)

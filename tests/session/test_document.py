@@ -79,7 +79,7 @@ PINS = Pose(
     weights=[1 / 3, 1],
     names=["head", ""],
 )
-TIMELINE = Timeline((1 / 3, 2.0), ((0.3, 0.0, 1 / 3, 1.0), "hold"), "loop", 0.7)
+TIMELINE = Timeline((1 / 3, 2.0), ((0.3, 0.0, 1 / 3, 1.0), "hold"), "loop", 0.7, (0.5, 1 / 0.6))
 
 
 def assert_same(a: Document, b: Document) -> None:

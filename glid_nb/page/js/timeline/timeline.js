@@ -67,6 +67,7 @@ export class Timeline {
       select: (index) => this.select(index),
       move: (index, time) => void this.act("move_pose", { index, time }),
       rename: (index, name) => void this.act("rename_pose", { index, name }),
+      range: (range) => void this.act("set_loop_range", { range }),
       ease: (index, button) => this.#openEase(index, button),
       easePressed: () => this.#easePressed(),
       hover: (text) => {
@@ -183,6 +184,7 @@ export class Timeline {
     const { player, shown, spans } = this;
     player.only = shown.keyframes?.[0].time ?? 0;
     const intervals = spans.map((span) => ({ ...span, floats: toFloats(span.floats) }));
+    player.range = shown.range ?? null;
     player.set(intervals, shown.repeat);
     const computing = spans.some(({ status }) => status === "computing");
     if (shown.kernel && !player.playing && player.seen && computing) this.release();
@@ -300,6 +302,12 @@ export class Timeline {
     else does?.();
   }
 
+  /** @param {0 | 1} which the start or the end of the loop range, at the playhead */
+  #rangeEnd(which) {
+    const { player } = this;
+    this.track.range.key(which, player.seen ? player.place : this.active.time);
+  }
+
   /**
    * What a key does; null for the others.
    *
@@ -323,9 +331,9 @@ export class Timeline {
       case "Backspace":
         return () => void this.edit("delete_pose");
       case "Home":
-        return () => this.select(0);
+        return () => (e.shiftKey ? this.#rangeEnd(0) : this.select(0));
       case "End":
-        return () => this.select(keyframes.length - 1);
+        return () => (e.shiftKey ? this.#rangeEnd(1) : this.select(keyframes.length - 1));
       case "Escape":
         return () => {
           this.track.drop();

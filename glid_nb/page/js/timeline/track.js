@@ -8,6 +8,7 @@ import { scaleOf } from "../pad/place.js";
 import { nameOf } from "./ease.js";
 import { curveIcon } from "./ease_editor.js";
 import { nameField } from "./name_field.js";
+import { RangeMarks } from "./range.js";
 import { frameAt, labelledTimes, landing, roomAt, spanOf, withReturn } from "./scale.js";
 import { seconds } from "./words.js";
 import { INSET, Zoom } from "./zoom.js";
@@ -25,10 +26,12 @@ import { INSET, Zoom } from "./zoom.js";
  * @property {(index: number, name: string) => void} rename renames a keyframe
  * @property {(index: number, button: HTMLElement) => void} ease opens the easing of a segment
  * @property {() => void} easePressed a button of `ease` is pressed, and not let go yet
+ * @property {(range: Range | null) => void} range sets the part that plays over and over
  * @property {(text: string) => void} hover says what lies below the pointer
  * @property {() => void} dropped what was dragged is let go, so all is shown again
  */
 
+/** @import { Range } from "./range.js" */
 /** @typedef {{ index: number, from: number, x: number, time: number | null }} Drag a keyframe's */
 
 const DOUBLE_CLICK = 400; // ms
@@ -70,7 +73,15 @@ export class Track {
       role: "img",
       onpointerleave: () => hand.hover(""),
     });
-    const parts = [this.ruler, this.keys, this.eases, this.strip, this.head];
+    this.range = new RangeMarks({
+      at: (time) => this.#at(time),
+      timeOf: (e) => this.#timeNear(e, true),
+      frame: () => 1 / this.rate,
+      set: (range) => hand.range(range),
+      hover: (text) => hand.hover(text),
+    });
+    const { elements } = this.range;
+    const parts = [this.ruler, this.keys, this.eases, this.strip, ...elements, this.head];
     this.element = make("div", { className: "glid-track" }, ...parts);
     this.zoom = new Zoom(this.element, () => this.#label());
     new ResizeObserver(() => this.#label()).observe(this.ruler);
@@ -112,6 +123,7 @@ export class Track {
   drop() {
     this.#drag = null;
     this.#scrubbing = null;
+    this.range.drop();
     this.hand.hover("");
     this.hand.dropped();
   }
@@ -179,6 +191,8 @@ export class Track {
     const key = this.keys.children[focused];
     if (key instanceof HTMLElement) key.focus();
     this.#showEases(all);
+    const { time: end } = all[all.length - 1];
+    this.range.show(shown.range, all.length > 1 ? [all[0].time, end] : null);
   }
 
   /**
@@ -373,12 +387,21 @@ export class Track {
    * @param {PointerEvent} e
    */
   #scrub(e) {
-    if (this.#scrubbing !== e.pointerId) return;
+    if (this.#scrubbing === e.pointerId) this.hand.scrub(this.#timeNear(e));
+  }
+
+  /**
+   * The time below a pointer; near a keyframe its time.
+   *
+   * @param {PointerEvent} e
+   * @param {boolean} [framed] whether it is else that of the nearest frame
+   */
+  #timeNear(e, framed = false) {
     const { left, width } = this.#inside();
     const time = ((e.clientX - left) / width) * this.span;
     const near = (SNAP / width) * this.span;
     const key = this.#shown?.keyframes.find((one) => Math.abs(one.time - time) < near);
-    this.hand.scrub(key?.time ?? time);
+    return key?.time ?? (framed ? Math.round(time * this.rate) / this.rate : time);
   }
 
   /** @param {PointerEvent} e */

@@ -32,6 +32,8 @@ export interface Shown {
   repeat: Repeat;
   /** Seconds from the last keyframe back to the first, of a loop. */
   back: number;
+  /** Where the part begins and ends that plays over and over; null for the whole motion. */
+  range: [start: number, end: number] | null;
   recording: boolean;
   onion: boolean;
   /** Whether there is an export button. */
