@@ -327,7 +327,8 @@ P","the picture alone, for lectures; Esc brings the rest back"],["W","the whole 
 inspector"],["I","hide the inspector, show it again"]]],["Timeline",[["K","make a keyframe of what i\
 s shown"],["Space","play the motion through the poses, pause; on the canvas too"],["Arrow keys, Home\
 , End","step a frame, with Shift to the next pose; first, last pose"],["Click a curve between poses,\
- Enter","ease the motion there: drag its two handles, or arrow keys"],["Ctrl and wheel","zoom the ti\
+ Enter","ease the motion there: drag its two handles, or arrow keys"],["Shift+Home, Shift+End","play\
+ over and over from here, to here; so do the two marks on the ruler"],["Ctrl and wheel","zoom the ti\
 meline; then the wheel alone moves along it"],["Double click a pose, F2","type its name"],["Alt and \
 arrow keys","move the pose in time; Delete removes it"]]]];var Legend=class{element=make("div",{className:"glid-legend"});show(model,moving){const bars=[model.
 get("legend"),model.get("panel_legend")].filter(bar=>bar.title);this.element.replaceChildren(...bars.
@@ -371,25 +372,26 @@ ects several";var IMAGE_TIP="where the shape is now. The cyan disk is where it s
 . Another part of the shape covers it";var RING_TIPS={turn:"Drag around the pin to turn the shape th\
 ere; X frees it again",knob:"Drag around the pin to turn the shape there, away from it to scale it; \
 X frees it again"};var PinBehaviour=class{reach=REACH;keys=KEYS;pressed=null;constructor(canvas){this.
-canvas=canvas;this.actions={"?":canvas.help.toggle,contextmenu:()=>canvas.openMenu(),i:()=>canvas.room?.
-toggleInspector(),k:()=>void canvas.box.dispatchEvent(new CustomEvent("glid:key",{bubbles:true})),p:()=>canvas.
-room?.alone(),w:()=>canvas.room?.fullScreen()}}get painting(){return this.canvas.painting}changed(){
-this.canvas.followHand();this.canvas.redraw()}menu(place,found){this.canvas.openMenu(place,found)}pressedAt(){
-return this.canvas.pressedAt()}tapped(){this.canvas.box.dispatchEvent(new CustomEvent("glid:play",{bubbles:true}))}find(point,reach){
-const{view,marks,shapes,painting}=this.canvas;if(shapes.motion||painting)return null;const mark=markAt(
-marks,point,reach);return mark??ringAt(view,marks,view.toScreen(point),reach/view.unit/2)}encloses(found,e){
-const start=this.canvas.pad.grip?.points.get(found?.mark??"");this.pressed={found,start,pins:this.canvas.
-marks.targets.length};if(found)return null;if(e.shiftKey)return"box";return e.ctrlKey||e.metaKey?"la\
-sso":null}held({mark}){const{selected,targets}=this.canvas.marks;const pressed=Number(mark);const moved=selected.
-includes(pressed)?selected:[pressed];return new Map(moved.map(i=>[i,targets[i]]))}constrain(point,e){
-const{model,pad}=this.canvas;const{pressed}=this;const[from]=pad.path;if(!pressed||!from||pressed.found?.
-part||pad.encloses||e.altKey)return point;pressed.keys={axis:e.shiftKey,whole:e.ctrlKey||e.metaKey};
-pressed.start??=from;const[x,y]=pressed.start;const free=[x+point[0]-from[0],y+point[1]-from[1]];const[
-u,v]=constrained([x,y],free,pressed.keys,model.get("picture_size"));return[u-x+from[0],v-y+from[1]]}cursor(found){
-this.canvas.box.title=this.#tip(found);return found?"grab":"crosshair"}#tip(found){if(!found)return"";
-if(found.part)return RING_TIPS[found.part];const{marks,model}=this.canvas;const mark=Number(found.mark);
-const name=["Pin",mark+1,model.get("names")[mark]].join(" ").trim();const tip=found.reached?IMAGE_TIP:
-TARGET_TIP;return`${name}: ${tip}${marks.hidden.includes(mark)?COVERED:""}`}};async function copied(text){try{await navigator.clipboard.writeText(text);return true}catch{return copiedBySelection(
+canvas=canvas;this.actions={"?":canvas.help.toggle,b:()=>canvas.toggleTool("stiff"),e:()=>canvas.toggleTool(
+"erase"),contextmenu:()=>canvas.openMenu(),i:()=>canvas.room?.toggleInspector(),k:()=>void canvas.box.
+dispatchEvent(new CustomEvent("glid:key",{bubbles:true})),p:()=>canvas.room?.alone(),w:()=>canvas.room?.
+fullScreen()}}get painting(){return this.canvas.painting}changed(){this.canvas.followHand();this.canvas.
+redraw()}menu(place,found){this.canvas.openMenu(place,found)}pressedAt(){return this.canvas.pressedAt()}tapped(){
+this.canvas.box.dispatchEvent(new CustomEvent("glid:play",{bubbles:true}))}find(point,reach){const{view,
+marks,shapes,painting}=this.canvas;if(shapes.motion||painting)return null;const mark=markAt(marks,point,
+reach);return mark??ringAt(view,marks,view.toScreen(point),reach/view.unit/2)}encloses(found,e){const start=this.
+canvas.pad.grip?.points.get(found?.mark??"");this.pressed={found,start,pins:this.canvas.marks.targets.
+length};if(found)return null;if(e.shiftKey)return"box";return e.ctrlKey||e.metaKey?"lasso":null}held({
+mark}){const{selected,targets}=this.canvas.marks;const pressed=Number(mark);const moved=selected.includes(
+pressed)?selected:[pressed];return new Map(moved.map(i=>[i,targets[i]]))}constrain(point,e){const{model,
+pad}=this.canvas;const{pressed}=this;const[from]=pad.path;if(!pressed||!from||pressed.found?.part||pad.
+encloses||e.altKey)return point;pressed.keys={axis:e.shiftKey,whole:e.ctrlKey||e.metaKey};pressed.start??=
+from;const[x,y]=pressed.start;const free=[x+point[0]-from[0],y+point[1]-from[1]];const[u,v]=constrained(
+[x,y],free,pressed.keys,model.get("picture_size"));return[u-x+from[0],v-y+from[1]]}cursor(found){this.
+canvas.box.title=this.#tip(found);return found?"grab":"crosshair"}#tip(found){if(!found)return"";if(found.
+part)return RING_TIPS[found.part];const{marks,model}=this.canvas;const mark=Number(found.mark);const name=[
+"Pin",mark+1,model.get("names")[mark]].join(" ").trim();const tip=found.reached?IMAGE_TIP:TARGET_TIP;
+return`${name}: ${tip}${marks.hidden.includes(mark)?COVERED:""}`}};async function copied(text){try{await navigator.clipboard.writeText(text);return true}catch{return copiedBySelection(
 text)}}function copiedBySelection(text){const focused=document.activeElement;const area=document.createElement(
 "textarea");area.value=text;area.setAttribute("readonly","");Object.assign(area.style,{position:"fix\
 ed",top:"0",left:"0",opacity:"0"});document.body.append(area);area.select();try{return document.execCommand(
@@ -657,12 +659,12 @@ if(mayWait&&this.#timer!==void 0){this.#waits=event;return Promise.resolve(null)
 this.#pause();return this.#put(event)}close(){clearTimeout(this.#timer)}#pause(){this.#timer=setTimeout(
 ()=>{if(this.#flush())this.#pause()},PAUSE)}#flush(){clearTimeout(this.#timer);this.#timer=void 0;const event=this.#waits;
 this.#waits=null;if(event)void this.#put(event);return event!==null}};var SAVE_VIEW_AFTER=250;var STILL={release(){},pause:()=>void 0};var Canvas=class{legend=new Legend;notices=new Notices;help=help(
-HELP);ghosts=new Ghosts;#chosen;#saving;#playing=STILL;#painted=false;#presses=false;constructor({model,
-el,signal}){this.model=model;this.interactive=model.get("interactive");const paper=make("canvas",{className:"\
-glid-paper"});this.box=make("div",{className:"glid-pad",role:"application","aria-label":"Deformation\
- canvas: arrow keys move, Enter pins a point",inert:!this.interactive},paper,this.legend.element,this.
-notices.notice,this.notices.prepared);this.box.dataset.lmSuppressShortcuts="true";el.classList.add("\
-glid-host","glid-pad-host");el.append(this.box);this.view=new View(()=>this.#viewMoved(),{nearest:1e-4,
+HELP);ghosts=new Ghosts;#chosen;#saving;#playing=STILL;#tool;#painted=false;#presses=false;constructor({
+model,el,signal}){this.model=model;this.interactive=model.get("interactive");const paper=make("canva\
+s",{className:"glid-paper"});this.box=make("div",{className:"glid-pad",role:"application","aria-labe\
+l":"Deformation canvas: arrow keys move, Enter pins a point",inert:!this.interactive},paper,this.legend.
+element,this.notices.notice,this.notices.prepared);this.box.dataset.lmSuppressShortcuts="true";el.classList.
+add("glid-host","glid-pad-host");el.append(this.box);this.view=new View(()=>this.#viewMoved(),{nearest:1e-4,
 farthest:1});this.shapes=new Shapes(model,this.view);this.shapes.led=()=>this.redraw();this.ahead=new Ahead(
 model,lead=>this.shapes.showLead(lead));this.redraw=painter(paper,this.view,signal,pen=>this.#draw(pen));
 this.link=new Link(model,this.box,signal,()=>this.#report());this.room=this.interactive?new Room(this.
@@ -677,15 +679,18 @@ follow(this.pad.held)}#listener(signal){const put=event=>{const drags=event.type
 /^(down|move)$/.test(event.type);if(!drags)this.ahead.giveBack();const leads=this.ahead.leads&&this.
 shapes.movesVertices;return spacing.put(event,leads&&event.type==="move")};const spacing=new Spacing(
 event=>this.link.put(event));signal.addEventListener("abort",()=>spacing.close());return{put,signal}}get brush(){
-const brush=this.model.get("brush");return"radius"in brush?brush:null}get painting(){return this.brush!==
-null}say(notice){save(this.model,{notice})}openMenu(place,found={mark:this.marks.selected.at(-1)}){const{
-selected,targets}=this.marks;const mark=found?.mark===void 0?null:Number(found.mark);const centre=[this.
-view.x,this.view.y];const point=mark===null?this.model.get("cursor")??centre:targets[mark];const at=place??
-this.view.toScreen(point);const does={press:(key,shift=false)=>{return()=>this.pad.press(key,{shiftKey:shift})},
-pin:()=>void this.pad.send("pin",at),paste:()=>void this.clipboard.paste(),alone:()=>this.room?.alone(),
-fullScreen:()=>this.room?.fullScreen(),showKeys:this.help.toggle};const pinned=mark!==null&&selected.
-includes(mark)?selected.length:1;const covered=mark===null&&coveredNear(this.box,at);openMenu(this.box,
-at,menuRows(does,mark===null?null:{pinned},covered))}showMotion(motion=null,playing=STILL,heights=null){
+const{radius,strength}=this.model.get("brush");const{tool}=this;return tool?{radius,strength:tool===
+"stiff"?strength:0}:null}get tool(){const told=this.model.get("brush").tool;return told===void 0?"":
+this.#tool??told}toggleTool(tool){const name=this.tool===tool?"":tool;this.pad.link.put({type:"tool",
+name});this.#showTool(name)}#showTool(tool){if(tool===this.#tool)return;this.#tool=tool;this.showNotice();
+this.pad.hover();this.redraw()}get painting(){return this.brush!==null}say(notice){save(this.model,{
+notice})}openMenu(place,found={mark:this.marks.selected.at(-1)}){const{selected,targets}=this.marks;
+const mark=found?.mark===void 0?null:Number(found.mark);const centre=[this.view.x,this.view.y];const point=mark===
+null?this.model.get("cursor")??centre:targets[mark];const at=place??this.view.toScreen(point);const does={
+press:(key,shift=false)=>{return()=>this.#press(key,shift)},pin:()=>void this.pad.send("pin",at),paste:()=>void this.
+clipboard.paste(),alone:()=>this.room?.alone(),fullScreen:()=>this.room?.fullScreen(),showKeys:this.
+help.toggle};const pinned=mark!==null&&selected.includes(mark)?selected.length:1;const covered=mark===
+null&&coveredNear(this.box,at);openMenu(this.box,at,menuRows(does,mark===null?null:{pinned},covered))}showMotion(motion=null,playing=STILL,heights=null){
 this.#playing=playing;this.shapes.motion=motion;this.shapes.lift(heights);this.showLegend();this.shapes.
 refresh();this.redraw()}showLegend(){this.legend.show(this.model,Boolean(this.shapes.motion))}takeFocus(){
 const{painting}=this;const chosen=painting&&!this.#painted;this.#painted=painting;const side=this.box.
@@ -697,24 +702,26 @@ iew");box.style.width=`${view.width}px`;box.style.height=`${view.height}px`;this
 const{selected,targets,images}=this.marks;const now=selected.length===1?selected[0]:void 0;if(now===
 this.#chosen)return;this.#chosen=now;if(now===void 0||this.pad.mode)return;if(inSight(this.view,targets[now])||
 inSight(this.view,images[now]))return;this.view.centreOn(targets[now])}pressedAt(){if(!this.shapes.motion)
-return void 0;this.#presses=true;return this.#playing.pause()}#pressed(e){const{detail}=e;const act=this.
-pad.behaviour.actions?.[detail];if(act)act();else this.pad.press(detail,{})}#takeFirst(){const goBack=e=>{
-if(!this.shapes.motion)return;e.stopImmediatePropagation();e.preventDefault();this.#playing.release()};
-const capture=true;this.box.addEventListener("pointerdown",e=>e.button===2&&goBack(e),{capture});const ours=e=>!e.
-ctrlKey&&!e.metaKey&&KEYS.test(keyOf(e));this.box.addEventListener("keydown",e=>ours(e)&&goBack(e),{
-capture});const openedByKeys=e=>{if(e.key!=="F10"||!e.shiftKey)return;e.stopImmediatePropagation();e.
-preventDefault();this.openMenu()};this.box.addEventListener("keydown",openedByKeys,{capture});const followArrow=e=>{
-const target=arrowAt(this.view,this.marks,this.pad.place(e));if(!target||e.target!==this.box)return;
-this.view.centreOn(target);e.stopImmediatePropagation()};this.box.addEventListener("pointerdown",followArrow,
-{capture})}#makeCorner(){const look="glid-help-button";return make("div",{className:"glid-corner"},this.
-help.button,iconButton("screen","Full screen (W)",()=>this.room?.fullScreen(),look),iconButton("rect\
-angle","The picture alone (P)",()=>this.room?.alone(),look))}#report(){const{busy,refusal}=this.link;
-if(this.#presses&&this.link.idle&&this.pad.mode===null){this.#presses=false;this.#playing.release()}
-if(!busy&&refusal&&refusal!==this.model.get("notice"))this.say(refusal)}#viewMoved(){this.#see();clearTimeout(
-this.#saving);this.#saving=setTimeout(()=>{const{x,y,unit}=this.view;save(this.model,{view:[x,y,unit]})},
-SAVE_VIEW_AFTER)}#see(){this.shapes.see();this.redraw()}#drawNumbers(pen){const{model,view,pad,marks}=this;
-const{pressed}=this.behaviour;const drags=pad.mode==="hand"&&pad.path.length>1&&!pad.encloses;const moved=drags&&
-pressed&&movedPin(pressed,marks,pad.held,model.get("picture_size"));if(!moved)return;const{start,keys}=pressed;
+return void 0;this.#presses=true;return this.#playing.pause()}#pressed(e){this.#press(e.detail)}#press(key,shift=false){
+const act=this.behaviour.actions[key];if(act)act();else this.pad.press(key,{shiftKey:shift})}#takeFirst(){
+const goBack=e=>{if(!this.shapes.motion)return;e.stopImmediatePropagation();e.preventDefault();this.#playing.
+release()};const capture=true;this.box.addEventListener("pointerdown",e=>e.button===2&&goBack(e),{capture});
+const ours=e=>!e.ctrlKey&&!e.metaKey&&KEYS.test(keyOf(e));this.box.addEventListener("keydown",e=>ours(
+e)&&goBack(e),{capture});const putAway=e=>{if(keyOf(e)==="Escape"&&this.painting)this.#showTool("")};
+this.box.addEventListener("keydown",putAway,{capture});const openedByKeys=e=>{if(e.key!=="F10"||!e.shiftKey)
+return;e.stopImmediatePropagation();e.preventDefault();this.openMenu()};this.box.addEventListener("k\
+eydown",openedByKeys,{capture});const followArrow=e=>{const target=arrowAt(this.view,this.marks,this.
+pad.place(e));if(!target||e.target!==this.box)return;this.view.centreOn(target);e.stopImmediatePropagation()};
+this.box.addEventListener("pointerdown",followArrow,{capture})}#makeCorner(){const look="glid-help-b\
+utton";return make("div",{className:"glid-corner"},this.help.button,iconButton("screen","Full screen\
+ (W)",()=>this.room?.fullScreen(),look),iconButton("rectangle","The picture alone (P)",()=>this.room?.
+alone(),look))}#report(){const{busy,refusal}=this.link;if(this.link.idle)this.#showTool(void 0);if(this.#presses&&
+this.link.idle&&this.pad.mode===null){this.#presses=false;this.#playing.release()}if(!busy&&refusal&&
+refusal!==this.model.get("notice"))this.say(refusal)}#viewMoved(){this.#see();clearTimeout(this.#saving);
+this.#saving=setTimeout(()=>{const{x,y,unit}=this.view;save(this.model,{view:[x,y,unit]})},SAVE_VIEW_AFTER)}#see(){
+this.shapes.see();this.redraw()}#drawNumbers(pen){const{model,view,pad,marks}=this;const{pressed}=this.
+behaviour;const drags=pad.mode==="hand"&&pad.path.length>1&&!pad.encloses;const moved=drags&&pressed&&
+movedPin(pressed,marks,pad.held,model.get("picture_size"));if(!moved)return;const{start,keys}=pressed;
 if(start&&keys?.axis)drawAxis(pen,view,start,moved.at);drawNumbers(pen,view,moved)}#draw(pen){const{
 model,view,pad,marks,brush}=this;const{motion}=this.shapes;const through=!motion&&knobInCorner(view,
 marks,pad.held);this.corner.classList.toggle("glid-through",through);if(motion)return;drawOnion(pen,
