@@ -19,7 +19,8 @@ from glid_nb.certificate import certificate_of
 from glid_nb.energies import Energy
 from glid_nb.geometry import Cage, Domain, place
 from glid_nb.harmonic import HarmonicMap
-from glid_nb.motion.settings import Easing, Repeat
+from glid_nb.motion.easing import Easing
+from glid_nb.motion.settings import Repeat
 from glid_nb.pose import DEEPEST, PER_HANDLE, Pose, Stiffness, misplaced
 from glid_nb.session.document import NamedPose, check_room
 from glid_nb.session.edit_state import EditError, EditState
@@ -256,13 +257,20 @@ def move_pose(state: EditState, index: int, time: float) -> EditState:
 
 
 def set_easing(state: EditState, index: int, easing: Easing) -> EditState:
-    """Set the easing of the motion from a pose to the next one."""
-    return replace(state, timeline=state.timeline.eased(_checked_pose(state, index), easing))
+    """Set the easing of the motion from a pose to the next one, or of a loop's return."""
+    timeline = state.timeline.eased(_checked_pose(state, index), easing)
+    return state if timeline == state.timeline else replace(state, timeline=timeline)
 
 
 def set_repeat(state: EditState, repeat: Repeat) -> EditState:
     """Set whether the motion plays once, in a loop, or there and back."""
     return replace(state, timeline=replace(state.timeline, repeat=repeat))
+
+
+def set_loop_range(state: EditState, part: tuple[float, float] | None) -> EditState:
+    """Set the part of the motion that plays over and over; None for the whole motion."""
+    timeline = replace(state.timeline, loop_range=part)
+    return state if timeline == state.timeline else replace(state, timeline=timeline)
 
 
 def keep_between(state: EditState, time: float, *maps: HarmonicMap) -> EditState:

@@ -93,7 +93,7 @@ class Stage(Pad):
     onion = traitlets.List([]).tag(sync=True)  # other poses' colours and loops of [x, y], each
     stiff = traitlets.List([]).tag(sync=True)  # painted areas' strengths and loops of [x, y], each
     brush = traitlets.Dict({}).tag(sync=True)
-    """The brush of the left button: ``radius`` and ``strength``; empty without a brush."""
+    """The brush of the left button: ``tool`` (empty without a brush), ``radius``, ``strength``."""
     cursor = traitlets.List(default_value=None, allow_none=True).tag(sync=True)
     """The place of the keyboard's cursor, [x, y]; None while it is not used."""
     legend = traitlets.Dict({}).tag(sync=True)

@@ -82,7 +82,8 @@ def test_keys_send_selected_handles_back_and_forward(hand: Hand) -> None:
 def test_a_brush_paints_and_erases_in_steps_for_undo(hand: Hand) -> None:
     brush, model = hand.gestures.brush, hand.model
     brush.radius, brush.strength = 0.5, 0.6
-    hand.key("b")
+    assert "no tool 'spray'" in hand.send("tool", name="spray")
+    hand.send("tool", name="stiff")
     assert brush.tool == "stiff"
     # Through the ring, its hole and the ring again: no pin, two lines, one step.
     path = [[-2.8, 0.0], [-1.0, 0.05], [2.8, 0.0]]
@@ -96,7 +97,7 @@ def test_a_brush_paints_and_erases_in_steps_for_undo(hand: Hand) -> None:
         0,
         0,
     ]
-    hand.key("E")
+    hand.send("tool", name="erase")
     hand.send("down", 2, 0)
     hand.send("up", 2, 0, path=[[2, 0]])
     assert model.pose.stiffness([[2, 0.4], [-2, 0.4]]).tolist() == [0, 0.6]

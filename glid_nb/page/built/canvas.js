@@ -328,7 +328,9 @@ e button, Space and drag","move the view"],["F","see everything"],["P","the pict
 res; Esc brings the rest back"],["W","the whole screen, without the inspector"],["I","hide the inspe\
 ctor, show it again"]]],["Timeline",[["K","make a keyframe of what is shown"],["Space","play the mot\
 ion through the poses, pause; on the canvas too"],["Arrow keys, Home, End","step a frame, with Shift\
- to the next pose; first, last pose"],["Ctrl and wheel","zoom the timeline; then the wheel alone mov\
+ to the next pose; first, last pose"],["Click a curve between poses, Enter","ease the motion there: \
+drag its two handles, or arrow keys"],["Shift+Home, Shift+End","play over and over from here, to her\
+e; so do the two marks on the ruler"],["Ctrl and wheel","zoom the timeline; then the wheel alone mov\
 es along it"],["Double click a pose, F2","type its name"],["Alt and arrow keys","move the pose in ti\
 me; Delete removes it"]]]];var Legend=class{element=make("div",{className:"glid-legend"});show(model,moving){const bars=[model.
 get("legend"),model.get("panel_legend")].filter(bar=>bar.title);this.element.replaceChildren(...bars.
@@ -372,20 +374,21 @@ ects several";var IMAGE_TIP="where the shape is now. The cyan disk is where it s
 . Another part of the shape covers it";var RING_TIPS={turn:"Drag around the pin to turn the shape th\
 ere; X frees it again",knob:"Drag around the pin to turn the shape there, away from it to scale it; \
 X frees it again"};var PinBehaviour=class{reach=REACH;keys=KEYS;pressed=null;constructor(canvas){this.
-canvas=canvas;this.actions={"?":canvas.help.toggle,contextmenu:()=>canvas.openMenu(),i:()=>canvas.room?.
-toggleInspector(),k:()=>void canvas.box.dispatchEvent(new CustomEvent("glid:key",{bubbles:true})),p:()=>canvas.
-room?.alone(),w:()=>canvas.room?.fullScreen()}}get painting(){return this.canvas.painting}changed(){
-this.canvas.followHand();this.canvas.redraw()}menu(place,found){this.canvas.openMenu(place,found)}pressedAt(){
-return this.canvas.pressedAt()}tapped(){this.canvas.box.dispatchEvent(new CustomEvent("glid:play",{bubbles:true}))}find(point,reach){
-const{view,marks,shapes,painting}=this.canvas;if(shapes.motion||painting)return null;const mark=markAt(
-marks,point,reach);return mark??ringAt(view,marks,view.toScreen(point),reach/view.unit/2)}encloses(found,e){
-const start=this.canvas.pad.grip?.points.get(found?.mark??"");this.pressed={found,start,pins:this.canvas.
-marks.targets.length};if(found)return null;if(e.shiftKey)return"box";return e.ctrlKey||e.metaKey?"la\
-sso":null}get constrains(){const{axis,whole}=this.pressed?.keys??{};return Boolean(axis||whole)}madePin(){
-const{pad,model}=this.canvas;const{pressed}=this;if(!pressed||pressed.found||this.painting||pad.mode!==
-"hand")return void 0;const count=model.get("rest").pose?.targets.length??0;return count===pressed.pins+
-1&&!pad.encloses?pressed.pins:void 0}held({mark}){const{selected,targets}=this.canvas.marks;const pressed=Number(
-mark);const moved=selected.includes(pressed)?selected:[pressed];return new Map(moved.map(i=>[i,targets[i]]))}constrain(point,e){
+canvas=canvas;this.actions={"?":canvas.help.toggle,b:()=>canvas.toggleTool("stiff"),e:()=>canvas.toggleTool(
+"erase"),contextmenu:()=>canvas.openMenu(),i:()=>canvas.room?.toggleInspector(),k:()=>void canvas.box.
+dispatchEvent(new CustomEvent("glid:key",{bubbles:true})),p:()=>canvas.room?.alone(),w:()=>canvas.room?.
+fullScreen()}}get painting(){return this.canvas.painting}changed(){this.canvas.followHand();this.canvas.
+redraw()}menu(place,found){this.canvas.openMenu(place,found)}pressedAt(){return this.canvas.pressedAt()}tapped(){
+this.canvas.box.dispatchEvent(new CustomEvent("glid:play",{bubbles:true}))}find(point,reach){const{view,
+marks,shapes,painting}=this.canvas;if(shapes.motion||painting)return null;const mark=markAt(marks,point,
+reach);return mark??ringAt(view,marks,view.toScreen(point),reach/view.unit/2)}encloses(found,e){const start=this.
+canvas.pad.grip?.points.get(found?.mark??"");this.pressed={found,start,pins:this.canvas.marks.targets.
+length};if(found)return null;if(e.shiftKey)return"box";return e.ctrlKey||e.metaKey?"lasso":null}get constrains(){
+const{axis,whole}=this.pressed?.keys??{};return Boolean(axis||whole)}madePin(){const{pad,model}=this.
+canvas;const{pressed}=this;if(!pressed||pressed.found||this.painting||pad.mode!=="hand")return void 0;
+const count=model.get("rest").pose?.targets.length??0;return count===pressed.pins+1&&!pad.encloses?pressed.
+pins:void 0}held({mark}){const{selected,targets}=this.canvas.marks;const pressed=Number(mark);const moved=selected.
+includes(pressed)?selected:[pressed];return new Map(moved.map(i=>[i,targets[i]]))}constrain(point,e){
 const{model,pad}=this.canvas;const{pressed}=this;const[from]=pad.path;if(!pressed||!from||pressed.found?.
 part||pad.encloses||e.altKey)return point;pressed.keys={axis:e.shiftKey,whole:e.ctrlKey||e.metaKey};
 pressed.start??=from;const[x,y]=pressed.start;const free=[x+point[0]-from[0],y+point[1]-from[1]];const[
@@ -683,12 +686,12 @@ if(mayWait&&this.#timer!==void 0){this.#waits=event;return Promise.resolve(null)
 this.#pause();return this.#put(event)}close(){clearTimeout(this.#timer)}#pause(){this.#timer=setTimeout(
 ()=>{if(this.#flush())this.#pause()},PAUSE)}#flush(){clearTimeout(this.#timer);this.#timer=void 0;const event=this.#waits;
 this.#waits=null;if(event)void this.#put(event);return event!==null}};var SAVE_VIEW_AFTER=250;var STILL={release(){},pause:()=>void 0};var Canvas=class{legend=new Legend;notices=new Notices;help=help(
-HELP);ghosts=new Ghosts;#chosen;#saving;#playing=STILL;#painted=false;#presses=false;constructor({model,
-el,signal}){this.model=model;this.interactive=model.get("interactive");const paper=make("canvas",{className:"\
-glid-paper"});this.box=make("div",{className:"glid-pad",role:"application","aria-label":"Deformation\
- canvas: arrow keys move, Enter pins a point",inert:!this.interactive},paper,this.legend.element,this.
-notices.notice,this.notices.prepared);this.box.dataset.lmSuppressShortcuts="true";el.classList.add("\
-glid-host","glid-pad-host");el.append(this.box);this.view=new View(()=>this.#viewMoved(),{nearest:1e-4,
+HELP);ghosts=new Ghosts;#chosen;#saving;#playing=STILL;#tool;#painted=false;#presses=false;constructor({
+model,el,signal}){this.model=model;this.interactive=model.get("interactive");const paper=make("canva\
+s",{className:"glid-paper"});this.box=make("div",{className:"glid-pad",role:"application","aria-labe\
+l":"Deformation canvas: arrow keys move, Enter pins a point",inert:!this.interactive},paper,this.legend.
+element,this.notices.notice,this.notices.prepared);this.box.dataset.lmSuppressShortcuts="true";el.classList.
+add("glid-host","glid-pad-host");el.append(this.box);this.view=new View(()=>this.#viewMoved(),{nearest:1e-4,
 farthest:1});this.shapes=new Shapes(model,this.view);this.shapes.led=()=>this.redraw();this.ahead=new Ahead(
 model,lead=>this.shapes.showLead(lead));this.redraw=painter(paper,this.view,signal,pen=>this.#draw(pen));
 this.link=new Link(model,this.box,signal,()=>this.#report());this.room=this.interactive?new Room(this.
@@ -705,40 +708,45 @@ toWorld(place));this.followHand()}followHand(){if(this.pad.grip&&!this.shapes.mo
 this.pad.held)}#listener(signal){const put=event=>{const drags=event.type==="up"||this.pad.grip&&/^(down|move)$/.
 test(event.type);if(!drags)this.ahead.giveBack();const leads=this.ahead.leads&&this.shapes.movesVertices;
 return spacing.put(event,leads&&event.type==="move")};const spacing=new Spacing(event=>this.link.put(
-event));signal.addEventListener("abort",()=>spacing.close());return{put,signal}}get brush(){const brush=this.
-model.get("brush");return"radius"in brush?brush:null}get painting(){return this.brush!==null}say(notice){
-save(this.model,{notice})}openMenu(place,found={mark:this.marks.selected.at(-1)}){const{selected,targets}=this.
-marks;const mark=found?.mark===void 0?null:Number(found.mark);const centre=[this.view.x,this.view.y];
-const point=mark===null?this.model.get("cursor")??centre:targets[mark];const at=place??this.view.toScreen(
-point);const does={press:(key,shift=false)=>{return()=>this.pad.press(key,{shiftKey:shift})},pin:()=>void this.
-pad.send("pin",at),paste:()=>void this.clipboard.paste(),alone:()=>this.room?.alone(),fullScreen:()=>this.
-room?.fullScreen(),showKeys:this.help.toggle};const pinned=mark!==null&&selected.includes(mark)?selected.
-length:1;const covered=mark===null&&coveredNear(this.box,at);openMenu(this.box,at,menuRows(does,mark===
-null?null:{pinned},covered))}showMotion(motion=null,playing=STILL,heights=null,parts={}){this.#playing=
-playing;this.shapes.motion=motion;this.shapes.partMotions=parts;this.shapes.lift(heights);this.showLegend();
-this.shapes.refresh();this.redraw()}showLegend(){this.legend.show(this.model,Boolean(this.shapes.motion))}takeFocus(){
-const{painting}=this;const chosen=painting&&!this.#painted;this.#painted=painting;const side=this.box.
-closest(".glid-editor")?.querySelector(".glid-side");if(chosen&&side?.contains(document.activeElement))
-this.box.focus({preventScroll:true})}showNotice(){const first=this.interactive&&!this.marks.targets.
-length;this.notices.tell(this.model.get("notice"),this.painting,first)}fit(){const{model,view,box}=this;
-view.width=model.get("width");view.height=model.get("height");[view.x,view.y,view.unit]=model.get("v\
-iew");box.style.width=`${view.width}px`;box.style.height=`${view.height}px`;this.room?.shrink();this.#see()}reveal(){
-const{selected,targets,images}=this.marks;const now=selected.length===1?selected[0]:void 0;if(now===
-this.#chosen)return;this.#chosen=now;if(now===void 0||this.pad.mode)return;if(inSight(this.view,targets[now])||
-inSight(this.view,images[now]))return;this.view.centreOn(targets[now])}pressedAt(){if(!this.shapes.motion)
-return void 0;this.#presses=true;return this.#playing.pause()}#pressed(e){const{detail}=e;const act=this.
-pad.behaviour.actions?.[detail];if(act)act();else this.pad.press(detail,{})}#takeFirst(){const goBack=e=>{
-if(!this.shapes.motion)return;e.stopImmediatePropagation();e.preventDefault();this.#playing.release()};
-const capture=true;this.box.addEventListener("pointerdown",e=>e.button===2&&goBack(e),{capture});const ours=e=>!e.
-ctrlKey&&!e.metaKey&&KEYS.test(keyOf(e));this.box.addEventListener("keydown",e=>ours(e)&&goBack(e),{
-capture});const openedByKeys=e=>{if(e.key!=="F10"||!e.shiftKey)return;e.stopImmediatePropagation();e.
-preventDefault();this.openMenu()};this.box.addEventListener("keydown",openedByKeys,{capture});const followArrow=e=>{
-const target=arrowAt(this.view,this.marks,this.pad.place(e));if(!target||e.target!==this.box)return;
-this.view.centreOn(target);e.stopImmediatePropagation()};this.box.addEventListener("pointerdown",followArrow,
-{capture})}#makeCorner(){const look="glid-help-button";return make("div",{className:"glid-corner"},this.
-help.button,iconButton("screen","Full screen (W)",()=>this.room?.fullScreen(),look),iconButton("rect\
-angle","The picture alone (P)",()=>this.room?.alone(),look))}#report(){const{busy,refusal}=this.link;
-if(this.#presses&&this.link.idle&&this.pad.mode===null){this.#presses=false;this.#playing.release()}
+event));signal.addEventListener("abort",()=>spacing.close());return{put,signal}}get brush(){const{radius,
+strength}=this.model.get("brush");const{tool}=this;return tool?{radius,strength:tool==="stiff"?strength:
+0}:null}get tool(){const told=this.model.get("brush").tool;return told===void 0?"":this.#tool??told}toggleTool(tool){
+const name=this.tool===tool?"":tool;this.pad.link.put({type:"tool",name});this.#showTool(name)}#showTool(tool){
+if(tool===this.#tool)return;this.#tool=tool;this.showNotice();this.pad.hover();this.redraw()}get painting(){
+return this.brush!==null}say(notice){save(this.model,{notice})}openMenu(place,found={mark:this.marks.
+selected.at(-1)}){const{selected,targets}=this.marks;const mark=found?.mark===void 0?null:Number(found.
+mark);const centre=[this.view.x,this.view.y];const point=mark===null?this.model.get("cursor")??centre:
+targets[mark];const at=place??this.view.toScreen(point);const does={press:(key,shift=false)=>{return()=>this.#press(
+key,shift)},pin:()=>void this.pad.send("pin",at),paste:()=>void this.clipboard.paste(),alone:()=>this.
+room?.alone(),fullScreen:()=>this.room?.fullScreen(),showKeys:this.help.toggle};const pinned=mark!==
+null&&selected.includes(mark)?selected.length:1;const covered=mark===null&&coveredNear(this.box,at);
+openMenu(this.box,at,menuRows(does,mark===null?null:{pinned},covered))}showMotion(motion=null,playing=STILL,heights=null,parts={}){
+this.#playing=playing;this.shapes.motion=motion;this.shapes.partMotions=parts;this.shapes.lift(heights);
+this.showLegend();this.shapes.refresh();this.redraw()}showLegend(){this.legend.show(this.model,Boolean(
+this.shapes.motion))}takeFocus(){const{painting}=this;const chosen=painting&&!this.#painted;this.#painted=
+painting;const side=this.box.closest(".glid-editor")?.querySelector(".glid-side");if(chosen&&side?.contains(
+document.activeElement))this.box.focus({preventScroll:true})}showNotice(){const first=this.interactive&&
+!this.marks.targets.length;this.notices.tell(this.model.get("notice"),this.painting,first)}fit(){const{
+model,view,box}=this;view.width=model.get("width");view.height=model.get("height");[view.x,view.y,view.
+unit]=model.get("view");box.style.width=`${view.width}px`;box.style.height=`${view.height}px`;this.room?.
+shrink();this.#see()}reveal(){const{selected,targets,images}=this.marks;const now=selected.length===
+1?selected[0]:void 0;if(now===this.#chosen)return;this.#chosen=now;if(now===void 0||this.pad.mode)return;
+if(inSight(this.view,targets[now])||inSight(this.view,images[now]))return;this.view.centreOn(targets[now])}pressedAt(){
+if(!this.shapes.motion)return void 0;this.#presses=true;return this.#playing.pause()}#pressed(e){this.#press(
+e.detail)}#press(key,shift=false){const act=this.behaviour.actions[key];if(act)act();else this.pad.press(
+key,{shiftKey:shift})}#takeFirst(){const goBack=e=>{if(!this.shapes.motion)return;e.stopImmediatePropagation();
+e.preventDefault();this.#playing.release()};const capture=true;this.box.addEventListener("pointerdow\
+n",e=>e.button===2&&goBack(e),{capture});const ours=e=>!e.ctrlKey&&!e.metaKey&&KEYS.test(keyOf(e));this.
+box.addEventListener("keydown",e=>ours(e)&&goBack(e),{capture});const putAway=e=>{if(keyOf(e)==="Esc\
+ape"&&this.painting)this.#showTool("")};this.box.addEventListener("keydown",putAway,{capture});const openedByKeys=e=>{
+if(e.key!=="F10"||!e.shiftKey)return;e.stopImmediatePropagation();e.preventDefault();this.openMenu()};
+this.box.addEventListener("keydown",openedByKeys,{capture});const followArrow=e=>{const target=arrowAt(
+this.view,this.marks,this.pad.place(e));if(!target||e.target!==this.box)return;this.view.centreOn(target);
+e.stopImmediatePropagation()};this.box.addEventListener("pointerdown",followArrow,{capture})}#makeCorner(){
+const look="glid-help-button";return make("div",{className:"glid-corner"},this.help.button,iconButton(
+"screen","Full screen (W)",()=>this.room?.fullScreen(),look),iconButton("rectangle","The picture alo\
+ne (P)",()=>this.room?.alone(),look))}#report(){const{busy,refusal}=this.link;if(this.link.idle)this.#showTool(
+void 0);if(this.#presses&&this.link.idle&&this.pad.mode===null){this.#presses=false;this.#playing.release()}
 if(!busy&&refusal&&refusal!==this.model.get("notice"))this.say(refusal)}#viewMoved(){this.#see();clearTimeout(
 this.#saving);this.#saving=setTimeout(()=>{const{x,y,unit}=this.view;save(this.model,{view:[x,y,unit]})},
 SAVE_VIEW_AFTER)}#see(){this.shapes.see();this.redraw()}#drawNumbers(pen){const{model,view,pad,marks}=this;

@@ -29,7 +29,7 @@ import { Spacing } from "./spacing.js";
 /** @import { Pen } from "../pad/pen.js" */
 /** @import { PartSeen } from "./moved_shape.js" */
 /** @import { Seen } from "./shapes.js" */
-/** @import { Brush, CanvasTraits } from "./traits.js" */
+/** @import { Brush, CanvasTraits, Tool } from "./traits.js" */
 
 /**
  * The motion that the timeline shows.
@@ -55,6 +55,8 @@ export class Canvas {
   #saving;
   /** @type {Playing} */
   #playing = STILL;
+  /** @type {Tool | undefined} that a key chose, until the kernel has answered */
+  #tool;
   #painted = false; // whether there was a brush when it changed last
   #presses = false; // a press into a motion is on its way to the kernel
 
@@ -162,8 +164,37 @@ export class Canvas {
 
   /** The brush that paints stiff areas; null for none. */
   get brush() {
-    const brush = this.model.get("brush");
-    return "radius" in brush ? /** @type {Brush} */ (brush) : null;
+    const { radius, strength } = this.model.get("brush");
+    const { tool } = this;
+    return tool
+      ? /** @type {Brush} */ ({ radius, strength: tool === "stiff" ? strength : 0 })
+      : null;
+  }
+
+  get tool() {
+    const told = this.model.get("brush").tool;
+    return told === undefined ? "" : (this.#tool ?? told);
+  }
+
+  /**
+   * Takes a tool of the brush, or puts it away. The page has it at once, so that a stroke right after
+   * the key drags nothing.
+   *
+   * @param {"stiff" | "erase"} tool
+   */
+  toggleTool(tool) {
+    const name = this.tool === tool ? "" : tool;
+    this.pad.link.put({ type: "tool", name });
+    this.#showTool(name);
+  }
+
+  /** @param {Tool | undefined} tool undefined for the kernel's */
+  #showTool(tool) {
+    if (tool === this.#tool) return;
+    this.#tool = tool;
+    this.showNotice();
+    this.pad.hover();
+    this.redraw();
   }
 
   get painting() {
@@ -189,7 +220,7 @@ export class Canvas {
     const at = place ?? this.view.toScreen(point);
     const does = {
       press: (/** @type {string} */ key, shift = false) => {
-        return () => this.pad.press(key, { shiftKey: shift });
+        return () => this.#press(key, shift);
       },
       pin: () => void this.pad.send("pin", at),
       paste: () => void this.clipboard.paste(),
@@ -270,10 +301,19 @@ export class Canvas {
 
   /** @param {Event} e */
   #pressed(e) {
-    const { detail } = /** @type {CustomEvent<string>} */ (e);
-    const act = this.pad.behaviour.actions?.[detail];
+    this.#press(/** @type {CustomEvent<string>} */ (e).detail);
+  }
+
+  /**
+   * Does what a key does, in the page or in the kernel.
+   *
+   * @param {string} key
+   * @param {boolean} [shift]
+   */
+  #press(key, shift = false) {
+    const act = this.behaviour.actions[key];
     if (act) act();
-    else this.pad.press(detail, {});
+    else this.pad.press(key, { shiftKey: shift });
   }
 
   // Handles two kinds of input before the pad does. While a motion is seen, keys and the right button
@@ -291,6 +331,10 @@ export class Canvas {
     const ours = (/** @type {KeyboardEvent} */ e) =>
       !e.ctrlKey && !e.metaKey && KEYS.test(keyOf(e));
     this.box.addEventListener("keydown", (e) => ours(e) && goBack(e), { capture });
+    const putAway = (/** @type {KeyboardEvent} */ e) => {
+      if (keyOf(e) === "Escape" && this.painting) this.#showTool("");
+    };
+    this.box.addEventListener("keydown", putAway, { capture });
     const openedByKeys = (/** @type {KeyboardEvent} */ e) => {
       if (e.key !== "F10" || !e.shiftKey) return; // a keyboard without a menu key
       e.stopImmediatePropagation();
@@ -321,6 +365,7 @@ export class Canvas {
   // Shows a refusal as the notice. After a press into a motion, shows the pose that is edited now.
   #report() {
     const { busy, refusal } = this.link;
+    if (this.link.idle) this.#showTool(undefined);
     if (this.#presses && this.link.idle && this.pad.mode === null) {
       this.#presses = false;
       this.#playing.release();

@@ -63,6 +63,14 @@ export const HELP = [
       ["K", "make a keyframe of what is shown"],
       ["Space", "play the motion through the poses, pause; on the canvas too"],
       ["Arrow keys, Home, End", "step a frame, with Shift to the next pose; first, last pose"],
+      [
+        "Click a curve between poses, Enter",
+        "ease the motion there: drag its two handles, or arrow keys",
+      ],
+      [
+        "Shift+Home, Shift+End",
+        "play over and over from here, to here; so do the two marks on the ruler",
+      ],
       ["Ctrl and wheel", "zoom the timeline; then the wheel alone moves along it"],
       ["Double click a pose, F2", "type its name"],
       ["Alt and arrow keys", "move the pose in time; Delete removes it"],

@@ -29,8 +29,11 @@ export class PinBehaviour {
   /** @param {Canvas} canvas */
   constructor(canvas) {
     this.canvas = canvas;
+    /** @type {Record<string, () => void>} */
     this.actions = {
       "?": canvas.help.toggle,
+      b: () => canvas.toggleTool("stiff"),
+      e: () => canvas.toggleTool("erase"),
       contextmenu: () => canvas.openMenu(),
       i: () => canvas.room?.toggleInspector(),
       k: () => void canvas.box.dispatchEvent(new CustomEvent("glid:key", { bubbles: true })),

@@ -23,8 +23,12 @@ export interface ColorBar {
   about: string;
 }
 
+/** What the left button does; empty while it pins and drags. */
+export type Tool = "" | "stiff" | "erase";
+
 export interface Brush {
   radius: number;
+  /** 0 erases. */
   strength: number;
 }
 
@@ -66,7 +70,8 @@ export interface CanvasTraits {
   picture_size: number[];
   onion: [color: string, loops: Point[][]][];
   stiff: [strength: number, loops: Point[][]][];
-  brush: Brush | Record<string, never>;
+  /** Empty before the kernel has told of it. */
+  brush: (Brush & { tool: Tool }) | Record<string, never>;
   cursor: Point | null;
   legend: ColorBar | Record<string, never>;
   panel_legend: ColorBar | Record<string, never>;
