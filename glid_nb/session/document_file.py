@@ -44,7 +44,7 @@ from glid_nb.solvers import Newton, Options
 T = TypeVar("T")
 
 FORMAT = "glid_nb-document"
-FORMAT_VERSION = 7  # the newest that can be opened
+FORMAT_VERSION = 7
 
 _JSON, _IMAGE = "document.json", "image.png"
 _MASKS = {key: f"scribbles-{key}.png" for key in ("foreground", "background")}
@@ -74,7 +74,7 @@ _MOST_ITERATIONS = 200  # older files have this for max_iterations=None, the met
 _RELATIVE_WEIGHT = (
     5  # since this version p2p_weight is relative to the cage's unit, not the world's
 )
-_PARTS = 7  # since this version a session may have several parts; with one it is still written as 6
+_PARTS = 7  # since this version a session may have several parts
 _OF_PARTS = re.compile(r"(image|scribbles-foreground|scribbles-background)-\d{1,3}\.png")
 _LOOK = 6  # since this version a picture may be drawn otherwise than as all inside its cage
 _MASK = "mask"  # written instead of strokes; another member holds the pixels
@@ -101,7 +101,7 @@ def document_bytes(document: Document) -> bytes:
     height, width = document.image.shape[:2]
     data = {
         "format": FORMAT,
-        "version": _PARTS if parts else _LOOK,
+        "version": FORMAT_VERSION,
         "image_size_px": [width, height],
         **shape,
         "active": document.active,
