@@ -225,6 +225,7 @@ class EditorModel(Observed):
         back. Returns a text about effects that the user may not expect; empty if there are none.
         """
         with self.locked():
+            self.tracing.accept_guess()
             domain, session, words = self.tracing.domain, self._session, ""
             if domain is None or (session and session.domain is domain):
                 pass

@@ -51,7 +51,10 @@ _PIN, _FILES = 0, 2  # of the inspector's sections
 _LEAST_SIZE = 240  # CSS pixels, of the Trace tab, and of a canvas whose corner is dragged
 _PLOTS_SIZE = 460, 382  # CSS pixels
 _PLOTS = "Show energy, steps and certificate of the solve"
-_EMPTY = "<p style='padding:2em'>Open a picture in the Trace tab; the shape appears here.</p>"
+_EMPTY = "Open a picture in the Trace tab; the shape appears here."
+_NO_OUTLINE = (
+    "There is no outline yet, as {}. Paint over the shape in the Trace tab, or use the guess there."
+)
 
 _LEFT = (
     "{left} was changed elsewhere and stays as it is; this session is saved to {path} from now on."
@@ -66,8 +69,9 @@ class Editor(ClosingWidget, ipywidgets.VBox):
     """Trace a picture, pin points on it, and drag them. The picture follows and never folds over.
 
     The Trace tab finds the cage, the Deform tab moves it. If the outline is only a guess, as on
-    most photographs, the Trace tab is open at first and says so. Code can do the same: `trace`,
-    `add_handle`, `drag`, `solve`, `save`, `load`, `export`.
+    most photographs, the Trace tab is open at first, without an outline, and asks for strokes over
+    the shape. Code can do the same: `trace`, `add_handle`, `drag`, `solve`, `save`, `load`,
+    `export`.
 
     The image is as in `glid_nb.read_image`; without one the editor asks for a file. Every change
     updates the session file ``path``. If this file exists, the editor opens it (give the same
@@ -368,7 +372,9 @@ class Editor(ClosingWidget, ipywidgets.VBox):
             if self.model.has_shape:
                 self._deform_box.children = [self._deform_tab()]
             else:
-                self._deform_box.children = [ipywidgets.HTML(_EMPTY), OpenPanel(self.model)]
+                self._nothing = ipywidgets.HTML()
+                self._deform_box.children = [self._nothing, OpenPanel(self.model)]
+                self._show_nothing()
             self.tabs.selected_index = _DEFORM if self.model.has_shape else _TRACE
             self._begin()
             if self.canvas is None:
@@ -533,6 +539,15 @@ class Editor(ClosingWidget, ipywidgets.VBox):
     def _on_tab(self, change: Any) -> None:
         self._fill()
         if change["new"] == _DEFORM:
-            notice = self.model.apply_tracing()
-            if notice and self.canvas is not None:
+            doubt = self.model.tracing.doubt
+            notice = _NO_OUTLINE.format(doubt) if doubt else self.model.apply_tracing()
+            if self.canvas is None:
+                self._show_nothing()
+            elif notice:
                 self.canvas.pane.stage.notice = notice
+
+    def _show_nothing(self) -> None:
+        """Say in the Deform tab why there is nothing to deform yet."""
+        doubt = self.model.tracing.doubt
+        text = _NO_OUTLINE.format(doubt) if doubt else _EMPTY
+        self._nothing.value = paragraph(text, "padding:2em")

@@ -118,6 +118,7 @@ class CageTracer(Pad):
         with self.tracing_model.locked(), self.hold_sync():
             if self.tracing_model.image is not self._pushed_image:
                 self._pushed_image = self.tracing_model.image
+                self.gestures.begin()
                 self.picture = displayed(self._pushed_image)
             self.shown = described(self.gestures)
 

@@ -63,7 +63,7 @@ class TraceGestures(Gestures):
 
     def __init__(self, model: TracingModel) -> None:
         own = (*OF_A_HAND, "tool", "upload", "undo")
-        plain = ("clear_scribbles", "discard_edits", "redo", "draw")
+        plain = ("accept_guess", "clear_scribbles", "discard_edits", "redo", "draw")
         actions = {kind: getattr(self, f"_{kind}") for kind in own}
         actions |= {kind: asked(getattr(model, kind)) for kind in plain}
         actions["drawn_as"] = self._drawn_as
@@ -87,13 +87,19 @@ class TraceGestures(Gestures):
     @property
     def selected(self) -> tuple[Vertex, ...]:
         """The vertices that keys act on."""
-        sizes = [len(loop) for loop in self.model.outcome.loops]
+        sizes = [len(loop) for loop in self.model.loops]
         return tuple((i, j) for i, j in self._selected if i < len(sizes) and j < sizes[i])
 
     @property
     def cut(self) -> Cut | None:
         """What the knife did last, if nothing else has happened since."""
         return self._cut if self._cut and self._cut.state is self.model.state else None
+
+    def begin(self) -> None:
+        """Choose the tool for a picture that was just opened: its shape is painted if the outline
+        is only a guess."""
+        self.tool = "foreground" if self.model.doubt else "edit"
+        self.corners, self.inside = (), []
 
     def find(self, point: Array, reach: float) -> Found:
         """The objects at a point."""

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 import shapely
+import skimage.data
 
 from glid_nb.session.tracing import TracingModel
 from glid_nb.widgets.tracer_gestures import TraceGestures
@@ -39,6 +40,26 @@ class Hand:
 @pytest.fixture
 def hand() -> Hand:
     return Hand(TracingModel(DRAWING))
+
+
+def test_a_photograph_begins_with_the_brush_and_its_guess_is_not_hit() -> None:
+    model = TracingModel(skimage.data.cat())
+    hand = Hand(model)
+    middle = np.array([200.0, 150.0])
+    hand.gestures.begin()
+    assert hand.gestures.tool == "foreground"
+    hand.key("Escape")
+    assert hand.gestures.tool == "edit"
+    found = hand.gestures.find(middle, 500.0)
+    assert (found.vertex, found.edge, found.hole) == (None, False, None)
+    hand.key("]")
+    assert hand.gestures.selected == ()
+    hand.send("accept_guess")
+    assert hand.gestures.find(middle, 500.0).vertex is not None
+
+    clear = Hand(TracingModel(DRAWING))
+    clear.gestures.begin()
+    assert clear.gestures.tool == "edit"
 
 
 def test_a_drag_takes_the_vertex_along_as_one_step(hand: Hand) -> None:

@@ -69,7 +69,10 @@ export class Panel {
       make("button", { "data-tool": "component" }, "Pick"),
     );
     this.doubt = make("p");
-    this.byHand = make("div", { className: "glid-by-hand" }, this.doubt, ...this.#outlines());
+    const title = "Show the outline as it was found, and use it";
+    this.guess = make("button", { title, onclick: () => act("accept_guess") }, "Use the guess");
+    const byHand = [this.doubt, ...this.#outlines(), this.guess];
+    this.byHand = make("div", { className: "glid-by-hand" }, ...byHand);
     this.holesTitle = make("h4");
     this.holes = make("div", { className: "glid-holes" });
     this.notes = make("ul");
@@ -150,7 +153,8 @@ export class Panel {
     const guess = Boolean(doubt) || !loops.length;
     this.byHand.classList.toggle("glid-guess", guess);
     this.doubt.hidden = !guess;
-    const why = doubt ? `This outline is a guess: ${doubt}. ` : "";
+    this.guess.hidden = !doubt;
+    const why = doubt ? `The outline is not clear: ${doubt}. ` : "";
     this.doubt.textContent = `${why}Show it the shape:`;
   }
 
@@ -168,9 +172,10 @@ export class Panel {
   }
 
   /** @param {Shown} shown */
-  #showHoles({ holes: listed, n_holes: count, n_filled: filled, loops }) {
+  #showHoles({ holes: listed, n_holes: count, n_filled: filled, loops, doubt }) {
     const small = filled ? `, ${filled} small filled` : "";
     this.holesTitle.textContent = `${holesIn(loops.length - 1)} in the cage${small}`;
+    this.holesTitle.hidden = Boolean(doubt); // no outline, no holes
     const rows = listed.map((hole, i) => this.#holeRow(hole, i));
     const left = count - listed.length;
     // Rebuilding takes the focus; the row that had it gets it back.
