@@ -28,6 +28,7 @@ from glid_nb.session.deformation import Deformation
 from glid_nb.session.document import Document, DocumentError, NamedPose
 from glid_nb.session.edit_state import EditError
 from glid_nb.session.editor_model import EditorModel, KeptWorkError, find_document
+from glid_nb.session.first_minute import IN_THIS_SESSION
 from glid_nb.session.look import Behind, Layers
 from glid_nb.session.status_line import StatusLine
 from glid_nb.solvers import Method
@@ -453,7 +454,7 @@ class Editor(ClosingWidget, ipywidgets.VBox):
         self._layers = layers
         shown = {**self._asked, "background": layers.background}
         self.canvas = canvas = DeformCanvas(layers.image, model, **shown)
-        self.monitor = monitor = SolverMonitor(model, *_PLOTS_SIZE, self._plots)
+        self.monitor = monitor = SolverMonitor(model, *_PLOTS_SIZE, self._plots, IN_THIS_SESSION)
         self.toolbar = Toolbar(self.canvas, monitor)
         # Make the hidden parts only when the model rests, and the pins' numbers after the first
         # gesture. So the first drag has the processor for itself.
@@ -463,6 +464,7 @@ class Editor(ClosingWidget, ipywidgets.VBox):
         model.observe(lambda what: self._fill("pins") if what == "hand" else None)
         model.observe(lambda what: self._show_layers() if what == "state" else None)
         self.timeline = TimelinePanel(self.canvas, self._open_files)
+        self.timeline.on_play = self._on_play
         # Fill these boxes later: if the tab's children changed, the page would select another tab.
         names = "pins", "motion", "files", "solver"
         self._boxes |= {name: ipywidgets.VBox() for name in names}
@@ -483,6 +485,10 @@ class Editor(ClosingWidget, ipywidgets.VBox):
         ipywidgets.dlink((monitor, "shown"), *visible)
         parts = [self.toolbar, canvas, self.inspector, self.timeline, monitor.line, plots]
         return ipywidgets.GridBox(parts).add_class("glid-shell")
+
+    def _on_play(self) -> None:
+        IN_THIS_SESSION.made("play")
+        self.deformation.tell("status")
 
     def _open_files(self) -> None:
         self.inspector.selected_index = _FILES

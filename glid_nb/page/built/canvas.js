@@ -340,9 +340,9 @@ reas that should stay stiff · E erases · Esc when done";var Notices=class{noti
 glid-notice",role:"status"});prepared=make("div",{className:"glid-prepared",role:"progressbar","aria\
 -label":"Preparing the solver",hidden:true});tell(refusal,painting,first){const advice=painting?PAINT:
 first&&FIRST;const{notice}=this;notice.textContent=refusal||advice||"";notice.hidden=!notice.textContent;
-notice.classList.toggle("glid-first",!refusal)}prepare(share){const{prepared}=this;prepared.hidden=share>=
-1;prepared.setAttribute("aria-valuenow",String(Math.round(100*share)));prepared.style.setProperty("-\
--glid-share",String(share))}};var LONGER_SIDE=20;function constrained([x0,y0],[x,y],{axis,whole},size){const across=Math.abs(x-x0)>=
+notice.classList.toggle("glid-first",!refusal);notice.classList.toggle("glid-invites",!refusal&&!painting)}prepare(share){
+const{prepared}=this;prepared.hidden=share>=1;prepared.setAttribute("aria-valuenow",String(Math.round(
+100*share)));prepared.style.setProperty("--glid-share",String(share))}};var LONGER_SIDE=20;function constrained([x0,y0],[x,y],{axis,whole},size){const across=Math.abs(x-x0)>=
 Math.abs(y-y0);const[u,v]=whole?onPixel([x,y],size):[x,y];if(!axis)return[u,v];return across?[u,y0]:
 [x0,v]}function pixelAt([x,y],[width,height]){const unit=pixelOf([width,height]);return[x/unit+width/
 2,height/2-y/unit]}function onPixel(point,size){const[width,height]=size;if(!width||!height)return point;

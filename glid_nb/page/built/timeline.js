@@ -199,12 +199,12 @@ pointerId);this.#scrub(e)}#scrub(e){if(this.#scrubbing!==e.pointerId)return;cons
 const time=(e.clientX-left)/width*this.span;const near=SNAP/width*this.span;const key=this.#shown?.keyframes.
 find(one=>Math.abs(one.time-time)<near);this.hand.scrub(key?.time??time)}#up(e){if(this.#scrubbing!==
 e.pointerId)return;this.drop();this.hand.scrubbed()}};var NUDGE=.1;var Timeline=class{note=make("div",{className:"glid-timeline-note",role:"status","aria-\
-live":"polite"});stage=null;#layers=null;#hovered="";#playing={release:()=>this.release(),pause:()=>{
-this.player.pause();return this.player.place}};constructor({model,el,signal}){this.model=model;this.
-root=make("div",{className:"glid-skin glid-timeline",role:"group","aria-label":"Timeline"});this.root.
-dataset.lmSuppressShortcuts="true";this.link=new Link(model,this.root,signal,()=>this.tell());this.player=
-new Player((floats,time)=>this.#show(floats,time),()=>this.showHead(),()=>this.#selectHere());this.bar=
-new Bar({play:()=>this.player.play(),keep:()=>this.keep(),act:(type,content)=>void this.act(type,content),
+live":"polite"});stage=null;#layers=null;#played=false;#hovered="";#playing={release:()=>this.release(),
+pause:()=>{this.player.pause();return this.player.place}};constructor({model,el,signal}){this.model=
+model;this.root=make("div",{className:"glid-skin glid-timeline",role:"group","aria-label":"Timeline"});
+this.root.dataset.lmSuppressShortcuts="true";this.link=new Link(model,this.root,signal,()=>this.tell());
+this.player=new Player((floats,time)=>this.#show(floats,time),()=>this.showHead(),()=>this.#selectHere());
+this.bar=new Bar({play:()=>this.play(),keep:()=>this.keep(),act:(type,content)=>void this.act(type,content),
 edit:(type,content)=>void this.edit(type,content),zoom:by=>this.track.zoom.zoom(by)});this.track=new Track(
 {scrub:time=>this.#scrub(time),scrubbed:()=>this.#selectHere(),select:index=>this.select(index),move:(index,time)=>void this.
 act("move_pose",{index,time}),rename:(index,name)=>void this.act("rename_pose",{index,name}),hover:text=>{
@@ -234,13 +234,14 @@ player.seen&&computing)this.release();this.tell();this.track.showSpans(spans,thi
 new Motion({times,repeat:"once"},toFloats(floats)):null}#show(floats,time){const{stage}=this;if(!stage)
 return;const moving=time!==void 0;const heights=moving?this.#layers?.at(time)??null:null;stage.trigger(
 "glid:motion",moving?floats??true:null,this.#playing,heights);if(this.shown.kernel)return this.act("\
-frame",{time:time??null,replaces:"frame"})}keep(){const{player}=this;this.act("keep",{time:player.seen?
-player.place:this.active.time})}#scrub(time){this.player.scrub(Math.min(time,this.track.span))}#selectHere(){
+frame",{time:time??null,replaces:"frame"})}play(){this.player.play();if(!this.player.playing||this.#played)
+return;this.#played=true;void this.act("played")}keep(){const{player}=this;this.act("keep",{time:player.
+seen?player.place:this.active.time})}#scrub(time){this.player.scrub(Math.min(time,this.track.span))}#selectHere(){
 const index=keyAt(this.shown.keyframes,this.player.place);if(index>=0)this.select(index)}#typing(e){
 return this.bar.element.contains(e.target)}#keydown(e){const history=undoOrRedo(e);if(!history&&(e.ctrlKey||
 e.metaKey))return;e.stopPropagation();const does=this.#typing(e)?null:this.#keyDoes(e);if(!history&&
 !does)return;e.preventDefault();if(history)this.act(history);else does?.()}#keyDoes(e){const{keyframes}=this.
-shown;switch(e.key){case" ":return()=>void(e.repeat||this.player.play());case"ArrowLeft":return()=>this.#step(
+shown;switch(e.key){case" ":return()=>void(e.repeat||this.play());case"ArrowLeft":return()=>this.#step(
 e,-1);case"ArrowRight":return()=>this.#step(e,1);case"F2":return()=>this.track.rename();case"Delete":case"\
 Backspace":return()=>void this.edit("delete_pose");case"Home":return()=>this.select(0);case"End":return()=>this.
 select(keyframes.length-1);case"Escape":return()=>{this.track.drop();this.release()};default:return null}}#step(e,sign){
@@ -248,8 +249,8 @@ const{player,track}=this;const{keyframes,active}=this.shown;if(e.altKey){const t
 this.active.time+sign*NUDGE);this.edit("move_pose",{time})}else if(e.shiftKey){this.select(nextKey(keyframes,
 player.place,sign)??active)}else{this.#scrub(player.place+sign/track.rate)}}};function render(context){const{model,el,signal}=context;const timeline=new Timeline(context);const{player}=timeline;
 const tapped=e=>{const target=e.target;if(target.closest(".glid-editor")===el.closest(".glid-editor"))
-player.play()};window.addEventListener("glid:play",tapped,{signal});const keyed=e=>{const target=e.target;
-if(target.closest(".glid-editor")===el.closest(".glid-editor"))timeline.keep()};window.addEventListener(
+timeline.play()};window.addEventListener("glid:play",tapped,{signal});const keyed=e=>{const target=e.
+target;if(target.closest(".glid-editor")===el.closest(".glid-editor"))timeline.keep()};window.addEventListener(
 "glid:key",keyed,{signal});follow(model,{"change:shown":()=>timeline.showState(),"change:rate":()=>timeline.
 showRate(),"change:motion":()=>timeline.showMotion(),"change:heights":()=>timeline.showHeights(),"ch\
 ange:thumbnails":()=>timeline.showKeys()});const edited=()=>{if(player.seen)timeline.release()};findStage(

@@ -22,6 +22,7 @@ export class Timeline {
 
   /** @type {Motion | null} the picture's heights at the keyframes, where they differ */
   #layers = null;
+  #played = false; // whether the kernel knows that somebody has played
   #hovered = ""; // what lies below the pointer, in words
   #playing = {
     release: () => this.release(),
@@ -47,7 +48,7 @@ export class Timeline {
       () => this.#selectHere(),
     );
     this.bar = new Bar({
-      play: () => this.player.play(),
+      play: () => this.play(),
       keep: () => this.keep(),
       act: (type, content) => void this.act(type, content),
       edit: (type, content) => void this.edit(type, content),
@@ -196,6 +197,14 @@ export class Timeline {
     if (this.shown.kernel) return this.act("frame", { time: time ?? null, replaces: "frame" });
   }
 
+  /** Plays, or pauses. The kernel hears of the first time. */
+  play() {
+    this.player.play();
+    if (!this.player.playing || this.#played) return;
+    this.#played = true;
+    void this.act("played");
+  }
+
   /** Makes a keyframe of what is shown. */
   keep() {
     const { player } = this;
@@ -240,7 +249,7 @@ export class Timeline {
     const { keyframes } = this.shown;
     switch (e.key) {
       case " ":
-        return () => void (e.repeat || this.player.play());
+        return () => void (e.repeat || this.play());
       case "ArrowLeft":
         return () => this.#step(e, -1);
       case "ArrowRight":
