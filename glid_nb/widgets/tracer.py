@@ -167,6 +167,7 @@ def _of_hand(gestures: TraceGestures) -> dict[str, Any]:
         "corners": [list(corner) for corner in gestures.corners],
         "inside": gestures.inside,
         "cut": _cut(gestures.cut),
+        "knife_width": gestures.knife_width,
         "selected": [list(vertex) for vertex in gestures.selected],
     }
 

@@ -66,6 +66,7 @@ class TraceGestures(Gestures):
         plain = ("accept_guess", "clear_scribbles", "discard_edits", "redo", "draw")
         actions = {kind: getattr(self, f"_{kind}") for kind in own}
         actions |= {kind: asked(getattr(model, kind)) for kind in plain}
+        actions["knife"] = asked(self._set_knife, "width")
         actions["drawn_as"] = self._drawn_as
         actions["keep_piece"] = asked(self._keep_piece, "number")
         actions["toggle_hole"] = asked(model.toggle_hole, "number")
@@ -76,6 +77,8 @@ class TraceGestures(Gestures):
         self.corners: tuple[tuple[float, float], ...] = ()  # of an unfinished polygon
         self.inside: list[Any] = []
         """An outline that was drawn inside the shape; the page asks what it should be."""
+        self.knife_width: float | None = None
+        """Of the knife's slit, in pixels; None: as `TracingModel.cut` chooses."""
         self._cut: Cut | None = None
         self._selected: tuple[Vertex, ...] = ()
         self._press: _TracerPress | None = None
@@ -203,9 +206,14 @@ class TraceGestures(Gestures):
     def _slit(self, line: Sequence[Any]) -> None:
         """Cut along a line. If the shape falls apart, the page offers the other pieces."""
         gesture, before = object(), len(self.model.outcome.loops)
-        pieces = self.model.cut(line, gesture=gesture)
+        pieces = self.model.cut(line, self.knife_width, gesture)
         in_middle = len(pieces) == 1 and len(pieces[0].loops) > before
         self._cut = Cut(pieces, 0, in_middle, self.model.state, gesture)
+
+    def _set_knife(self, width: float | None) -> None:
+        if width is not None and not 0 < width < np.inf:
+            raise TraceError(f"the knife's width must be above 0 pixels, not {width:g}")
+        self.knife_width = width
 
     def _keep_piece(self, number: int) -> None:
         """Keep another piece of the last cut."""

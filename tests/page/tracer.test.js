@@ -43,6 +43,7 @@ function shown(changes = {}) {
     corners: [],
     inside: [],
     cut: null,
+    knife_width: null,
     selected: [],
     ...changes,
   };

@@ -297,6 +297,27 @@ def test_the_knife_cuts_along_its_path_and_stays_in_the_hand(hand: Hand) -> None
     assert hand.gestures.tool == "edit"
 
 
+def test_the_knife_has_a_width(hand: Hand) -> None:
+    model = hand.model
+    hand.send("tool", name="knife")
+    line, lost = ((60, 5), (61, 50), (60, 100)), []
+    for width in (None, 2.0, 6.0):
+        assert hand.send("knife", width=width) is None
+        assert hand.gestures.knife_width == width
+        assert model.cage is not None
+        before = model.cage.area
+        assert cut(hand, *line) is None
+        by_hand = model.cage
+        lost.append(before - by_hand.area)
+        hand.key("undo")
+        assert model.cut(line, width)[0].equals(by_hand)
+        hand.key("undo")
+    assert 0 < lost[0] < lost[1] < lost[2]
+    for wrong in (0, -1, np.inf):
+        assert "above 0 pixels" in str(hand.send("knife", width=wrong))
+    assert hand.gestures.knife_width == 6.0
+
+
 def test_another_piece_of_the_cut_can_be_kept_in_the_same_step(hand: Hand) -> None:
     model, before = hand.model, hand.model.state
     hand.send("tool", name="knife")

@@ -116,49 +116,54 @@ invert=make("input",{type:"checkbox",onchange:()=>this.#choose({invert:this.inve
 inverts=make("label",{className:"glid-row"},this.invert,"Swap foreground and background");this.pickColor=
 make("button",{"data-tool":"color"},"Pick the background's colour");this.scribbles=row2(brush("foreg\
 round","Shape"),brush("background","Background"),make("button",{onclick:()=>act("clear_scribbles")},
-"Clear"));this.component=make("select",{"aria-label":"Component",onchange:()=>this.#choose({component:Number(
-this.component.value),component_at:null})});this.components=row2(make("span",{className:"glid-grow"},
-"Component"),this.component,make("button",{"data-tool":"component"},"Pick"));this.doubt=make("p");const title="\
-Show the outline as it was found, and use it";this.guess=make("button",{title,onclick:()=>act("accep\
-t_guess")},"Use the guess");const byHand=[this.doubt,...this.#outlines(),this.guess];this.byHand=make(
-"div",{className:"glid-by-hand"},...byHand);this.holesTitle=make("h4");this.holes=make("div",{className:"\
-glid-holes"});this.notes=make("ul");this.notesBox=make("details",{className:"glid-notes"},make("summ\
-ary",{},"Notes"),this.notes);this.element=this.#laidOut()}#laidOut(){const group={className:"glid-me\
-thods",role:"radiogroup","aria-label":"Method"};const[threshold,smoothing,offset,simplify,leastHole]=this.
-numbers.map(({element})=>element);return make("div",{className:"glid-panel"},make("h4",{},"By hand"),
-this.byHand,make("h4",{},"Foreground"),make("div",group,...this.methods),...[this.scribbles,this.pickColor,
-threshold,this.inverts,smoothing,this.components],make("h4",{},"Outline"),...[offset,simplify,this.holesTitle,
-leastHole,this.holes,this.notesBox])}#outlines(){const buttons=OUTLINES.map(([tool,label,title2])=>{
-return make("button",{title:title2,"data-tool":tool},label)});const title="Everything, the backgroun\
-d too";const whole=make("button",{title,onclick:()=>this.act("draw")},"Whole picture");return[...buttons,
-whole]}#choose(changes,gesture){this.act("set_options",{changes,gesture,replaces:gesture})}update(shown){
-this.element.hidden=!shown.size;if(!shown.size)return;for(const control of this.numbers)control.update(
-shown);this.#showMethod(shown);this.#showDoubt(shown);this.#showComponents(shown);this.#showHoles(shown);
-this.notesBox.hidden=!shown.notes.length;this.notes.replaceChildren(...shown.notes.map(note=>make("l\
-i",{},note)))}#showMethod({options,automatic}){const{method,invert}=options;const used=method==="aut\
-o"?automatic?.method:method;for(const button of this.methods){button.ariaChecked=String(button.dataset.
-value===method);button.classList.toggle("glid-used",button.dataset.value===used)}this.scribbles.hidden=
-used!=="scribbles";this.pickColor.hidden=used!=="color";this.inverts.hidden=used!=="color"&&used!=="\
-threshold";this.invert.checked=invert===true;this.invert.indeterminate=invert===null&&used==="thresh\
-old"}#showDoubt({doubt,loops}){const guess=Boolean(doubt)||!loops.length;this.byHand.classList.toggle(
-"glid-guess",guess);this.doubt.hidden=!guess;this.guess.hidden=!doubt;const why=doubt?`The outline i\
-s not clear: ${doubt}. `:"";this.doubt.textContent=`${why}Show it the shape:`}#showComponents({component,
-n_components:count}){this.components.hidden=count<2;const listed=Math.min(count,MOST_LISTED);if(this.
-component.length!==listed){const options=Array.from({length:listed},(_,i)=>{return new Option(i?`${i+
-1}.`:"Largest",String(i))});this.component.replaceChildren(...options)}this.component.value=String(component)}#showHoles({
-holes:listed,n_holes:count,n_filled:filled,loops,doubt}){const small=filled?`, ${filled} small fille\
-d`:"";this.holesTitle.textContent=`${holesIn(loops.length-1)} in the cage${small}`;this.holesTitle.hidden=
-Boolean(doubt);const rows=listed.map((hole,i)=>this.#holeRow(hole,i));const left=count-listed.length;
-const root=this.holes.getRootNode();const focused=[...this.holes.children].findIndex(one=>one.contains(
-root.activeElement));this.holes.replaceChildren(...rows);if(left){this.holes.append(make("div",{className:"\
-glid-unit"},`and ${left} smaller ones`))}rows[focused]?.querySelector("input")?.focus()}#holeRow(hole,i){
-const size=hole.area>=LARGE?`${(hole.area/1e3).toFixed(0)}k px²`:`${hole.area.toFixed(0)} px²`;const made=hole.
-by_offset?" (made by the offset)":"";return make("label",{className:"glid-hole",onpointerenter:()=>this.
-stage.highlightHole(i),onpointerleave:()=>this.stage.highlightHole(null)},make("input",{type:"checkb\
-ox",checked:hole.kept,onchange:()=>this.act("toggle_hole",{number:i})}),make("span",{className:"glid\
--grow"},`Hole ${i+1}${made}`),make("span",{className:"glid-unit"},size))}};function row2(...parts){return make(
-"div",{className:"glid-row"},...parts)}function brush(tool,label){return make("button",{className:`g\
-lid-brush glid-${tool}`,"data-tool":tool},label)}var WHEEL_SPEED=.0015;var WHEEL_LINE=33;var LINES=1;var PINCH=5;function distance([x,y],[u,v]){return Math.
+"Clear"));this.knife=make("input",{type:"number",className:"glid-number",min:0,step:"any",placeholder:"\
+auto","aria-label":"Width of the knife (px)",onchange:()=>{const{value}=this.knife;act("knife",{width:value===
+""?null:Number(value)})}});this.knives=row2(make("span",{className:"glid-grow"},"Width of the knife"),
+this.knife,make("span",{className:"glid-unit"},"px"));this.knives.classList.add("glid-knife");this.knives.
+title="How wide the slit is; empty: as narrow as is good";this.component=make("select",{"aria-label":"\
+Component",onchange:()=>this.#choose({component:Number(this.component.value),component_at:null})});this.
+components=row2(make("span",{className:"glid-grow"},"Component"),this.component,make("button",{"data\
+-tool":"component"},"Pick"));this.doubt=make("p");const title="Show the outline as it was found, and\
+ use it";this.guess=make("button",{title,onclick:()=>act("accept_guess")},"Use the guess");const byHand=[
+this.doubt,...this.#outlines(),this.guess];this.byHand=make("div",{className:"glid-by-hand"},...byHand);
+this.holesTitle=make("h4");this.holes=make("div",{className:"glid-holes"});this.notes=make("ul");this.
+notesBox=make("details",{className:"glid-notes"},make("summary",{},"Notes"),this.notes);this.element=
+this.#laidOut()}#laidOut(){const group={className:"glid-methods",role:"radiogroup","aria-label":"Met\
+hod"};const[threshold,smoothing,offset,simplify,leastHole]=this.numbers.map(({element})=>element);return make(
+"div",{className:"glid-panel"},make("h4",{},"By hand"),this.byHand,this.knives,make("h4",{},"Foregro\
+und"),make("div",group,...this.methods),...[this.scribbles,this.pickColor,threshold,this.inverts,smoothing,
+this.components],make("h4",{},"Outline"),...[offset,simplify,this.holesTitle,leastHole,this.holes,this.
+notesBox])}#outlines(){const buttons=OUTLINES.map(([tool,label,title2])=>{return make("button",{title:title2,
+"data-tool":tool},label)});const title="Everything, the background too";const whole=make("button",{title,
+onclick:()=>this.act("draw")},"Whole picture");return[...buttons,whole]}#choose(changes,gesture){this.
+act("set_options",{changes,gesture,replaces:gesture})}update(shown){this.element.hidden=!shown.size;
+if(!shown.size)return;for(const control of this.numbers)control.update(shown);this.#showMethod(shown);
+this.#showDoubt(shown);this.#showComponents(shown);this.#showHoles(shown);this.knives.hidden=shown.tool!==
+"knife";this.knife.value=shown.knife_width===null?"":String(shown.knife_width);this.notesBox.hidden=
+!shown.notes.length;this.notes.replaceChildren(...shown.notes.map(note=>make("li",{},note)))}#showMethod({
+options,automatic}){const{method,invert}=options;const used=method==="auto"?automatic?.method:method;
+for(const button of this.methods){button.ariaChecked=String(button.dataset.value===method);button.classList.
+toggle("glid-used",button.dataset.value===used)}this.scribbles.hidden=used!=="scribbles";this.pickColor.
+hidden=used!=="color";this.inverts.hidden=used!=="color"&&used!=="threshold";this.invert.checked=invert===
+true;this.invert.indeterminate=invert===null&&used==="threshold"}#showDoubt({doubt,loops}){const guess=Boolean(
+doubt)||!loops.length;this.byHand.classList.toggle("glid-guess",guess);this.doubt.hidden=!guess;this.
+guess.hidden=!doubt;const why=doubt?`The outline is not clear: ${doubt}. `:"";this.doubt.textContent=
+`${why}Show it the shape:`}#showComponents({component,n_components:count}){this.components.hidden=count<
+2;const listed=Math.min(count,MOST_LISTED);if(this.component.length!==listed){const options=Array.from(
+{length:listed},(_,i)=>{return new Option(i?`${i+1}.`:"Largest",String(i))});this.component.replaceChildren(
+...options)}this.component.value=String(component)}#showHoles({holes:listed,n_holes:count,n_filled:filled,
+loops,doubt}){const small=filled?`, ${filled} small filled`:"";this.holesTitle.textContent=`${holesIn(
+loops.length-1)} in the cage${small}`;this.holesTitle.hidden=Boolean(doubt);const rows=listed.map((hole,i)=>this.#holeRow(
+hole,i));const left=count-listed.length;const root=this.holes.getRootNode();const focused=[...this.holes.
+children].findIndex(one=>one.contains(root.activeElement));this.holes.replaceChildren(...rows);if(left){
+this.holes.append(make("div",{className:"glid-unit"},`and ${left} smaller ones`))}rows[focused]?.querySelector(
+"input")?.focus()}#holeRow(hole,i){const size=hole.area>=LARGE?`${(hole.area/1e3).toFixed(0)}k px²`:
+`${hole.area.toFixed(0)} px²`;const made=hole.by_offset?" (made by the offset)":"";return make("lab\
+el",{className:"glid-hole",onpointerenter:()=>this.stage.highlightHole(i),onpointerleave:()=>this.stage.
+highlightHole(null)},make("input",{type:"checkbox",checked:hole.kept,onchange:()=>this.act("toggle_h\
+ole",{number:i})}),make("span",{className:"glid-grow"},`Hole ${i+1}${made}`),make("span",{className:"\
+glid-unit"},size))}};function row2(...parts){return make("div",{className:"glid-row"},...parts)}function brush(tool,label){
+return make("button",{className:`glid-brush glid-${tool}`,"data-tool":tool},label)}var WHEEL_SPEED=.0015;var WHEEL_LINE=33;var LINES=1;var PINCH=5;function distance([x,y],[u,v]){return Math.
 hypot(x-u,y-v)}var View=class{x=0;y=0;unit=1;width=0;height=0;constructor(changed,{up=1,nearest:nearest2,
 farthest}){this.changed=changed;this.up=up;this.nearest=nearest2;this.farthest=farthest}toWorld([px,
 py]){const x=this.x+(px-this.width/2)*this.unit;const y=this.y-this.up*(py-this.height/2)*this.unit;
@@ -315,9 +320,10 @@ kground","color","component","polygon","rectangle","knife"];var HELP=[["Outline"
 remove a vertex"],["[ ]","select the vertex before, the next vertex"],["Arrow keys","nudge the selec\
 ted vertex, with Shift farther"],["Ctrl+Z, Ctrl+Shift+Z","undo, redo"]]],["By hand",[["B, N","paint \
 over the shape, over the background"],["I, C","pick the background's colour, the component"],["K","k\
-nife: draw a line along which the shape is cut; Esc while drawing discards it"],["P, R","draw the ou\
-tline or a hole in it, a rectangle; Enter closes it, Esc discards it"]]],["View",[["Wheel, + -, F","\
-zoom after a click on the picture, fit the picture"],["Drag beside the outline","move the view"]]]];var REACH={mouse:9,pen:12,touch:18};var ZOOM=1.25;var MARGIN=24;var HINT=8;var CALLOUT=24;var EDGE=8;
+nife: draw a line along which the shape is cut; Esc while drawing discards it; its width is in the p\
+anel"],["P, R","draw the outline or a hole in it, a rectangle; Enter closes it, Esc discards it"]]],
+["View",[["Wheel, + -, F","zoom after a click on the picture, fit the picture"],["Drag beside the ou\
+tline","move the view"]]]];var REACH={mouse:9,pen:12,touch:18};var ZOOM=1.25;var MARGIN=24;var HINT=8;var CALLOUT=24;var EDGE=8;
 var MOST_ZOOM=40;var FARTHEST=1e3;var COLORS=["accent","accent-soft","warn","warn-soft","faint","vei\
 l","foreground","background","check-light","check-dark"];var KEYS=/^(Arrow\w+|Delete|Backspace|Escape|Enter|[[\]])$/;
 var Stage=class{canvas=make("canvas",{className:"glid-canvas",role:"application","aria-label":"Pictu\

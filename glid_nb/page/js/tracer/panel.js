@@ -59,6 +59,25 @@ export class Panel {
       brush("background", "Background"),
       make("button", { onclick: () => act("clear_scribbles") }, "Clear"),
     );
+    this.knife = make("input", {
+      type: "number",
+      className: "glid-number",
+      min: 0,
+      step: "any",
+      placeholder: "auto",
+      "aria-label": "Width of the knife (px)",
+      onchange: () => {
+        const { value } = this.knife;
+        act("knife", { width: value === "" ? null : Number(value) });
+      },
+    });
+    this.knives = row(
+      make("span", { className: "glid-grow" }, "Width of the knife"),
+      this.knife,
+      make("span", { className: "glid-unit" }, "px"),
+    );
+    this.knives.classList.add("glid-knife");
+    this.knives.title = "How wide the slit is; empty: as narrow as is good";
     this.component = make("select", {
       "aria-label": "Component",
       onchange: () => this.#choose({ component: Number(this.component.value), component_at: null }),
@@ -95,6 +114,7 @@ export class Panel {
       { className: "glid-panel" },
       make("h4", {}, "By hand"),
       this.byHand,
+      this.knives,
       make("h4", {}, "Foreground"),
       make("div", group, ...this.methods),
       ...[this.scribbles, this.pickColor, threshold, this.inverts, smoothing, this.components],
@@ -129,6 +149,8 @@ export class Panel {
     this.#showDoubt(shown);
     this.#showComponents(shown);
     this.#showHoles(shown);
+    this.knives.hidden = shown.tool !== "knife";
+    this.knife.value = shown.knife_width === null ? "" : String(shown.knife_width);
     this.notesBox.hidden = !shown.notes.length;
     this.notes.replaceChildren(...shown.notes.map((note) => make("li", {}, note)));
   }
