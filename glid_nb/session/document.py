@@ -17,6 +17,7 @@ from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging import Scribbles, TraceOptions
 from glid_nb.pose import Pose
 from glid_nb.session.look import WHOLE_CAGE, Look
+from glid_nb.session.pin_marks import PinMarks
 from glid_nb.session.timeline import Timeline
 from glid_nb.solvers import Iteration, Method, Newton, Options, Status
 
@@ -121,6 +122,8 @@ class Document:
     """The times of the poses in an animation; by default one second apart."""
     look: Look = WHOLE_CAGE
     """What is drawn of the picture, and what lies behind it."""
+    pins: PinMarks = field(default_factory=PinMarks)
+    """Which pins are locked, hidden or grouped in the editor."""
 
     def __post_init__(self) -> None:
         image = np.asarray(self.image)
@@ -130,6 +133,7 @@ class Document:
         image = read_only(image.copy()) if image.flags.writeable else image
         vars(self).update(image=image, poses=tuple(self.poses))
         kinds = {"cage": Cage, "domain": Domain, "trace_options": TraceOptions, "look": Look}
+        kinds |= {"pins": PinMarks}
         kinds |= {} if self.scribbles is None else {"scribbles": Scribbles}
         for key, kind in kinds.items():
             _check_kind(key, getattr(self, key), kind)

@@ -35,13 +35,14 @@ from glid_nb.session.document import (
     is_identity,
 )
 from glid_nb.session.look import WHOLE_CAGE, Look
+from glid_nb.session.pin_marks import PinMarks
 from glid_nb.session.timeline import Timeline
 from glid_nb.solvers import Newton, Options
 
 T = TypeVar("T")
 
 FORMAT = "glid_nb-document"
-FORMAT_VERSION = 6
+FORMAT_VERSION = 7
 
 _JSON, _IMAGE = "document.json", "image.png"
 _MASKS = {key: f"scribbles-{key}.png" for key in ("foreground", "background")}
@@ -71,6 +72,7 @@ _RELATIVE_WEIGHT = (
     5  # since this version p2p_weight is relative to the cage's unit, not the world's
 )
 _LOOK = 6  # since this version a picture may be drawn otherwise than as all inside its cage
+_PINS = 7  # since this version pins may be locked, hidden or grouped
 _MASK = "mask"  # written instead of strokes; another member holds the pixels
 _NEVER = "never"  # stands for TraceOptions.max_edge == inf, which JSON cannot express
 
@@ -90,6 +92,8 @@ def document_bytes(document: Document) -> bytes:
     """
     timeline = {} if document.timeline is None else {"timeline": vars(document.timeline)}
     look = {} if document.look == WHOLE_CAGE else {"look": vars(document.look)}
+    marks = document.pins.only(pose.pose.handles for pose in document.poses)
+    pins = {"pins": marks.to_list()} if marks else {}
     scribbles, masks = _scribbles_to_members(document.scribbles)
     height, width = document.image.shape[:2]
     given = document.trace_options
@@ -107,6 +111,7 @@ def document_bytes(document: Document) -> bytes:
         "active": document.active,
         **timeline,
         **look,
+        **pins,
     }
     text = json.dumps(data, allow_nan=False, default=np.generic.item).encode("utf-8")
     pixels = {_IMAGE: _image_png(document.image), **masks}
@@ -130,6 +135,8 @@ def load_document(path: str | Path) -> Document:
             optional["timeline"] = _json.check_object
         if version >= _LOOK:
             optional["look"] = _json.check_object
+        if version >= _PINS:
+            optional["pins"] = _json.check_list
         _json.check_fields(data, _JSON, _KEYS, optional)
         size = _json.picture_size(data["image_size_px"], "image_size_px")
         if max(size) > MAX_SIDE:
@@ -143,7 +150,8 @@ def load_document(path: str | Path) -> Document:
         given = data.get("timeline")
         timeline = None if given is None else _from_fields(Timeline, given, "timeline")
         look = _from_fields(Look, data["look"], "look") if "look" in data else WHOLE_CAGE
-        posed = tuple(poses), data["active"], timeline, look
+        marks = PinMarks.from_list(data.get("pins") or [], "pins")
+        posed = tuple(poses), data["active"], timeline, look, marks
         return Document(image, domain.cage, domain, options, scribbles, *posed)
 
 

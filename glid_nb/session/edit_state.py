@@ -12,6 +12,7 @@ from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging.order import Order, order_of
 from glid_nb.pose import DeformationMap, Pose
 from glid_nb.session.document import NamedPose, Solution
+from glid_nb.session.pin_marks import PinMark, PinMarks
 from glid_nb.session.timeline import Timeline
 from glid_nb.solvers import Iteration, Options
 
@@ -33,6 +34,8 @@ class EditState:
     active: int = 0  # index of the edited pose
     timeline: Timeline = field(default_factory=Timeline)
     """The times of the poses. Each pose is a keyframe, and they are sorted by time."""
+    pins: PinMarks = field(default_factory=PinMarks)
+    """Which pins are locked, hidden or grouped, in all poses."""
 
     def __post_init__(self) -> None:
         assert len(self.timeline) == len(self.poses)
@@ -67,6 +70,11 @@ class EditState:
     def pose(self) -> Pose:
         """Handles and targets of the edited pose."""
         return self.current.pose
+
+    @functools.cached_property
+    def marks(self) -> tuple[PinMark, ...]:
+        """The marks of the edited pose's handles."""
+        return self.pins.of(self.pose.handles)
 
     @property
     def order(self) -> Order:

@@ -261,6 +261,7 @@ class EditorModel(Observed):
             active=state.active,
             timeline=state.timeline,
             look=self._look,
+            pins=state.pins,
         )
 
     def save(self, path: str | Path) -> None:
@@ -400,7 +401,7 @@ class EditorModel(Observed):
         state = EditState.initial(domain)
         if poses := document.poses:
             timeline = document.timeline or Timeline.even(len(poses))
-            state = EditState(domain, poses, document.active, timeline)
+            state = EditState(domain, poses, document.active, timeline, document.pins)
         self._shelf.clear()
         self._replace(Deformation.from_history(History(state)))
 
@@ -455,7 +456,7 @@ def _apply(deformation: Deformation, domain: Domain) -> str:
 
 def _work_of(state: EditState) -> tuple[Any, ...]:
     poses = ((p.name, p.pose, p.energy, p.options, p.method) for p in state.poses)
-    return (state.timeline, *poses)
+    return (state.timeline, state.pins, *poses)
 
 
 def _check_place(path: Path) -> None:

@@ -178,8 +178,9 @@ class TracingModel(Undoable[TracingState]):
         Such an outline is not shown: painting over the shape takes less time than correcting it.
         """
         tracing = self.outcome.tracing
-        known = tracing is None or self.edited or self.state.accepts_guess
-        return "" if known else tracing.doubt
+        if tracing is None or self.edited or self.state.accepts_guess:
+            return ""
+        return tracing.doubt
 
     @property
     def edited(self) -> bool:

@@ -309,7 +309,7 @@ def test_a_document_of_version_2_opens_without_depths(
     tmp_path: Path, valid: dict[str, bytes]
 ) -> None:
     data = json.loads(valid["document.json"])
-    assert (data["version"], data.pop("timeline")["back"]) == (6, 0.7)
+    assert (data["version"], data.pop("timeline")["back"]) == (7, 0.7)
     old = [
         {k: v for k, v in pose.items() if k not in ("depths", *NEW_PINS)} for pose in data["poses"]
     ]
@@ -397,7 +397,7 @@ NAN, INFINITY = float("nan"), float("inf")
 BAD: list[tuple[str, Callable[[Data], Any], str]] = [
     ("a list", lambda d: [d], "object"),
     ("another format", changed(format="glid_nb-map"), "format"),
-    ("a newer version", changed(version=7), "version 7 .*newer"),
+    ("a newer version", changed(version=8), "version 8 .*newer"),
     ("a version as text", changed(version="1"), "version '1'"),
     *[
         (f"no {key}", without(key), key)
