@@ -25,6 +25,7 @@ from glid_nb.pose import DEEPEST, PER_HANDLE, Pose, Stiffness, misplaced
 from glid_nb.session.document import NamedPose, check_room
 from glid_nb.session.edit_state import EditError, EditState
 from glid_nb.session.parts import everywhere, over_parts
+from glid_nb.session.pin_marks import PinMarks
 from glid_nb.session.timeline import LEAST_GAP
 from glid_nb.solvers import Method
 
@@ -114,6 +115,30 @@ def name_pin(state: EditState, index: int, name: str) -> EditState:
 def set_pins(state: EditState, indices: Iterable[int], **numbers: ArrayLike | None) -> EditState:
     """Set ``angles`` (radians), ``scales`` or ``weights`` of some handles; None sets them free."""
     return _pinned(state, _with_numbers(state, indices, **numbers))
+
+
+def mark_pins(state: EditState, indices: Iterable[int], **changes: bool) -> EditState:
+    """Set whether some handles are ``locked`` or ``hidden`` for the hand, in all poses. The map
+    does not change."""
+    return _marked(state, state.pins.changed(_handles_of(state, indices), **changes))
+
+
+def group_pins(state: EditState, indices: Iterable[int]) -> EditState:
+    """Make a group of at least two handles: they are selected and moved together."""
+    handles = _handles_of(state, indices)
+    if len(handles) < 2:
+        raise EditError("a group needs two pins or more; select several, for example by Shift")
+    return _marked(state, state.pins.grouped(handles))
+
+
+def ungroup_pins(state: EditState, indices: Iterable[int]) -> EditState:
+    """Take some handles out of their groups."""
+    return _marked(state, state.pins.changed(_handles_of(state, indices), group=0))
+
+
+def show_all_pins(state: EditState) -> EditState:
+    """Show the hidden handles of the edited pose again."""
+    return mark_pins(state, range(len(state.pose)), hidden=False)
 
 
 def turned_now(state: EditState, indices: Iterable[int]) -> tuple[Array, Array]:
@@ -346,6 +371,14 @@ def _with_inserted(
     poses = (*state.poses[:index], copy, *state.poses[index:])
     timeline = state.timeline.inserted(index, time)
     return replace(state, poses=poses, active=index, timeline=timeline)
+
+
+def _handles_of(state: EditState, indices: Iterable[int]) -> Array:
+    return state.pose.handles[_checked_indices(state, indices)]
+
+
+def _marked(state: EditState, pins: PinMarks) -> EditState:
+    return state if pins == state.pins else replace(state, pins=pins)
 
 
 def _relaxed(state: EditState, pose: Pose) -> EditState:

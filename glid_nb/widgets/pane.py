@@ -90,6 +90,11 @@ class Stage(Pad):
     marks = traitlets.Dict({key: [] for key in _MARKS}).tag(sync=True)
     """Targets and images of handles, [x, y]; indices selected, hidden; and `Drawing.ring`."""
     names = traitlets.List(traitlets.Unicode(), []).tag(sync=True)  # the handles', may be empty
+    pins = traitlets.Dict({"locked": [], "away": [], "groups": []}).tag(sync=True)
+    """Indices of the handles that are ``locked`` and that the user hid (``away``), and for each
+    handle its group's number, 0 for none."""
+    reference = traitlets.CBytes(b"").tag(sync=True)  # the page sends memory views
+    """A picture that the page shows dimmed behind the shape; empty for none."""
     onion = traitlets.List([]).tag(sync=True)  # other poses' colours and loops of [x, y], each
     stiff = traitlets.List([]).tag(sync=True)  # painted areas' strengths and loops of [x, y], each
     brush = traitlets.Dict({}).tag(sync=True)

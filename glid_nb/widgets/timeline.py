@@ -68,6 +68,7 @@ class TimelinePanel(Pad):
         self, canvas: DeformCanvas, on_export: Callable[[], None] | None = None, **kwargs: Any
     ) -> None:
         self.canvas, self.on_export = canvas, on_export
+        self.on_play: Callable[[], None] = lambda: None  # called when the page plays, once a page
         self.animation = Animation(canvas.deformation)  # proves the motion between the poses
         self._pictures = weakref.WeakKeyDictionary[HarmonicMap, tuple[str, str]]()
         self._latest: dict[str, tuple[str, str]] = {}  # by the poses' names
@@ -84,6 +85,7 @@ class TimelinePanel(Pad):
         actions = {
             "keep": asked(self.animation.keep, "time"),
             "record": asked(self.animation.record, "on"),
+            "played": lambda _: self.on_play(),
             "onion": lambda event: canvas.set_trait("show_onion", event["on"]),
             "frame": asked(self._show_between, "time"),
             "rename_pose": asked(model.rename_pose, "index", "name"),

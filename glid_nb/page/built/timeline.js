@@ -306,16 +306,16 @@ e.pointerId)this.hand.scrub(this.#timeNear(e))}#timeNear(e,framed=false){const{l
 const time=(e.clientX-left)/width*this.span;const near=SNAP/width*this.span;const key=this.#shown?.keyframes.
 find(one=>Math.abs(one.time-time)<near);return key?.time??(framed?Math.round(time*this.rate)/this.rate:
 time)}#up(e){if(this.#scrubbing!==e.pointerId)return;this.drop();this.hand.scrubbed()}};var NUDGE=.1;var Timeline=class{note=make("div",{className:"glid-timeline-note",role:"status","aria-\
-live":"polite"});stage=null;#layers=null;#otherLayers={};#easeBefore=-1;#hovered="";#playing={release:()=>this.
-release(),pause:()=>{this.player.pause();return this.player.place}};constructor({model,el,signal}){this.
-model=model;this.root=make("div",{className:"glid-skin glid-timeline",role:"group","aria-label":"Tim\
-eline"});this.root.dataset.lmSuppressShortcuts="true";this.link=new Link(model,this.root,signal,()=>this.
-tell());this.player=new Player((floats,time,others)=>this.#show(floats,time,others),()=>this.showHead(),
-()=>this.#selectHere());this.bar=new Bar({play:()=>this.player.play(),keep:()=>this.keep(),act:(type,content)=>void this.
-act(type,content),edit:(type,content)=>void this.edit(type,content),zoom:by=>this.track.zoom.zoom(by),
-ease:()=>this.#ease()});this.bar.ease.addEventListener("pointerdown",()=>this.#easePressed());this.ease=
-new EaseEditor((index,easing)=>void this.act("set_easing",{index,easing}),index=>this.#easeClosed(index));
-this.track=new Track({scrub:time=>this.#scrub(time),scrubbed:()=>this.#selectHere(),select:index=>this.
+live":"polite"});stage=null;#layers=null;#otherLayers={};#easeBefore=-1;#played=false;#hovered="";#playing={
+release:()=>this.release(),pause:()=>{this.player.pause();return this.player.place}};constructor({model,
+el,signal}){this.model=model;this.root=make("div",{className:"glid-skin glid-timeline",role:"group",
+"aria-label":"Timeline"});this.root.dataset.lmSuppressShortcuts="true";this.link=new Link(model,this.
+root,signal,()=>this.tell());this.player=new Player((floats,time,others)=>this.#show(floats,time,others),
+()=>this.showHead(),()=>this.#selectHere());this.bar=new Bar({play:()=>this.play(),keep:()=>this.keep(),
+act:(type,content)=>void this.act(type,content),edit:(type,content)=>void this.edit(type,content),zoom:by=>this.
+track.zoom.zoom(by),ease:()=>this.#ease()});this.bar.ease.addEventListener("pointerdown",()=>this.#easePressed());
+this.ease=new EaseEditor((index,easing)=>void this.act("set_easing",{index,easing}),index=>this.#easeClosed(
+index));this.track=new Track({scrub:time=>this.#scrub(time),scrubbed:()=>this.#selectHere(),select:index=>this.
 select(index),move:(index,time)=>void this.act("move_pose",{index,time}),rename:(index,name)=>void this.
 act("rename_pose",{index,name}),range:range=>void this.act("set_loop_range",{range}),ease:(index,button)=>this.#openEase(
 index,button),easePressed:()=>this.#easePressed(),hover:text=>{this.#hovered=text;this.tell()},dropped:()=>{
@@ -349,7 +349,8 @@ return;const moving=time!==void 0;const heights=moving?this.#layers?.at(time)??n
 entries(others).map(([key,theirs])=>{return[key,{floats:theirs,heights:this.#otherLayers[key]?.at(time??
 0)??null}]});const seen=moving?floats??true:null;stage.trigger("glid:motion",seen,this.#playing,heights,
 Object.fromEntries(parts));if(this.shown.kernel)return this.act("frame",{time:time??null,replaces:"f\
-rame"})}keep(){const{player}=this;this.act("keep",{time:player.seen?player.place:this.active.time})}#segment(index){
+rame"})}play(){this.player.play();if(!this.player.playing||this.#played)return;this.#played=true;void this.
+act("played")}keep(){const{player}=this;this.act("keep",{time:player.seen?player.place:this.active.time})}#segment(index){
 const[start,end]=withReturn(this.shown).slice(index,index+2);return index>=0&&end?{title:`${start.name}\
  → ${end.name}`,easing:start.easing}:null}#ease(){const{active,keyframes}=this.shown;const last=withReturn(
 this.shown).length-2;const{bar,track}=this;const index=Math.min(active,last);const own=track.eases.children[index];
@@ -365,19 +366,19 @@ const history=undoOrRedo(e);if(!history&&(e.ctrlKey||e.metaKey))return;e.stopPro
 e)?null:this.#keyDoes(e);if(!history&&!does)return;e.preventDefault();if(history)this.act(history);else
 does?.()}#rangeEnd(which){const{player}=this;this.track.range.key(which,player.seen?player.place:this.
 active.time)}#keyDoes(e){const{keyframes}=this.shown;switch(e.key){case" ":return()=>void(e.repeat||
-this.player.play());case"ArrowLeft":return()=>this.#step(e,-1);case"ArrowRight":return()=>this.#step(
-e,1);case"Enter":return e.target===this.track.ruler?()=>this.#ease():null;case"F2":return()=>this.track.
-rename();case"Delete":case"Backspace":return()=>void this.edit("delete_pose");case"Home":return()=>e.
-shiftKey?this.#rangeEnd(0):this.select(0);case"End":return()=>e.shiftKey?this.#rangeEnd(1):this.select(
-keyframes.length-1);case"Escape":return()=>{this.track.drop();this.release()};default:return null}}#step(e,sign){
-const{player,track}=this;const{keyframes,active}=this.shown;if(e.altKey){const time=track.landing(active,
-this.active.time+sign*NUDGE);this.edit("move_pose",{time})}else if(e.shiftKey){this.select(nextKey(keyframes,
-player.place,sign)??active)}else{this.#scrub(player.place+sign/track.rate)}}};function intervalsOf(spans){
-return spans.map(span=>({...span,floats:toFloats(span.floats)}))}function layersOf({times,floats}){return times.
-length?new Motion({times,repeat:"once"},toFloats(floats)):null}function render(context){const{model,el,signal}=context;const timeline=new Timeline(context);const{player}=timeline;
+this.play());case"ArrowLeft":return()=>this.#step(e,-1);case"ArrowRight":return()=>this.#step(e,1);case"\
+Enter":return e.target===this.track.ruler?()=>this.#ease():null;case"F2":return()=>this.track.rename();case"\
+Delete":case"Backspace":return()=>void this.edit("delete_pose");case"Home":return()=>e.shiftKey?this.#rangeEnd(
+0):this.select(0);case"End":return()=>e.shiftKey?this.#rangeEnd(1):this.select(keyframes.length-1);case"\
+Escape":return()=>{this.track.drop();this.release()};default:return null}}#step(e,sign){const{player,
+track}=this;const{keyframes,active}=this.shown;if(e.altKey){const time=track.landing(active,this.active.
+time+sign*NUDGE);this.edit("move_pose",{time})}else if(e.shiftKey){this.select(nextKey(keyframes,player.
+place,sign)??active)}else{this.#scrub(player.place+sign/track.rate)}}};function intervalsOf(spans){return spans.
+map(span=>({...span,floats:toFloats(span.floats)}))}function layersOf({times,floats}){return times.length?
+new Motion({times,repeat:"once"},toFloats(floats)):null}function render(context){const{model,el,signal}=context;const timeline=new Timeline(context);const{player}=timeline;
 const tapped=e=>{const target=e.target;if(target.closest(".glid-editor")===el.closest(".glid-editor"))
-player.play()};window.addEventListener("glid:play",tapped,{signal});const keyed=e=>{const target=e.target;
-if(target.closest(".glid-editor")===el.closest(".glid-editor"))timeline.keep()};window.addEventListener(
+timeline.play()};window.addEventListener("glid:play",tapped,{signal});const keyed=e=>{const target=e.
+target;if(target.closest(".glid-editor")===el.closest(".glid-editor"))timeline.keep()};window.addEventListener(
 "glid:key",keyed,{signal});follow(model,{"change:shown":()=>timeline.showState(),"change:rate":()=>timeline.
 showRate(),"change:motion":()=>timeline.showMotion(),"change:heights":()=>timeline.showHeights(),"ch\
 ange:part_motions":()=>timeline.showOthers(),"change:thumbnails":()=>timeline.showKeys()});const edited=()=>{

@@ -19,7 +19,9 @@ import { arrowAt, inSight, knobInCorner } from "./marks.js";
 import { Notices } from "./notices.js";
 import { drawAxis, drawNumbers, movedPin } from "./numbers.js";
 import { KEYS, PinBehaviour } from "./pin_behaviour.js";
+import { drawLocks, withoutHidden } from "./pin_marks.js";
 import { PoseClipboard } from "./pose_clipboard.js";
+import { Reference } from "./reference.js";
 import { resizeGrip } from "./resize_grip.js";
 import { Room } from "./room.js";
 import { coveredNear, Shapes } from "./shapes.js";
@@ -86,6 +88,7 @@ export class Canvas {
     this.shapes = new Shapes(model, this.view);
     this.shapes.led = () => this.redraw();
     this.ahead = new Ahead(model, (lead) => this.shapes.showLead(lead));
+    this.reference = new Reference(this.box, model, this.view);
     this.redraw = painter(paper, this.view, signal, (pen) => this.#draw(pen));
     this.link = new Link(model, this.box, signal, () => this.#report());
     this.room = this.interactive ? new Room(this.box, model, signal) : null;
@@ -105,10 +108,22 @@ export class Canvas {
     clearTimeout(this.#saving);
     this.ahead.close();
     this.shapes.close();
+    this.reference.close();
   }
 
-  get marks() {
+  /** Targets and images, of pins that the user hid as well. */
+  get allMarks() {
     return marksOf(this.model.get("marks"), this.shapes.lead);
+  }
+
+  /** What is drawn. */
+  get marks() {
+    return withoutHidden(this.allMarks, this.model.get("pins"), Number.NaN);
+  }
+
+  /** What the pointer reaches. */
+  get reachable() {
+    return withoutHidden(this.allMarks, this.model.get("pins"), Infinity);
   }
 
   /** Starts the page's own solver anew, for what is edited now. */
@@ -216,7 +231,8 @@ export class Canvas {
     const { selected, targets } = this.marks;
     const mark = found?.mark === undefined ? null : Number(found.mark);
     const centre = /** @type {Point} */ ([this.view.x, this.view.y]);
-    const point = mark === null ? (this.model.get("cursor") ?? centre) : targets[mark];
+    const pinned = mark !== null && Number.isFinite(targets[mark]?.[0]);
+    const point = pinned ? targets[mark] : (this.model.get("cursor") ?? centre);
     const at = place ?? this.view.toScreen(point);
     const does = {
       press: (/** @type {string} */ key, shift = false) => {
@@ -228,9 +244,10 @@ export class Canvas {
       fullScreen: () => this.room?.fullScreen(),
       showKeys: this.help.toggle,
     };
-    const pinned = mark !== null && selected.includes(mark) ? selected.length : 1;
+    const count = mark !== null && selected.includes(mark) ? selected.length : 1;
     const covered = mark === null && coveredNear(this.box, at);
-    openMenu(this.box, at, menuRows(does, mark === null ? null : { pinned }, covered));
+    const hides = this.model.get("pins").away.length > 0;
+    openMenu(this.box, at, menuRows(does, mark === null ? null : count, covered, hides));
   }
 
   /**
@@ -288,6 +305,7 @@ export class Canvas {
     if (now === this.#chosen) return;
     this.#chosen = now;
     if (now === undefined || this.pad.mode) return;
+    if (!Number.isFinite(targets[now]?.[0])) return; // hidden
     if (inSight(this.view, targets[now]) || inSight(this.view, images[now])) return;
     this.view.centreOn(targets[now]);
   }
@@ -384,6 +402,7 @@ export class Canvas {
 
   #see() {
     this.shapes.see();
+    this.reference.place();
     this.redraw();
   }
 
@@ -412,7 +431,10 @@ export class Canvas {
       this.ghosts.draw(pen, view, model.get("outline").outline, marks.targets.length > 0);
     }
     const cursor = pad.focused ? model.get("cursor") : null;
-    drawMarks(pen, view, marks, { hovered: pad.found?.mark, held: pad.held, cursor });
+    const pins = model.get("pins");
+    const held = new Map([...pad.held].filter(([mark]) => !pins.away.includes(Number(mark))));
+    drawMarks(pen, view, marks, { hovered: pad.found?.mark, held, cursor });
+    drawLocks(pen, view, marks, pins);
     if (brush) drawBrush(pen, view, brush, pad);
     else this.#drawNumbers(pen);
     if (pad.encloses && pad.path.length > 2) drawLasso(pen, view, pad.path);

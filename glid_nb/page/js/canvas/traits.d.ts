@@ -14,6 +14,13 @@ export interface Marks {
   ring: Ring | [];
 }
 
+/** Pins by their indices: which are locked, which the user hid, and the group's number of each. */
+export interface PinMarks {
+  locked: number[];
+  away: number[];
+  groups: number[];
+}
+
 export interface ColorBar {
   title: string;
   /** The title while a motion is seen. */
@@ -66,8 +73,11 @@ export interface CanvasTraits {
   rest: Rest | Record<string, never>;
   marks: Marks;
   names: string[];
+  pins: PinMarks;
   /** Width and height of the picture in its pixels. */
   picture_size: number[];
+  /** A picture behind the shape; empty for none. */
+  reference: DataView<ArrayBuffer>;
   onion: [color: string, loops: Point[][]][];
   stiff: [strength: number, loops: Point[][]][];
   /** Empty before the kernel has told of it. */

@@ -26,6 +26,7 @@ export class Timeline {
   /** @type {Record<string, Motion | null>} those of the shapes around the edited one, by their keys */
   #otherLayers = {};
   #easeBefore = -1; // the segment whose easing was open when a button was pressed
+  #played = false; // whether the kernel knows that somebody has played
   #hovered = ""; // what lies below the pointer, in words
   #playing = {
     release: () => this.release(),
@@ -51,7 +52,7 @@ export class Timeline {
       () => this.#selectHere(),
     );
     this.bar = new Bar({
-      play: () => this.player.play(),
+      play: () => this.play(),
       keep: () => this.keep(),
       act: (type, content) => void this.act(type, content),
       edit: (type, content) => void this.edit(type, content),
@@ -231,6 +232,14 @@ export class Timeline {
     if (this.shown.kernel) return this.act("frame", { time: time ?? null, replaces: "frame" });
   }
 
+  /** Plays, or pauses. The kernel hears of the first time. */
+  play() {
+    this.player.play();
+    if (!this.player.playing || this.#played) return;
+    this.#played = true;
+    void this.act("played");
+  }
+
   /** Makes a keyframe of what is shown. */
   keep() {
     const { player } = this;
@@ -335,7 +344,7 @@ export class Timeline {
     const { keyframes } = this.shown;
     switch (e.key) {
       case " ":
-        return () => void (e.repeat || this.player.play());
+        return () => void (e.repeat || this.play());
       case "ArrowLeft":
         return () => this.#step(e, -1);
       case "ArrowRight":
