@@ -242,7 +242,7 @@ def write(
     return list(contents)
 
 
-def _moving_parts(model: EditorModel) -> list[to.MovingPart]:
+def _moving_parts(model: EditorModel) -> list["to.MovingPart"]:
     """The visible shapes with their motions, once all poses are solved.
 
     Raises a MotionError if a motion cannot be made, an EditError if a pose cannot be solved.
@@ -260,7 +260,7 @@ def _moving_parts(model: EditorModel) -> list[to.MovingPart]:
 
 
 def _motion_files(
-    model: EditorModel, parts: Sequence[to.MovingPart], name: str, **how: Any
+    model: EditorModel, parts: Sequence["to.MovingPart"], name: str, **how: Any
 ) -> dict[str, bytes]:
     background = model.background
     if background is None and name.lower().endswith((".gif", ".mp4")):
