@@ -16,6 +16,7 @@ from glid_nb.export.moving import MovingMesh, check_picture
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging import PixelFrame, as_rgba8, png
 from glid_nb.imaging.bleed import bled
+from glid_nb.imaging.order import Order
 from glid_nb.imaging.progress import Progress, report
 from glid_nb.motion import Motion
 from glid_nb.pose import Pose
@@ -126,7 +127,7 @@ def _finish(texture: Array, edit: Callable[..., None] | None, buffers: Any, tree
 def motion_glb(
     image: ArrayLike,
     motion: Motion,
-    poses: Sequence[Pose] | None = None,
+    poses: Sequence[Pose | Order] | None = None,
     n_vertices: int = 3000,
     tolerance: float | None = 0.02,
     progress: Progress | None = None,
