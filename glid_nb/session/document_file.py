@@ -82,8 +82,9 @@ _PINS = 7  # since this version pins may be locked, hidden or grouped
 _MASK = "mask"  # written instead of strokes; another member holds the pixels
 _NEVER = "never"  # stands for TraceOptions.max_edge == inf, which JSON cannot express
 
-# The PNG of the last encoded picture, because an editor saves the same picture again and again.
-_last: tuple[weakref.ref[NDArray[np.uint8]], bytes] | None = None
+# The PNGs of pictures that still exist, by their ids: an editor saves the same pictures again and
+# again.
+_encoded: dict[int, tuple[weakref.ref[NDArray[np.uint8]], bytes]] = {}
 
 
 def save_document(document: Document, path: str | Path) -> None:
@@ -155,7 +156,7 @@ def _parts_to_members(document: Document) -> tuple[dict[str, Any], dict[str, byt
             if member is None:
                 member = _numbered(_IMAGE, number)
                 names.append((part.image, member))
-                members[member] = png(part.image, compress_level=1)
+                members[member] = _image_png(part.image)
             entry |= {"image": member, **shape}
             members |= masks
         parts.append(entry)
@@ -301,11 +302,12 @@ def _check_member(info: zipfile.ZipInfo) -> None:
 
 def _image_png(image: NDArray[np.uint8]) -> bytes:
     """A read-only (h, w, 4) uint8 picture as PNG, exactly, including hidden colours."""
-    global _last
-    last = _last  # read once: another thread may save another picture meanwhile
-    if last is None or last[0]() is not image:
-        last = _last = weakref.ref(image), png(image, compress_level=1)
-    return last[1]
+    key = id(image)
+    known = _encoded.get(key)  # read once: another thread may save another picture meanwhile
+    if known is None or known[0]() is not image:
+        reference = weakref.ref(image, lambda _: _encoded.pop(key, None))
+        known = _encoded[key] = reference, png(image, compress_level=1)
+    return known[1]
 
 
 def _read_png(data: bytes, size: tuple[int, int], mode: str, name: str) -> NDArray[Any]:

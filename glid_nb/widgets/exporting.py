@@ -84,7 +84,7 @@ def written_names(model: EditorModel, path: Path, *, moving: bool) -> tuple[str,
     formats = MOTION_FORMATS if moving else FORMATS
     suffix = suffix_of(path.name, formats)
     shapes = shown_shapes(model)
-    if len(shapes) == 1 or suffix not in OF_ONE_SHAPE:
+    if len(shapes) == 1 or suffix not in OF_ONE_SHAPE or (suffix == ".glb" and not moving):
         return file_names(path.name, formats)
     each = (part_name(path.name, suffix, shape.name) for shape in shapes)
     return tuple(name for one in each for name in file_names(one, formats))
@@ -157,6 +157,11 @@ def exported(
     if suffix == ".png":
         still = [to.StillPart(s.layers.image, s.state.map, s.state.pose) for s in shapes]
         return {path.name: to.parts_png(still, size, view, model.background)}
+    if suffix == ".glb" and len(shapes) > 1:
+        meshes = {
+            s.name: to.textured_mesh(s.layers.image, s.state.map, pose=s.state.pose) for s in shapes
+        }
+        return {path.name: to.parts_glb(meshes)}
     files: dict[str, bytes] = {}
     for own, shape in _own_paths(path, suffix, shapes):
         files |= _files_of(shape, _document_of(model, shape), own, suffix, model.background)
@@ -242,7 +247,7 @@ def write(
     return list(contents)
 
 
-def _moving_parts(model: EditorModel) -> list[to.MovingPart]:
+def _moving_parts(model: EditorModel) -> list["to.MovingPart"]:
     """The visible shapes with their motions, once all poses are solved.
 
     Raises a MotionError if a motion cannot be made, an EditError if a pose cannot be solved.
@@ -261,7 +266,7 @@ def _moving_parts(model: EditorModel) -> list[to.MovingPart]:
 
 def _motion_files(
     model: EditorModel,
-    parts: Sequence[to.MovingPart],
+    parts: Sequence["to.MovingPart"],
     name: str,
     within: tuple[float, float] | None = None,
     **how: Any,

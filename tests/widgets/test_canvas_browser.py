@@ -315,7 +315,7 @@ def test_touch_drags_and_pinches(open_notebook: OpenNotebook) -> None:
 
 
 # The box for the numbers of pins.
-NUMBERS = "editor.inspector.children[0]"
+NUMBERS = "editor.inspector.children[0].children[-1]"
 PREPARED_AS_TOLD = """
 import threading
 from glid_nb._runtime import stage
