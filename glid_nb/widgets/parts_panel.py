@@ -34,6 +34,7 @@ class _Row(ipywidgets.HBox):
 
         self._domain: Domain | None = None
         self.eye = ipywidgets.ToggleButton(True, icon=_SHOWN, layout={"width": "34px"})
+        self.eye.layout.padding = "0"  # else the theme cuts the icon off
         """Whether the part is shown."""
         self.eye.observe(lambda change: show(change["new"]), ["value"])
         self.picture = ipywidgets.Image(layout={"width": "30px", "height": "30px"})
@@ -82,15 +83,16 @@ class PartsPanel(EditControls):
             placeholder="name",
             tooltip="Name of the edited part",
             continuous_update=False,
-            layout={"flex": "1 1 60px", "width": "auto", "min_width": "0"},
+            layout={"width": "auto"},
         )
         """The name of the edited part."""
         self.add = ipywidgets.FileUpload(
             accept="image/*", description="Add", tooltip="Add a picture as a part in front"
         )
         self.add.layout = {"width": "auto", "flex": "0 0 auto"}
-        buttons = ipywidgets.HBox([self.name, self.front, self.back, self.remove, self.add])
-        super().__init__(deformation, [heading("Parts"), self.rows, buttons], **kwargs)
+        buttons = ipywidgets.HBox([self.front, self.back, self.remove, self.add])
+        children = [heading("Parts"), self.rows, self.name, buttons]
+        super().__init__(deformation, children, **kwargs)
         self.add_class("glid-parts")
         self._bind(self.name, lambda name: deformation.rename_part(deformation.state.part, name))
         self._bind(self.add, self._add)
