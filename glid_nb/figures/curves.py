@@ -199,7 +199,8 @@ def planes(*panels: Mapping[str, ArrayLike], titles: Sequence[str] = ()) -> Note
     The points of a name are joined by lines; a single number is a dot. Two thin lines cross at 0.
     ``titles`` has one for each panel.
     """
-    figure = NotebookFigure(2.9 * len(panels), 3.3)
+    rows = max((1 + len(curves)) // 2 for curves in panels)  # of the longest legend
+    figure = NotebookFigure(2.9 * len(panels), 3.2 + 0.2 * rows)
     grid = figure.subplots(1, len(panels), squeeze=False)[0]
     for axes, curves, title in zip(grid, panels, titles or [""] * len(panels), strict=True):
         axes.axhline(0, color=FAINT, linewidth=0.6)
