@@ -20,7 +20,10 @@ import glid_nb
 from glid_nb._errors import InputError, InputFileError
 from glid_nb.cli.many import refuse_standard_output
 from glid_nb.cli.output import check_files, check_folder, step
+from glid_nb.export.moving import MovingPart
 from glid_nb.imaging.backdrop import WHITE, Background
+from glid_nb.session.document import Document
+from glid_nb.session.look import background_behind
 from glid_nb.session.timeline import Timeline
 from glid_nb.session.tracing import layers_of
 from glid_nb.session.unsolved import solved_document
@@ -52,7 +55,8 @@ def run(chosen: argparse.Namespace) -> None:
         files = map(out.with_name, glid_nb.export.file_names(out.name))
         check_files(list(files), [chosen.source, chosen.picture])
     glid_nb.enable_compilation_cache()
-    image, motion, poses, behind = _read(chosen)
+    parts, behind = _read(chosen)
+    motion = parts[0].motion
     with step("proving and drawing (Ctrl-C stops, and nothing is written)") as detail:
         how: Any = {"size": chosen.size, "frames_per_second": chosen.fps}
         how |= {
@@ -60,15 +64,16 @@ def run(chosen: argparse.Namespace) -> None:
             "loop": motion.repeat != "once",
         }
         how |= {"progress": lambda done, total: detail(f"frame {done} of {total}")}
-        files = glid_nb.export.animate(out, image, motion, poses, **how)
+        if len(parts) > 1:
+            files = glid_nb.export.animate_parts(out, parts, **how)
+        else:
+            files = glid_nb.export.animate(out, parts[0].image, motion, parts[0].poses, **how)
     written = ", ".join(map(str, files)) if out.suffix else f"{out}: {len(files)} files"
     print(f"{written}; {motion.duration:g} s. {motion.certificate.reason}")
 
 
-def _read(
-    chosen: argparse.Namespace,
-) -> tuple[Any, glid_nb.Motion, list[glid_nb.Pose] | None, Background]:
-    """The picture, its motion, the poses, and what lies behind the shape."""
+def _read(chosen: argparse.Namespace) -> tuple[list[MovingPart], Background]:
+    """The visible shapes with their motions, and what lies behind them."""
     if chosen.source.suffix.lower() != ".json":
         document = glid_nb.io.load_document(chosen.source)
         if (count := len(document.poses)) < 2:
@@ -83,10 +88,7 @@ def _read(
         if chosen.seconds is not None:
             there = 2 if timeline.repeat == "ping-pong" else 1
             timeline = timeline.lasting(_seconds(chosen) / there)
-        motion = timeline.motion([pose.map for pose in document.poses])
-        layers, poses = layers_of(document), [pose.pose for pose in document.poses]
-        behind = WHITE if layers.background is None else layers.background
-        return layers.image, motion, poses, behind
+        return _parts_of(document, timeline)
     motion = glid_nb.Motion.load(chosen.source)
     if chosen.picture is None or chosen.loop not in (None, motion.repeat):
         advice = "name its picture with --picture, and leave out --loop: it has its own setting"
@@ -98,7 +100,28 @@ def _read(
     if chosen.seconds is not None:
         times = [_seconds(chosen) / motion.duration * time for time in motion.times]
         motion = glid_nb.Motion(motion.keyframes, times, **motion.settings)
-    return glid_nb.read_image(chosen.picture), motion, None, WHITE
+    return [MovingPart(glid_nb.read_image(chosen.picture), motion)], WHITE
+
+
+def _parts_of(document: Document, timeline: Timeline) -> tuple[list[MovingPart], Background]:
+    shapes = [document.of_part(i) for i in range(max(len(document.parts), 1))]
+    names = [part.name for part in document.parts] or [""]
+    visible = [part.visible for part in document.parts] or [True]
+    layers = [layers_of(shape) for shape in shapes]
+    parts = [
+        MovingPart(
+            layer.image,
+            timeline.motion([pose.map for pose in shape.poses]),
+            [pose.pose for pose in shape.poses],
+            name,
+        )
+        for shape, layer, name, seen in zip(shapes, layers, names, visible, strict=True)
+        if seen
+    ]
+    if not parts:
+        raise InputFileError("all parts of the session are hidden; show one in the editor")
+    behind = layers[0].background if len(layers) == 1 else background_behind(layers)
+    return parts, WHITE if behind is None else behind
 
 
 def _seconds(chosen: argparse.Namespace) -> float:

@@ -11,7 +11,12 @@ from .mesh import mesh_obj as mesh_obj
 from .mesh import motion_glb as motion_glb
 from .mesh import textured_mesh as textured_mesh
 from .motion import animate as animate
+from .motion import animate_parts as animate_parts
 from .motion import motion_files as motion_files
+from .motion import parts_motion_files as parts_motion_files
+from .moving import MovingPart as MovingPart
 from .page import page_html as page_html
+from .picture import StillPart as StillPart
 from .picture import animation_bytes as animation_bytes
+from .picture import parts_png as parts_png
 from .picture import picture_png as picture_png

@@ -5,6 +5,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from glid_nb._errors import InputError
+from glid_nb._files import portable_name
 
 
 class ExportError(InputError):
@@ -39,6 +40,18 @@ MOTION_FORMATS = {  # a motion's name without one of these is a folder of frames
     ".zip": Format("Frames (PNG in a zip)"),
     ".motion.json": Format("Proof for glid-check (JSON)", (".motion.proof.json",)),
 }
+
+
+OF_ONE_SHAPE = frozenset(
+    {".svg", ".live.html", ".html", ".py", ".proof.json", ".motion.json", ".glb", ".obj"}
+)
+"""Formats that hold one shape. A session with several parts exports a file for each."""
+
+
+def part_name(name: str, suffix: str, part: str) -> str:
+    """The name of a part's file: that of the export, with the part's name before the suffix."""
+    stem, ending = name[: len(name) - len(suffix)], name[len(name) - len(suffix) :]
+    return f"{stem}-{portable_name(part) or 'part'}{ending}"
 
 
 def suffix_of(name: str, formats: Mapping[str, Format] = MOTION_FORMATS) -> str:

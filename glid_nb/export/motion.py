@@ -1,6 +1,6 @@
 """Export a motion of a picture as a file. The suffix selects the format."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -10,9 +10,9 @@ from glid_nb._arguments import check_type
 from glid_nb._errors import InputError
 from glid_nb._files import write_atomically
 from glid_nb.export import encode
-from glid_nb.export.formats import file_names, suffix_of
+from glid_nb.export.formats import OF_ONE_SHAPE, file_names, part_name, suffix_of
 from glid_nb.export.mesh import motion_glb
-from glid_nb.export.moving import check_picture, frames
+from glid_nb.export.moving import MovingPart, check_picture, frames
 from glid_nb.export.page import page_html
 from glid_nb.imaging import as_rgba8
 from glid_nb.imaging.backdrop import WHITE, Background
@@ -39,10 +39,30 @@ def animate(
     folder, which is made. Raises an InputError if the folder contains other frames that would stay,
     an OSError if a file cannot be written.
     """
-    path = Path(path)
     check_type("motion", motion, Motion, _MAKE_ONE, InputError)
+
+    def made(name: str) -> dict[str, bytes]:
+        return motion_files(name, image, motion, poses, **settings)
+
+    return _written(Path(path), motion, settings, made)
+
+
+def animate_parts(
+    path: str | Path, parts: Sequence[MovingPart], **settings: Any
+) -> tuple[Path, ...]:
+    """Like `animate` for several shapes. The settings are those of `parts_motion_files`."""
+
+    def made(name: str) -> dict[str, bytes]:
+        return parts_motion_files(name, parts, **settings)
+
+    return _written(Path(path), parts[0].motion, settings, made)
+
+
+def _written(
+    path: Path, motion: Motion, settings: dict[str, Any], made: Callable[[str], dict[str, bytes]]
+) -> tuple[Path, ...]:
     _check_place(path, motion, settings.get("frames_per_second", _FPS))
-    files = motion_files(path.name, image, motion, poses, **settings)
+    files = made(path.name)
     if files and not path.suffix:
         path.mkdir(exist_ok=True)
     for name, data in files.items():
@@ -104,10 +124,7 @@ def motion_files(
     checked("loop", bool, loop)
     image = as_rgba8(image)
     height, width = image.shape[:2]
-    check_picture((width, height), motion)
-    if not motion.certificate.certified:
-        remedy = 'add a keyframe before that, or choose between="auto"'
-        raise InputError(f"{motion.certificate.reason} Nothing uncertified is exported; {remedy}.")
+    _check_motion((width, height), motion)
     try:
         match suffix:
             case ".html":
@@ -121,9 +138,63 @@ def motion_files(
                 contents = [text.encode() for text in motion.texts(image_size=(width, height))]
                 report(progress, 1, 1)
             case _:
-                drawn = frames(image, motion, poses, size, fps, ground, progress)
+                parts = [MovingPart(image, motion, poses)]
+                drawn = frames(parts, size, fps, ground, progress)
                 contents = encode.encoded(drawn, name, suffix, fps, ground, loop)
     except Stopped:
         return {}
+    return _named(name, suffix, contents)
+
+
+def parts_motion_files(
+    name: str,
+    parts: Sequence[MovingPart],
+    *,
+    size: int = 480,
+    frames_per_second: float = _FPS,
+    background: Background = WHITE,
+    loop: bool = True,
+    progress: Progress | None = None,
+) -> dict[str, bytes]:
+    """Like `motion_files` for several shapes, the rearmost first.
+
+    Their motions have the same times. Frames show all shapes; later ones cover earlier ones. The
+    formats in `OF_ONE_SHAPE` hold one shape. So there are files for each part, with its name in
+    theirs (`part_name`).
+    """
+    suffix, fps = suffix_of(name), frames_per_second
+    if suffix in OF_ONE_SHAPE:
+        how: dict[str, Any] = {"size": size, "frames_per_second": fps, "background": background}
+        how |= {"loop": loop, "progress": progress}
+        files = [
+            motion_files(
+                part_name(name, suffix, part.name), part.image, part.motion, part.poses, **how
+            )
+            for part in parts
+        ]
+        return {n: data for each in files for n, data in each.items()} if all(files) else {}
+    ground = encode.check_settings(size, fps, background, suffix)
+    checked("loop", bool, loop)
+    for part in parts:
+        height, width = as_rgba8(part.image).shape[:2]
+        _check_motion((width, height), part.motion, part.name)
+    try:
+        drawn = frames(parts, size, fps, ground, progress)
+        contents = encode.encoded(drawn, name, suffix, fps, ground, loop)
+    except Stopped:
+        return {}
+    return _named(name, suffix, contents)
+
+
+def _check_motion(size: tuple[int, int], motion: Motion, name: str = "") -> None:
+    check_picture(size, motion)
+    if not motion.certificate.certified:
+        of = f"The part {name!r}: " if name else ""
+        remedy = 'add a keyframe before that, or choose between="auto"'
+        why = f"{of}{motion.certificate.reason}"
+        raise InputError(f"{why} Nothing uncertified is exported; {remedy}.")
+
+
+def _named(name: str, suffix: str, contents: list[bytes]) -> dict[str, bytes]:
     pictures = (f"{name}/{frame}" for frame in encode.names(len(contents)))
     return dict(zip(file_names(name) if suffix else pictures, contents, strict=True))

@@ -5,7 +5,7 @@ import itertools
 import math
 import threading
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Self
 
 import numpy as np
@@ -17,10 +17,11 @@ from glid_nb._arrays import Array
 from glid_nb._errors import InputError
 from glid_nb.export.encode import Frames
 from glid_nb.export.picture import frame_around
+from glid_nb.geometry import Cage
 from glid_nb.harmonic import HarmonicMap, images_under
 from glid_nb.imaging import DeformedMesh, PixelFrame, as_rgba8, fine_mesh, order_of
 from glid_nb.imaging.backdrop import Backdrop, drawn_backdrop, over
-from glid_nb.imaging.order import Order
+from glid_nb.imaging.order import Order, order_at
 from glid_nb.imaging.progress import Progress, report
 from glid_nb.imaging.render import TOLERANCE_PX, check_fits, draw_mesh
 from glid_nb.imaging.texture import Texture, texels_per_pixel
@@ -92,7 +93,7 @@ class MovingMesh:
         cage = shown.domain.cage
         image = functools.partial(images_under, maps)
         vertices, images, triangles = fine_mesh(cage, image, n_vertices, tolerance)
-        orders = [one if isinstance(one, Order) else order_of(cage, one) for one in poses]
+        orders = [_order_of(cage, one) for one in poses]
         if all(order is orders[0] for order in orders):
             del orders[1:]
         heights = np.stack([order(vertices) for order in orders])
@@ -113,6 +114,30 @@ class MovingMesh:
         return self.heights[0] if still else _between(self.height_times, self.heights, time)
 
 
+@dataclass(frozen=True, eq=False)
+class MovingPart:
+    """A shape of an animation: its picture, its motion, and a pose for each keyframe, or how its
+    sheets lie there."""
+
+    image: ArrayLike
+    motion: Motion
+    poses: Sequence[Pose | Order] | None = None
+    name: str = ""  # of one of several
+
+    def between(self, start: float, end: float) -> Self:
+        """The shape between two times of its motion, see `Motion.part`."""
+        motion = self.motion.part(start, end)
+        if self.poses is None:
+            return replace(self, motion=motion)
+        orders = [_order_of(self.motion.domain.cage, one) for one in self.poses]
+        poses = [order_at(orders, self.motion.times, time) for time in motion.times]
+        return replace(self, motion=motion, poses=poses)
+
+
+def _order_of(cage: Cage, pose: Pose | Order | None) -> Order:
+    return pose if isinstance(pose, Order) else order_of(cage, pose)
+
+
 def _between(times: Array, values: Array, time: float) -> Array:
     """Interpolate values (n, ...), given at times, linearly at one time."""
     i = int(np.clip(np.searchsorted(times, time, side="right") - 1, 0, len(times) - 2))
@@ -121,9 +146,7 @@ def _between(times: Array, values: Array, time: float) -> Array:
 
 
 def frames(
-    image: ArrayLike,
-    motion: Motion,
-    poses: Sequence[Pose | Order] | None,
+    parts: Sequence[MovingPart],
     size: int,
     fps: float,
     background: Backdrop,
@@ -131,23 +154,30 @@ def frames(
 ) -> Frames:
     """Pictures at even times. All show the same part of the plane.
 
-    It contains all shapes, or it is the rectangle of a picture that is the background.
+    It contains all shapes, or it is the rectangle of a picture that is the background. The motions
+    of all parts have the same times; later parts cover earlier ones.
     """
-    times = motion.frame_times(fps)
+    times = parts[0].motion.frame_times(fps)
     report(progress, 0, len(times))
-    corners = images_under(motion.keyframes, motion.domain.cage.exterior).reshape(-1, 2)
-    tolerance = TOLERANCE_PX * float(np.ptp(corners, axis=0).max()) / size
-    mesh = MovingMesh.of(motion, poses, _VERTICES, tolerance)
-    frame = frame_around(mesh.images.reshape(-1, 2), size, background)
+    corners = [images_under(p.motion.keyframes, p.motion.domain.cage.exterior) for p in parts]
+    extent = np.ptp(np.concatenate([each.reshape(-1, 2) for each in corners]), axis=0)
+    tolerance = TOLERANCE_PX * float(extent.max()) / size
+    meshes = [MovingMesh.of(p.motion, p.poses, _VERTICES, tolerance) for p in parts]
+    places = np.concatenate([mesh.images.reshape(-1, 2) for mesh in meshes])
+    frame = frame_around(places, size, background)
     behind = drawn_backdrop(background, frame)
-    texture = _scaled(as_rgba8(image), mesh, frame)
+    pairs = zip(parts, meshes, strict=True)
+    drawn = [(_scaled(as_rgba8(part.image), mesh, frame), mesh) for part, mesh in pairs]
     done, one_at_a_time = itertools.count(1), threading.Lock()
 
     def draw(number: int) -> NDArray[np.uint8]:
-        drawn = over(draw_mesh(texture, mesh.at(float(times[number])), frame), behind)
+        pixels = behind
+        for texture, mesh in drawn:
+            pixels = over(draw_mesh(texture, mesh.at(float(times[number])), frame), pixels)
+        assert pixels is not None
         with one_at_a_time:
             report(progress, next(done), len(times))
-        return drawn
+        return pixels
 
     return Frames((frame.width, frame.height), len(times), draw)
 

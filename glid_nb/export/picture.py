@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
@@ -15,10 +16,26 @@ from glid_nb.export.encode import Frames, check_settings, encoded
 from glid_nb.figures.style import CYAN, INK
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging import PixelFrame, Sheets, as_rgba8, deformed_loops, deformed_mesh, order_of
-from glid_nb.imaging.backdrop import WHITE, Backdrop, Background, drawn_backdrop, over
+from glid_nb.imaging.backdrop import (
+    WHITE,
+    Backdrop,
+    Background,
+    check_background,
+    drawn_backdrop,
+    over,
+)
 from glid_nb.imaging.progress import Progress
 from glid_nb.imaging.read import png
-from glid_nb.imaging.render import MARGIN, TOLERANCE_PX, View, check_fits, draw_mesh, render
+from glid_nb.imaging.render import (
+    MARGIN,
+    TOLERANCE_PX,
+    View,
+    check_fits,
+    draw_mesh,
+    frame_of,
+    mesh_in,
+    render,
+)
 from glid_nb.imaging.texture import Texture
 from glid_nb.motion.settings import checked
 from glid_nb.pose import Pose
@@ -42,6 +59,36 @@ def picture_png(
     """Warp a picture through a map, like `glid_nb.render`. A PNG file with an alpha channel."""
     shown = {"view": view, "pose": pose, "progress": progress, "background": background}
     return png(render(image, map, size, **shown))
+
+
+@dataclass(frozen=True, eq=False)
+class StillPart:
+    """A shape of a picture: its own picture, its map, and a pose whose depths order its sheets."""
+
+    image: ArrayLike
+    map: HarmonicMap
+    pose: Pose | None = None
+
+
+def parts_png(
+    parts: Sequence[StillPart],
+    size: tuple[int, int] | None = None,
+    view: View = "source",
+    background: Background = None,
+) -> bytes:
+    """Warp several shapes, the rearmost first. Later ones cover earlier ones.
+
+    Their pictures have the same size. The arguments are those of `glid_nb.render`.
+    """
+    textures = [Texture.from_image(as_rgba8(part.image)) for part in parts]
+    source = PixelFrame(*textures[0].size)
+    frame = frame_of(source, [part.map for part in parts], size, view)
+    pixels = drawn_backdrop(check_background(background), frame)
+    for texture, part in zip(textures, parts, strict=True):
+        mesh = mesh_in(frame, part.map, part.pose)
+        pixels = over(draw_mesh(texture, mesh, frame), pixels)
+    assert pixels is not None
+    return png(pixels)
 
 
 def animation_bytes(

@@ -1,5 +1,6 @@
 """Warp a picture through a harmonic map."""
 
+from collections.abc import Sequence
 from typing import Any, Literal, get_args
 
 import numpy as np
@@ -86,14 +87,21 @@ def render(
     source = Texture.from_image(image) if interpolation == "smooth" else _values(image, fill)
     own = source.size if isinstance(source, Texture) else source.shape[1::-1]
     frame = frame_of(PixelFrame(own[0], own[1]), map, size, view)
+    mesh = mesh_in(frame, map, pose, n_vertices)
+    if isinstance(source, Texture):
+        return over(draw_mesh(source, mesh, frame, progress), drawn_backdrop(behind, frame))
+    return _moved(source, mesh, frame, fill, progress)
+
+
+def mesh_in(
+    frame: PixelFrame, map: HarmonicMap, pose: Pose | None, n_vertices: int | None = None
+) -> DeformedMesh:
+    """The mesh that `render` draws in a frame."""
     tolerance = None
     if n_vertices is None:
         tolerance = TOLERANCE_PX * frame.units_per_pixel
         n_vertices = int(np.clip(frame.width * frame.height / _PIXELS_PER_VERTEX, *_EVEN_VERTICES))
-    mesh = deformed_mesh(map, n_vertices, tolerance, pose, frame.bounds)
-    if isinstance(source, Texture):
-        return over(draw_mesh(source, mesh, frame, progress), drawn_backdrop(behind, frame))
-    return _moved(source, mesh, frame, fill, progress)
+    return deformed_mesh(map, n_vertices, tolerance, pose, frame.bounds)
 
 
 def _moved(
@@ -143,9 +151,14 @@ def _values(image: ArrayLike | Texture, fill: float) -> NDArray[Any]:
 
 
 def frame_of(
-    source: PixelFrame, map: HarmonicMap, size: tuple[int, int] | None, view: View
+    source: PixelFrame,
+    map: HarmonicMap | Sequence[HarmonicMap],
+    size: tuple[int, int] | None,
+    view: View,
 ) -> PixelFrame:
-    """The frame of the picture that `render` draws from a picture with the frame ``source``."""
+    """The frame of the picture that `render` draws from a picture with the frame ``source``; with
+    several maps, the frame for all of them."""
+    maps = [map] if isinstance(map, HarmonicMap) else map
     if view not in get_args(View):
         raise RenderError(f"unknown view {view!r}; choose one of {', '.join(get_args(View))}")
     sides = (source.width, source.height) if size is None else plain(size)
@@ -155,10 +168,11 @@ def frame_of(
     if min(width, height) < 1 or width * height >= _MOST_PIXELS:
         limits = "a side has at least 1 pixel, and at most 2^30 pixels can be drawn"
         raise RenderError(f"size is {width} x {height} pixels; {limits}")
-    check_fits(source, map)
+    for one in maps:
+        check_fits(source, one)
     shown, margin = np.reshape(source.bounds, (2, 2)), 0.0
     if view == "fit":
-        exterior = deformed_loops(map)[0]
+        exterior = np.concatenate([deformed_loops(one)[0] for one in maps])
         shown, margin = np.stack([exterior.min(axis=0), exterior.max(axis=0)]), MARGIN
     if np.ptp(shown, axis=0).min() <= 0:
         raise RenderError("the map collapses the shape to a point or a line; nothing is visible")

@@ -24,6 +24,8 @@ from glid_nb.motion.settings import Repeat
 from glid_nb.pose import DEEPEST, PER_HANDLE, Pose, Stiffness, misplaced
 from glid_nb.session.document import NamedPose, check_room
 from glid_nb.session.edit_state import EditError, EditState
+from glid_nb.session.parts import everywhere, over_parts
+from glid_nb.session.pin_marks import PinMarks
 from glid_nb.session.timeline import LEAST_GAP
 from glid_nb.solvers import Method
 
@@ -113,6 +115,30 @@ def name_pin(state: EditState, index: int, name: str) -> EditState:
 def set_pins(state: EditState, indices: Iterable[int], **numbers: ArrayLike | None) -> EditState:
     """Set ``angles`` (radians), ``scales`` or ``weights`` of some handles; None sets them free."""
     return _pinned(state, _with_numbers(state, indices, **numbers))
+
+
+def mark_pins(state: EditState, indices: Iterable[int], **changes: bool) -> EditState:
+    """Set whether some handles are ``locked`` or ``hidden`` for the hand, in all poses. The map
+    does not change."""
+    return _marked(state, state.pins.changed(_handles_of(state, indices), **changes))
+
+
+def group_pins(state: EditState, indices: Iterable[int]) -> EditState:
+    """Make a group of at least two handles: they are selected and moved together."""
+    handles = _handles_of(state, indices)
+    if len(handles) < 2:
+        raise EditError("a group needs two pins or more; select several, for example by Shift")
+    return _marked(state, state.pins.grouped(handles))
+
+
+def ungroup_pins(state: EditState, indices: Iterable[int]) -> EditState:
+    """Take some handles out of their groups."""
+    return _marked(state, state.pins.changed(_handles_of(state, indices), group=0))
+
+
+def show_all_pins(state: EditState) -> EditState:
+    """Show the hidden handles of the edited pose again."""
+    return mark_pins(state, range(len(state.pose)), hidden=False)
 
 
 def turned_now(state: EditState, indices: Iterable[int]) -> tuple[Array, Array]:
@@ -210,18 +236,21 @@ def drop_hole(state: EditState, index: int) -> EditState:
     return set_domain(state, Domain(cage, offset_cage, points, old.notes))
 
 
+@everywhere
 def save_pose(state: EditState, name: str | None = None) -> EditState:
     """Save the pose under a name, and edit a copy behind it in the list."""
     kept = state.current if name is None else replace(state.current, name=_checked_name(name))
     return _with_inserted(state.with_current(kept), state.active + 1, kept)
 
 
+@everywhere
 def duplicate_pose(state: EditState, index: int) -> EditState:
     """Insert a copy behind a pose, and edit the copy."""
     pose = state.poses[_checked_pose(state, index)]
     return _with_inserted(state, index + 1, pose)
 
 
+@everywhere
 def rename_pose(state: EditState, index: int, name: str) -> EditState:
     """Rename a pose."""
     poses = list(state.poses)
@@ -229,6 +258,7 @@ def rename_pose(state: EditState, index: int, name: str) -> EditState:
     return replace(state, poses=tuple(poses))
 
 
+@everywhere
 def delete_pose(state: EditState, index: int) -> EditState:
     """Delete a pose. Refused for the only pose."""
     _checked_pose(state, index)
@@ -239,6 +269,7 @@ def delete_pose(state: EditState, index: int) -> EditState:
     return replace(state, poses=poses, active=active, timeline=state.timeline.without(index))
 
 
+@everywhere
 def move_pose(state: EditState, index: int, time: float) -> EditState:
     """Show a pose at another time, in seconds. The index after the last one is a loop's return."""
     if not (index == len(state.poses) and state.timeline.repeat == "loop"):
@@ -267,8 +298,15 @@ def set_loop_range(state: EditState, part: tuple[float, float] | None) -> EditSt
     return state if timeline == state.timeline else replace(state, timeline=timeline)
 
 
-def keep_between(state: EditState, time: float, map: HarmonicMap) -> EditState:
-    """Save a map between two poses as a pose at its time, with the handles of the pose before."""
+def keep_between(state: EditState, time: float, *maps: HarmonicMap) -> EditState:
+    """Save a map between two poses as a pose at its time, with the handles of the pose before.
+
+    With several parts, there is a map for each.
+    """
+    return over_parts(state, lambda shape, i: _kept_between(shape, time, maps[i]))
+
+
+def _kept_between(state: EditState, time: float, map: HarmonicMap) -> EditState:
     index = bisect.bisect_right(state.timeline.times, time)
     if not index or np.abs(np.subtract(state.timeline.times, time)).min() < LEAST_GAP:
         raise EditError(f"there is already a pose at {time:g} s, or no pose before that")
@@ -280,6 +318,7 @@ def keep_between(state: EditState, time: float, map: HarmonicMap) -> EditState:
     return _with_inserted(state, index, pose, time)
 
 
+@everywhere
 def keep_after(state: EditState, time: float) -> EditState:
     """Save the last pose again at a later time."""
     if not time - state.timeline.times[-1] >= LEAST_GAP:
@@ -293,8 +332,22 @@ def record(
     """Insert a recorded drag into the timeline.
 
     ``first`` replaces the edited pose, then ``poses`` follow, and the edited pose is the last.
-    ``offsets`` are the times of all but the first, in seconds since the first.
+    ``offsets`` are the times of all but the first, in seconds since the first. Other parts stay
+    where they are meanwhile.
     """
+
+    def recorded(shape: EditState, index: int) -> EditState:
+        if index == state.part:
+            return _recorded(shape, first, poses, offsets)
+        still = shape.current
+        return _recorded(shape, still, [still] * (len(offsets) - 1), offsets)
+
+    return over_parts(state, recorded)
+
+
+def _recorded(
+    state: EditState, first: NamedPose, poses: Sequence[NamedPose], offsets: Sequence[float]
+) -> EditState:
     check_room((*state.poses, *poses, first))
     names = itertools.islice(_free_names(state, first.name), len(offsets))
     new = (*poses, state.current)
@@ -318,6 +371,14 @@ def _with_inserted(
     poses = (*state.poses[:index], copy, *state.poses[index:])
     timeline = state.timeline.inserted(index, time)
     return replace(state, poses=poses, active=index, timeline=timeline)
+
+
+def _handles_of(state: EditState, indices: Iterable[int]) -> Array:
+    return state.pose.handles[_checked_indices(state, indices)]
+
+
+def _marked(state: EditState, pins: PinMarks) -> EditState:
+    return state if pins == state.pins else replace(state, pins=pins)
 
 
 def _relaxed(state: EditState, pose: Pose) -> EditState:

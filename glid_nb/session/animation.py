@@ -1,9 +1,8 @@
 """The motion between the poses of a deformation, proved in the background, interval by interval."""
 
-import bisect
 import itertools
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import replace
 from typing import Literal, NamedTuple
 
@@ -12,12 +11,12 @@ import numpy as np
 from glid_nb.certificate import certificate_of
 from glid_nb.certificate.rounding import rounded_down
 from glid_nb.harmonic import HarmonicMap
-from glid_nb.imaging.order import Order
+from glid_nb.imaging.order import Order, order_at
 from glid_nb.motion import Motion, MotionError, Piece, unlike_turns
 from glid_nb.session.deformation import Deformation
 from glid_nb.session.document import AS_SEEN, NamedPose
 from glid_nb.session.edit_state import EditError, EditState, Moment
-from glid_nb.session.model import Observed
+from glid_nb.session.model import Observed, Observer
 from glid_nb.session.timeline import LEAST_GAP, Timeline, on_grid, thinned
 from glid_nb.session.worker import LatestWins, weakly
 
@@ -38,6 +37,11 @@ class Span(NamedTuple):
     """The proved part, from the start on; the whole motion if the status is "proved"."""
     sigma2: tuple[float, ...] = ()  # the certified bound on each piece
 
+    @property
+    def until(self) -> float:
+        """The last instant that is proved."""
+        return self.pieces[-1].end if self.pieces else self.start
+
 
 class Animation(Observed):
     """The motion through the poses of a deformation, and the recording of a drag.
@@ -48,7 +52,7 @@ class Animation(Observed):
     def __init__(self, deformation: Deformation) -> None:
         super().__init__()
         self.deformation = deformation
-        self._spans: tuple[Span, ...] = ()
+        self._spans: dict[int, tuple[Span, ...]] = {}  # of each part, by its key
         self.recording = False  # whether the current or next drag becomes keyframes
         self._task: EditState | None = None
         self._asked = False
@@ -60,14 +64,26 @@ class Animation(Observed):
         self._on_model("state")
 
     @property
+    def state(self) -> EditState:
+        """The present state of the deformation."""
+        return self.deformation.state
+
+    @property
     def spans(self) -> tuple[Span, ...]:
         """The spans from each keyframe to the next; in a loop also from the last to the first.
 
-        They always belong to the present poses.
+        They always belong to the present poses. Of several parts they are those of the edited one.
         """
+        with self.deformation.locked():
+            state = self.deformation.state
+            return self.spans_of(state.keys[state.part])
+
+    def spans_of(self, key: int) -> tuple[Span, ...]:
+        """The spans of the part with a key."""
         with self.deformation.locked(), self.locked():
             state = self.deformation.state
-            return self._spans if _same_motion(state, self._task) else _spans(state)
+            known = self._spans if _same_motion(state, self._task) else _all_spans(state)
+            return known[key]
 
     @property
     def motion(self) -> Motion:
@@ -77,28 +93,39 @@ class Animation(Observed):
         """
         return motion_of(self.deformation.solved_state())
 
-    def at(self, time: float) -> HarmonicMap | None:
-        """The proved map at a time, or the last proved map before it; None outside the motion."""
-        span = next((s for s in self.spans if s.start <= time <= s.end), None)
-        if span is None:
-            return None
-        if not span.pieces:
-            return span.map
-        piece = next((p for p in span.pieces if time <= p.end), span.pieces[-1])
-        return piece.at(min(time, piece.end))
+    def at(self, time: float, key: int | None = None) -> HarmonicMap | None:
+        """The map at a time, or the last one before it at which all parts are proved; None outside
+        the motion. It is that of the edited part, or of the part with a key."""
+        with self.deformation.locked():
+            spans = self.spans if key is None else self.spans_of(key)
+            number = next((i for i, s in enumerate(spans) if s.start <= time <= s.end), None)
+            if number is None:
+                return None
+            span, state = spans[number], self.deformation.state
+            shown = [part.key for part in state.parts if part.visible] or state.keys
+            time = min(time, span.until, *(self.spans_of(one)[number].until for one in shown))
+        piece = next((p for p in span.pieces if time <= p.end), None)
+        return span.map if piece is None else piece.at(time)
 
-    def seen(self, time: float) -> tuple[HarmonicMap, Order] | None:
-        """Map and order of the parts at a time, after the last keyframe those of its pose. None
-        before the first keyframe, and without a motion."""
+    def seen(self, time: float, key: int | None = None) -> tuple[HarmonicMap, Order] | None:
+        """Map and order of a shape's sheets at a time, after the last keyframe those of its pose.
+        None before the first keyframe, and without a motion. Parts are as in `at`."""
+        with self.deformation.locked():
+            state = self._shape(key)
+            if self.is_later(time):
+                return state.poses[-1].map, state.orders[-1]
+            map_ = self.at(time, key)
+            return None if map_ is None else (map_, self.order(time, key))
+
+    def _shape(self, key: int | None) -> EditState:
+        """The state of the part with a key; without one, that of the edited part."""
         state = self.deformation.state
-        if self.is_later(time):
-            return state.poses[-1].map, state.orders[-1]
-        map_ = self.at(time)
-        return None if map_ is None else (map_, self.order(time))
+        return state if key is None else state.shapes[state.keys.index(key)]
 
-    def order(self, time: float) -> Order:
-        """The order of the shape's parts at a time, interpolated between two keyframes."""
-        return order_at(self.deformation.state, time)
+    def order(self, time: float, key: int | None = None) -> Order:
+        """The order of a shape's sheets at a time, interpolated between two keyframes."""
+        state = self._shape(key)
+        return order_at(state.orders, state.timeline.closed_times, time)
 
     def keep(self, time: float) -> None:
         """Save the map at a time as a pose. Between poses, the map must be proved. After the last
@@ -109,11 +136,14 @@ class Animation(Observed):
             return self.deformation.keep_after(time)
         if time in times or not self.spans:
             return self.deformation.save_pose()
-        pieces = (piece for span in self.spans for piece in span.pieces)
-        piece = next((p for p in pieces if p.start <= time <= p.end), None)
-        if piece is None:
-            raise EditError(f"nothing is proved at {time:.2f} s, so there is no shape to keep")
-        return self.deformation.keep_between(time, piece.at(time))
+        with self.deformation.locked():
+            every = [self.spans_of(key) for key in self.deformation.state.keys]
+            pieces = [[piece for span in spans for piece in span.pieces] for spans in every]
+            now = [next((p for p in one if p.start <= time <= p.end), None) for one in pieces]
+            if None in now:
+                raise EditError(f"nothing is proved at {time:.2f} s, so there is no shape to keep")
+            maps = [piece.at(time) for piece in now if piece is not None]
+            return self.deformation.keep_between(time, *maps)
 
     def is_later(self, time: float) -> bool:
         """Whether a time is after the last keyframe, where nothing is played."""
@@ -164,11 +194,13 @@ class Animation(Observed):
         if not _same_motion(task, self._task):
             self.worker.cancel()
             self._asked = False
-            spans = _spans(task)
-            if [(*s[:2], "computing") for s in spans] != [(*s[:2], s.status) for s in self._spans]:
+            spans = _all_spans(task)
+            if _told(spans) != _told(self._spans):
                 self.tell("motion")
             self._spans = spans
-        self._task = task
+        before, self._task = self._task, task
+        if before is not None and before.keys[before.part] != task.keys[task.part]:
+            self.tell("motion")  # of another part
         if not self._asked and len(task.poses) > 1 and self.deformation.settled():
             self._asked = True
             self.worker.submit(task)
@@ -205,30 +237,79 @@ class Animation(Observed):
     # Proving
 
     def _prove(self, task: EditState, worker: LatestWins[EditState]) -> None:
-        spans, told = list(_spans(task)), time.monotonic()
-        reasons = [self.deformation.why_unsolved(pose) for pose in task.poses]
-        for i, span in proved_spans(task, reasons, worker):
-            spans[i] = span
-            if time.monotonic() - told > _INTERVAL:
-                told = time.monotonic()
-                self._publish(task, spans)
+        spans, told = _all_spans(task), time.monotonic()
+        for key, shape in zip(task.keys, task.shapes, strict=True):
+            reasons = [self.deformation.why_unsolved(pose) for pose in shape.poses]
+            for i, span in proved_spans(shape, reasons, worker):
+                spans[key] = (*spans[key][:i], span, *spans[key][i + 1 :])
+                if time.monotonic() - told > _INTERVAL:
+                    told = time.monotonic()
+                    self._publish(task, spans)
         if not worker.overtaken:
             self._publish(task, spans)
 
-    def _publish(self, task: EditState, spans: list[Span]) -> None:
+    def _publish(self, task: EditState, spans: dict[int, tuple[Span, ...]]) -> None:
         with self.locked():
             if _same_motion(task, self._task):
-                self._spans = tuple(spans)
+                self._spans = dict(spans)
                 self.tell("motion")
+
+
+class PartAnimation:
+    """The motion of one part, with what a view of an `Animation` reads.
+
+    A part that has just been removed has no motion; its view goes soon.
+    """
+
+    def __init__(self, animation: Animation, key: int) -> None:
+        self.animation, self.key = animation, key
+
+    @property
+    def state(self) -> EditState:
+        """The state of the part alone."""
+        state = self.animation.deformation.state
+        return state.shapes[state.keys.index(self.key)] if self.key in state.keys else state
+
+    @property
+    def spans(self) -> tuple[Span, ...]:
+        """As `Animation.spans`, of the part."""
+        with self.animation.deformation.locked():
+            known = self.key in self.animation.deformation.state.keys
+            return self.animation.spans_of(self.key) if known else ()
+
+    def seen(self, time: float) -> tuple[HarmonicMap, Order] | None:
+        """As `Animation.seen`, of the part."""
+        with self.animation.deformation.locked():
+            known = self.key in self.animation.deformation.state.keys
+            return self.animation.seen(time, self.key) if known else None
+
+    def observe(self, observer: Observer) -> Callable[[], None]:
+        """As `Animation.observe`."""
+        return self.animation.observe(observer)
 
 
 def _same_motion(task: EditState, other: EditState | None) -> bool:
     """Whether two states have the same motion and the same solved poses. Names do not matter, nor
     does the part that is played."""
-    if other is None or _whole(task) != _whole(other):
+    if other is None or _whole(task) != _whole(other) or set(task.keys) != set(other.keys):
         return False
-    pairs = zip(task.poses, other.poses, strict=True)
+    shapes = dict(zip(other.keys, other.shapes, strict=True))
+    pairs = [
+        pair
+        for key, shape in zip(task.keys, task.shapes, strict=True)
+        for pair in zip(shape.poses, shapes[key].poses, strict=True)
+    ]
     return all(pose.map is its.map and pose.solution is its.solution for pose, its in pairs)
+
+
+def _all_spans(task: EditState) -> dict[int, tuple[Span, ...]]:
+    """The unproved spans of all parts, by their keys."""
+    return {key: _spans(shape) for key, shape in zip(task.keys, task.shapes, strict=True)}
+
+
+def _told(spans: dict[int, tuple[Span, ...]]) -> dict[int, list[tuple[float, float, str]]]:
+    """What views show of spans."""
+    return {key: [(s.start, s.end, s.status) for s in each] for key, each in spans.items()}
 
 
 def _whole(task: EditState) -> Timeline:
@@ -252,12 +333,11 @@ def motion_of(task: EditState, first: int = 0, last: int | None = None) -> Motio
     return Motion(chosen, times, easing=timeline.easing[first:last])
 
 
-def order_at(state: EditState, time: float) -> Order:
-    """The order of the shape's parts at a time, interpolated between two keyframes."""
-    orders, times = state.orders, state.timeline.closed_times
-    i = max(min(bisect.bisect_right(times, time), len(times) - 1) - 1, 0)
-    first, last = orders[i], orders[(i + 1) % len(orders)]
-    return first.towards(last, (time - times[i]) / (times[i + 1] - times[i]))
+def proved_by_all(time: float, animations: Iterable["Animation | PartAnimation"]) -> float:
+    """The instant that is shown at a time of several motions with the same keyframes: if some are
+    not proved there, the last one before it, in the same interval, that is proved for all."""
+    spans = (s for animation in animations for s in animation.spans if s.start <= time <= s.end)
+    return min([time, *(span.until for span in spans)])
 
 
 def proved_spans(

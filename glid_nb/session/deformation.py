@@ -20,11 +20,12 @@ from glid_nb.geometry import Domain
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging.order import Sheets
 from glid_nb.pose import Pose
-from glid_nb.session import actions, pose_text
+from glid_nb.session import actions, parts, pose_text
 from glid_nb.session.document import NamedPose, Solution
 from glid_nb.session.edit_state import EditError, EditState, Frame, Moment, Task
 from glid_nb.session.live_solver import LiveSolver, solve_edited
 from glid_nb.session.model import History, Undoable
+from glid_nb.session.pin_marks import with_groups
 from glid_nb.session.status_line import StatusLine, describe
 from glid_nb.session.worker import LatestWins, weakly
 from glid_nb.solvers import Options
@@ -170,6 +171,10 @@ class Deformation(Undoable[EditState], AbstractContextManager["Deformation"]):
     bring_forward = _step(actions.bring_forward)
     name_pin = _step(actions.name_pin)
     set_pins = _step(actions.set_pins)
+    mark_pins = _step(actions.mark_pins)
+    group_pins = _step(actions.group_pins)
+    ungroup_pins = _step(actions.ungroup_pins)
+    show_all_pins = _step(actions.show_all_pins)
     turn = _step(actions.turn)
     mirror_pose = _step(pose_text.mirror_pose)
     paste_pose = _step(pose_text.paste_pose)
@@ -191,6 +196,13 @@ class Deformation(Undoable[EditState], AbstractContextManager["Deformation"]):
     set_loop_range = _step(actions.set_loop_range)
     keep_between = _step(actions.keep_between)
     keep_after = _step(actions.keep_after)
+    add_parts = _step(parts.add_parts)
+    select_part = _step(parts.select_part)
+    select_next_part = _step(parts.select_next)
+    show_part = _step(parts.show_part)
+    rename_part = _step(parts.rename_part)
+    move_part = _step(parts.move_part)
+    remove_part = _step(parts.remove_part)
 
     def add_handle(self, point: ArrayLike, to: ArrayLike | None = None) -> int:
         """Add a handle at a point of the undeformed shape. Returns its index."""
@@ -246,7 +258,8 @@ class Deformation(Undoable[EditState], AbstractContextManager["Deformation"]):
             if new is before:
                 return
             self._go_to(self.history.step(new))
-            self.dragged = _still_there(held, before.pose, new.pose)
+            if new.keys[new.part] == before.keys[before.part]:
+                self.dragged = _still_there(held, before.pose, new.pose)
 
     # Dragging: many small moves are one step for undo
 
@@ -337,10 +350,10 @@ class Deformation(Undoable[EditState], AbstractContextManager["Deformation"]):
     # Selection
 
     def select(self, indices: Iterable[int]) -> None:
-        """Select these handles and no others."""
+        """Select these handles, with those of their groups, and no others."""
         with self.locked():
-            count = len(self.pose)
-            chosen = tuple(dict.fromkeys(int(i) for i in indices if 0 <= i < count))
+            marks = self.state.marks
+            chosen = with_groups(marks, (int(i) for i in indices if 0 <= i < len(marks)))
             if chosen != self.selection:
                 self.selection = chosen
                 self.tell("selection")
@@ -380,7 +393,7 @@ class Deformation(Undoable[EditState], AbstractContextManager["Deformation"]):
         return self._wait(timeout)
 
     def solved_state(self, *, only_current: bool = False) -> EditState:
-        """Wait until all poses, or only the edited one, are solved. Returns the state.
+        """Wait until all poses, or only the edited one of each part, are solved. Returns the state.
 
         Raises an EditError that names the unsolved poses and says why: the solver is paused or has
         failed, or the pose's method gives no certified map.
@@ -388,7 +401,8 @@ class Deformation(Undoable[EditState], AbstractContextManager["Deformation"]):
         self.finish()
         with self.locked():
             state = self.state
-            wanted = (state.current,) if only_current else state.poses
+            poses = [pose for shape in state.shapes for pose in shape.poses]
+            wanted = [shape.current for shape in state.shapes] if only_current else poses
             reasons = [reason for pose in wanted if (reason := self.why_unsolved(pose)) is not None]
         if reasons:
             raise EditError("; ".join(reasons))
@@ -398,6 +412,8 @@ class Deformation(Undoable[EditState], AbstractContextManager["Deformation"]):
         """Why a pose is not solved, in words; None if it is solved."""
         with self.locked():
             name, error = f"the pose {pose.name!r}", self._failures.get(pose)
+            if part := next((part for part in self.state.parts if pose in part.poses), None):
+                name += f" of {part.name!r}"
             if not pose.unsolved:
                 return None
             if not pose.method.certified:
@@ -475,7 +491,9 @@ class Deformation(Undoable[EditState], AbstractContextManager["Deformation"]):
             same_method = frame.task.pose.method is new.current.method
             if frame.map is not new.map or (frame.mesh is not None and not same_method):
                 self._frame = None
-        self.selection = _still_there(self.selection, old.pose, new.pose)
+        same_part = new.keys[new.part] == old.keys[old.part]
+        selected = self.selection if same_part else ()
+        self.selection = _still_there(selected, old.pose, new.pose)
         self._submit()
         self._go_on()
         self.tell("state", "frame", "selection", "status")
@@ -547,7 +565,8 @@ class Deformation(Undoable[EditState], AbstractContextManager["Deformation"]):
         if self._paused or self._closed or self.dragged:
             return None
         state = self.state
-        others = (pose for pose in state.poses if pose is not state.current)
+        poses = (pose for shape in state.shapes for pose in shape.poses)
+        others = (pose for pose in poses if pose is not state.current)
         left = (p for p in others if p.unsolved and p.method.certified)
         return next((pose for pose in left if pose not in self._failures), None)
 
@@ -581,8 +600,7 @@ class Deformation(Undoable[EditState], AbstractContextManager["Deformation"]):
         with self.locked():
             state = self.state
             if pose is not state.current and not self._closed:
-                poses = tuple(solved if each is pose else each for each in state.poses)
-                self.history = self.history.amended(replace(state, poses=poses))
+                self.history = self.history.amended(state.with_solved(pose, solved))
                 self.tell("state")
 
 

@@ -17,10 +17,12 @@ from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging import Scribbles, TraceOptions
 from glid_nb.pose import Pose
 from glid_nb.session.look import WHOLE_CAGE, Look
+from glid_nb.session.pin_marks import PinMarks
 from glid_nb.session.timeline import Timeline
 from glid_nb.solvers import Iteration, Method, Newton, Options, Status
 
 _MOST_POSES, _LONGEST_NAME = 1000, 200
+MOST_PARTS = 100  # of a session
 _ASKED = ("pose", "energy", "options", "method")  # the fields that a solve depends on
 
 
@@ -97,6 +99,41 @@ class NamedPose:
 
 
 @dataclass(frozen=True, eq=False)
+class DocumentPart:
+    """One of several shapes of a document. Its fields are as in `Document`.
+
+    Raises a DocumentError that names the wrong field if the fields do not fit together.
+    """
+
+    name: str
+    """1 to 200 characters."""
+    image: NDArray[np.uint8]
+    domain: Domain
+    trace_options: TraceOptions
+    scribbles: Scribbles | None
+    poses: tuple[NamedPose, ...]
+    """One for each keyframe of the document."""
+    visible: bool = True
+    """Whether it is shown on the canvas and in exports."""
+
+    @property
+    def cage(self) -> Cage:
+        """The cage of the domain."""
+        return self.domain.cage
+
+    def __post_init__(self) -> None:
+        if not isinstance(self.name, str) or not 1 <= len(self.name) <= _LONGEST_NAME:
+            wanted = f"the name of a part must have 1 to {_LONGEST_NAME} characters"
+            raise DocumentError(f"{wanted}, not {self.name!r:.60}")
+        if not isinstance(self.visible, bool):
+            raise DocumentError(f"visible must be true or false, not {self.visible!r:.60}")
+        vars(self).update(image=_checked_image(self.image), poses=tuple(self.poses))
+        _check_kind("domain", self.domain, Domain)
+        _check_kind("trace_options", self.trace_options, TraceOptions)
+        _check_shape(self.domain, self.poses, self.trace_options, self.scribbles)
+
+
+@dataclass(frozen=True, eq=False)
 class Document:
     """A picture, its cage and its poses.
 
@@ -121,37 +158,63 @@ class Document:
     """The times of the poses in an animation; by default one second apart."""
     look: Look = WHOLE_CAGE
     """What is drawn of the picture, and what lies behind it."""
+    parts: tuple[DocumentPart, ...] = ()
+    """All shapes of a session with several, the rearmost first. Empty for one shape."""
+    part: int = 0
+    """Index of the edited part. Its image, domain and poses are those of the document."""
+    pins: PinMarks = field(default_factory=PinMarks)
+    """Which pins are locked, hidden or grouped in the editor."""
 
     def __post_init__(self) -> None:
-        image = np.asarray(self.image)
-        if image.dtype != np.uint8 or image.ndim != 3 or image.shape[2] != 4 or not image.size:
-            wanted = "image must be a uint8 array of the shape (h, w, 4)"
-            raise DocumentError(f"{wanted}, not {image.dtype} {image.shape}")
-        image = read_only(image.copy()) if image.flags.writeable else image
-        vars(self).update(image=image, poses=tuple(self.poses))
+        image = _checked_image(self.image)
+        vars(self).update(image=image, poses=tuple(self.poses), parts=tuple(self.parts))
         kinds = {"cage": Cage, "domain": Domain, "trace_options": TraceOptions, "look": Look}
+        kinds |= {"pins": PinMarks}
         kinds |= {} if self.scribbles is None else {"scribbles": Scribbles}
         for key, kind in kinds.items():
             _check_kind(key, getattr(self, key), kind)
         if not self.cage.equals(self.domain.cage):
             raise DocumentError("cage: it is not the cage of the domain")
-        if self.trace_options.scribbles not in (None, self.scribbles):
-            raise DocumentError("trace_options: its scribbles are not those of the document")
-        check_room(self.poses)
-        for i, pose in enumerate(self.poses):
-            _check_kind(f"poses[{i}]", pose, NamedPose)
-            if pose.map.domain is not self.domain:
-                raise DocumentError(f"poses[{i}] ({pose.name!r}): its map is of another domain")
+        _check_shape(self.domain, self.poses, self.trace_options, self.scribbles)
         last = max(len(self.poses) - 1, 0)
         if type(self.active) is not int or not 0 <= self.active <= last:
             raise DocumentError(f"active must be 0 to {last}, not {self.active!r}")
         if self.timeline is not None and len(self.timeline) != (count := len(self.poses)):
             raise DocumentError(f"timeline has {len(self.timeline)} keyframes for {count} poses")
+        if self.parts:
+            self._check_parts()
+
+    def _check_parts(self) -> None:
+        count = len(self.parts)
+        if not 2 <= count <= MOST_PARTS:
+            raise DocumentError(f"parts: there are {count}; 2 to {MOST_PARTS} are allowed")
+        if type(self.part) is not int or not 0 <= self.part < count:
+            raise DocumentError(f"part must be 0 to {count - 1}, not {self.part!r}")
+        for i, part in enumerate(self.parts):
+            _check_kind(f"parts[{i}]", part, DocumentPart)
+            if part.image.shape != self.image.shape:
+                raise DocumentError(f"parts[{i}] ({part.name!r}): its picture has another size")
+            if len(part.poses) != len(self.poses):
+                has = f"it has {len(part.poses)} poses for {len(self.poses)} keyframes"
+                raise DocumentError(f"parts[{i}] ({part.name!r}): {has}")
+        edited = self.parts[self.part]
+        if edited.domain is not self.domain or edited.poses != self.poses:
+            raise DocumentError("part: the edited part is not the document's shape")
+
+    def of_part(self, index: int) -> Self:
+        """A document with one of the parts as its only shape; itself without parts."""
+        if not self.parts:
+            return self
+        part = self.parts[index]
+        shape = {"image": part.image, "cage": part.cage, "domain": part.domain}
+        traced = {"trace_options": part.trace_options, "scribbles": part.scribbles}
+        return replace(self, **shape, **traced, poses=part.poses, parts=(), part=0)
 
     @property
     def unsolved(self) -> tuple[NamedPose, ...]:
         """The poses that are not yet solved on this cage (`NamedPose.unsolved`)."""
-        return tuple(pose for pose in self.poses if pose.unsolved)
+        poses = [pose for part in self.parts for pose in part.poses] or self.poses
+        return tuple(pose for pose in poses if pose.unsolved)
 
     @property
     def active_pose(self) -> NamedPose | None:
@@ -175,6 +238,29 @@ def at_rest(pose: Pose) -> bool:
 def is_identity(map: HarmonicMap) -> bool:
     """Whether the map has exactly the coefficients of ``HarmonicMap.identity``."""
     return not map.psi.any() and np.array_equal(map.phi, HarmonicMap.identity(map.domain).phi)
+
+
+def _checked_image(image: Any) -> NDArray[np.uint8]:
+    image = np.asarray(image)
+    if image.dtype != np.uint8 or image.ndim != 3 or image.shape[2] != 4 or not image.size:
+        wanted = "image must be a uint8 array of the shape (h, w, 4)"
+        raise DocumentError(f"{wanted}, not {image.dtype} {image.shape}")
+    return read_only(image.copy()) if image.flags.writeable else image
+
+
+def _check_shape(
+    domain: Domain,
+    poses: tuple[NamedPose, ...],
+    options: TraceOptions,
+    scribbles: Scribbles | None,
+) -> None:
+    if options.scribbles not in (None, scribbles):
+        raise DocumentError("trace_options: its scribbles are not those of the document")
+    check_room(poses)
+    for i, pose in enumerate(poses):
+        _check_kind(f"poses[{i}]", pose, NamedPose)
+        if pose.map.domain is not domain:
+            raise DocumentError(f"poses[{i}] ({pose.name!r}): its map is of another domain")
 
 
 def _check_kind(name: str, value: object, kind: type) -> None:

@@ -4,6 +4,7 @@ import dataclasses
 import io
 import json
 import math
+import re
 import weakref
 import zipfile
 from collections.abc import Mapping
@@ -27,14 +28,17 @@ from glid_nb.imaging.read import MAX_SIDE, picture_format, png
 from glid_nb.pose import Pose
 from glid_nb.session.document import (
     AS_SEEN,
+    MOST_PARTS,
     Document,
     DocumentError,
+    DocumentPart,
     NamedPose,
     at_rest,
     check_room,
     is_identity,
 )
 from glid_nb.session.look import WHOLE_CAGE, Look
+from glid_nb.session.pin_marks import PinMarks
 from glid_nb.session.timeline import Timeline
 from glid_nb.solvers import Newton, Options
 
@@ -49,6 +53,7 @@ _MASKS = {key: f"scribbles-{key}.png" for key in ("foreground", "background")}
 # noise is a little larger.
 _MOST_BYTES = {_JSON: 64 << 20, _IMAGE: 5 * MAX_SIDE**2}
 _MOST_BYTES |= dict.fromkeys(_MASKS.values(), MAX_SIDE**2)
+_MOST_TOGETHER = sum(_MOST_BYTES.values())  # all members, also those of several parts
 _DIRECTORY_BYTES = 64 * 1024  # room for the zip directory of a few members
 _KEYS = {
     **_json.keys("format", "version", "image_size_px", "domain", "active"),
@@ -70,7 +75,10 @@ _MOST_ITERATIONS = 200  # older files have this for max_iterations=None, the met
 _RELATIVE_WEIGHT = (
     5  # since this version p2p_weight is relative to the cage's unit, not the world's
 )
+_PARTS = 7  # since this version a session may have several parts
+_OF_PARTS = re.compile(r"(image|scribbles-foreground|scribbles-background)-\d{1,3}\.png")
 _LOOK = 6  # since this version a picture may be drawn otherwise than as all inside its cage
+_PINS = 7  # since this version pins may be locked, hidden or grouped
 _MASK = "mask"  # written instead of strokes; another member holds the pixels
 _NEVER = "never"  # stands for TraceOptions.max_edge == inf, which JSON cannot express
 
@@ -90,27 +98,72 @@ def document_bytes(document: Document) -> bytes:
     """
     timeline = {} if document.timeline is None else {"timeline": vars(document.timeline)}
     look = {} if document.look == WHOLE_CAGE else {"look": vars(document.look)}
-    scribbles, masks = _scribbles_to_members(document.scribbles)
+    shape, masks = _shape_to_dict(document)
+    parts, members = _parts_to_members(document)
+    shapes = document.parts or (document,)
+    handles = (pose.pose.handles for each in shapes for pose in each.poses)
+    marks = document.pins.only(handles)
+    pins = {"pins": marks.to_list()} if marks else {}
     height, width = document.image.shape[:2]
-    given = document.trace_options
-    options = {**vars(given), "scribbles": given.scribbles is not None}
-    options |= {"max_edge": _NEVER} if given.max_edge == math.inf else {}
-    poses = [_pose_to_dict(i, pose) for i, pose in enumerate(document.poses)]
     data = {
         "format": FORMAT,
         "version": FORMAT_VERSION,
         "image_size_px": [width, height],
-        "domain": document.domain.to_dict(),
-        "trace_options": options,
-        "scribbles": scribbles,
-        "poses": poses,
+        **shape,
         "active": document.active,
         **timeline,
         **look,
+        **parts,
+        **pins,
     }
     text = json.dumps(data, allow_nan=False, default=np.generic.item).encode("utf-8")
-    pixels = {_IMAGE: _image_png(document.image), **masks}
+    pixels = {_IMAGE: _image_png(document.image), **masks, **members}
     return zipped({_JSON: text, **pixels}, stored=pixels)
+
+
+def _shape_to_dict(
+    shape: Document | DocumentPart, number: int | None = None
+) -> tuple[dict[str, Any], dict[str, bytes]]:
+    """Domain, options, scribbles and poses of a shape, and the members with its masks. The members
+    of a part that is not edited have its number in their names."""
+    scribbles, masks = _scribbles_to_members(shape.scribbles)
+    given = shape.trace_options
+    options = {**vars(given), "scribbles": given.scribbles is not None}
+    options |= {"max_edge": _NEVER} if given.max_edge == math.inf else {}
+    data = {
+        "domain": shape.domain.to_dict(),
+        "trace_options": options,
+        "scribbles": scribbles,
+        "poses": [_pose_to_dict(i, pose) for i, pose in enumerate(shape.poses)],
+    }
+    return data, {_numbered(name, number): mask for name, mask in masks.items()}
+
+
+def _parts_to_members(document: Document) -> tuple[dict[str, Any], dict[str, bytes]]:
+    """All parts, of which the document's other keys hold the edited one, and their members."""
+    if not document.parts:
+        return {}, {}
+    parts: list[dict[str, Any]] = []
+    members: dict[str, bytes] = {}
+    names = [(document.image, _IMAGE)]  # of the pictures so far; parts may share one
+    for number, part in enumerate(document.parts):
+        entry: dict[str, Any] = {"name": part.name, "visible": part.visible}
+        if number != document.part:
+            with about(f"parts[{number}] ({part.name!r})", DocumentError):
+                shape, masks = _shape_to_dict(part, number)
+            member = next((name for image, name in names if image is part.image), None)
+            if member is None:
+                member = _numbered(_IMAGE, number)
+                names.append((part.image, member))
+                members[member] = png(part.image, compress_level=1)
+            entry |= {"image": member, **shape}
+            members |= masks
+        parts.append(entry)
+    return {"parts": parts, "part": document.part}, members
+
+
+def _numbered(name: str, number: int | None) -> str:
+    return name if number is None else name.replace(".png", f"-{number}.png")
 
 
 def load_document(path: str | Path) -> Document:
@@ -130,32 +183,95 @@ def load_document(path: str | Path) -> Document:
             optional["timeline"] = _json.check_object
         if version >= _LOOK:
             optional["look"] = _json.check_object
+        if version >= _PARTS:
+            optional |= {"parts": _json.check_list, **_json.keys("part")}
+        if version >= _PINS:
+            optional["pins"] = _json.check_list
         _json.check_fields(data, _JSON, _KEYS, optional)
         size = _json.picture_size(data["image_size_px"], "image_size_px")
         if max(size) > MAX_SIDE:
             raise DocumentError(f"image_size_px is {size[0]} x {size[1]}; {MAX_SIDE} is the most")
         image = _read_png(members[_IMAGE], size, "RGBA", _IMAGE)
-        scribbles = _scribbles_from_members(data.get("scribbles"), members, size)
-        domain = _domain_from_dict(data["domain"])
-        options = _trace_options_from_dict(data["trace_options"], scribbles)
-        check_room(data["poses"])
-        poses = [_pose_from_dict(i, pose, domain, version) for i, pose in enumerate(data["poses"])]
+        domain, options, scribbles, poses = _shape_from_dict(data, members, size, version)
         given = data.get("timeline")
         timeline = None if given is None else _from_fields(Timeline, given, "timeline")
         look = _from_fields(Look, data["look"], "look") if "look" in data else WHOLE_CAGE
-        posed = tuple(poses), data["active"], timeline, look
-        return Document(image, domain.cage, domain, options, scribbles, *posed)
+        marks = PinMarks.from_list(data.get("pins") or [], "pins")
+        posed = poses, data["active"], timeline, look
+        document = Document(image, domain.cage, domain, options, scribbles, *posed, pins=marks)
+        if "parts" not in data:
+            return document
+        return _with_parts(document, data, members, version)
+
+
+def _shape_from_dict(
+    data: Any,
+    members: Mapping[str, bytes],
+    size: tuple[int, int],
+    version: int,
+    number: int | None = None,
+) -> tuple[Domain, TraceOptions, Scribbles | None, tuple[NamedPose, ...]]:
+    scribbles = _scribbles_from_members(data.get("scribbles"), members, size, number)
+    domain = _domain_from_dict(data["domain"])
+    options = _trace_options_from_dict(data["trace_options"], scribbles)
+    check_room(data["poses"])
+    poses = (_pose_from_dict(i, pose, domain, version) for i, pose in enumerate(data["poses"]))
+    return domain, options, scribbles, tuple(poses)
+
+
+def _with_parts(
+    document: Document, data: Any, members: Mapping[str, bytes], version: int
+) -> Document:
+    """The document with the parts of its file."""
+    if len(data["parts"]) > MOST_PARTS:
+        raise DocumentError(f"parts: there are {len(data['parts'])}; {MOST_PARTS} are allowed")
+    part = data.get("part")
+    if type(part) is not int or not 0 <= part < len(data["parts"]):
+        last = len(data["parts"]) - 1
+        raise DocumentError(f"part must be 0 to {last}, not {part!r:.60}")
+    shown = {"name": _json.check_text}
+    posed = {key: _KEYS[key] for key in ("domain", "trace_options", "poses")}
+    size = document.image.shape[1], document.image.shape[0]
+    images = {_IMAGE: document.image}
+    parts = []
+    for i, entry in enumerate(data["parts"]):
+        with about(where := f"parts[{i}]", DocumentError):
+            if i == part:
+                _json.check_fields(entry, where, shown, _json.keys("visible"))
+                names = "image", "domain", "trace_options", "scribbles", "poses"
+                shape = {name: getattr(document, name) for name in names}
+            else:
+                needed = {**shown, "image": _json.check_text, **posed}
+                optional = {"scribbles": _json.check_object, **_json.keys("visible")}
+                _json.check_fields(entry, where, needed, optional)
+                if (member := entry["image"]) not in images:
+                    if member not in members:
+                        raise InputFileError(f"{member!r:.80} is missing")
+                    images[member] = _read_png(members[member], size, "RGBA", member)
+                domain, options, scribbles, poses = _shape_from_dict(
+                    entry, members, size, version, i
+                )
+                shape = {"image": images[member], "domain": domain, "trace_options": options}
+                shape |= {"scribbles": scribbles, "poses": poses}
+            visible = entry.get("visible", True)
+            parts.append(DocumentPart(entry["name"], **shape, visible=visible))
+    return dataclasses.replace(document, parts=tuple(parts), part=part)
 
 
 def _read_archive(path: str | Path) -> dict[str, bytes]:
-    data = read_file(path, most=sum(_MOST_BYTES.values()) + _DIRECTORY_BYTES)
+    data = read_file(path, most=_MOST_TOGETHER + _DIRECTORY_BYTES)
     members: dict[str, bytes] = {}
+    together = 0
     try:
         with zipfile.ZipFile(io.BytesIO(data)) as archive:
             for info in archive.infolist():
                 _check_member(info)
                 if info.filename in members:
                     raise InputFileError(f"it holds {info.filename} twice")
+                together += info.file_size
+                if together > _MOST_TOGETHER:
+                    what = f"its members unpack to more than {_MOST_TOGETHER:,} bytes"
+                    raise InputFileError(f"{what}, which are allowed together")
                 members[info.filename] = archive.read(info)
     except InputFileError:
         raise
@@ -172,14 +288,15 @@ def _read_archive(path: str | Path) -> dict[str, bytes]:
 
 def _check_member(info: zipfile.ZipInfo) -> None:
     name, size = info.filename, info.file_size
-    if name not in _MOST_BYTES:
+    kind = re.sub(r"-\d+\.png$", ".png", name) if _OF_PARTS.fullmatch(name) else name
+    if kind not in _MOST_BYTES:
         wanted = f"expected only {', '.join(_MOST_BYTES)}"
         raise InputFileError(f"it holds {name!r:.80}, which does not belong there; {wanted}")
     if info.compress_type not in (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED):
         raise InputFileError(f"{name} is compressed by a method that sessions do not use")
     # zipfile stops at this size, whatever the compressed data contain.
-    if size > _MOST_BYTES[name]:
-        raise InputFileError(f"{name} unpacks to {size:,} bytes; {_MOST_BYTES[name]:,} are allowed")
+    if size > _MOST_BYTES[kind]:
+        raise InputFileError(f"{name} unpacks to {size:,} bytes; {_MOST_BYTES[kind]:,} are allowed")
 
 
 def _image_png(image: NDArray[np.uint8]) -> bytes:
@@ -319,13 +436,14 @@ def _scribbles_to_members(scribbles: Scribbles | None) -> tuple[Any, dict[str, b
 
 
 def _scribbles_from_members(
-    data: Any, members: Mapping[str, bytes], size: tuple[int, int]
+    data: Any, members: Mapping[str, bytes], size: tuple[int, int], number: int | None = None
 ) -> Scribbles | None:
     if data is None:
         return None
     _json.check_fields(data, "scribbles", _json.keys(*_MASKS))
     values: dict[str, Any] = {}
-    for key, member in _MASKS.items():
+    for key, name in _MASKS.items():
+        member = _numbered(name, number)
         values[key] = data[key]
         if data[key] != _MASK:
             _json.check_loops(data[key], f"scribbles.{key}", each="stroke")

@@ -4,6 +4,9 @@ import functools
 from dataclasses import dataclass, field, replace
 from typing import Any, Self
 
+import numpy as np
+from numpy.typing import NDArray
+
 from glid_nb._errors import InputError
 from glid_nb.certificate import Certificate
 from glid_nb.energies import Energy, SymmetricDirichlet
@@ -12,6 +15,7 @@ from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging.order import Order, order_of
 from glid_nb.pose import DeformationMap, Pose
 from glid_nb.session.document import NamedPose, Solution
+from glid_nb.session.pin_marks import PinMark, PinMarks
 from glid_nb.session.timeline import Timeline
 from glid_nb.solvers import Iteration, Options
 
@@ -24,8 +28,24 @@ class EditError(InputError):
 
 
 @dataclass(frozen=True, eq=False)
+class Part:
+    """One of several shapes of a session: a picture, the domain of its shape, and its poses."""
+
+    key: int  # names the part in all states of a session, whatever its place in the order
+    name: str
+    image: NDArray[np.uint8]  # (h, w, 4); the pictures of all parts have the same size
+    domain: Domain
+    poses: tuple[NamedPose, ...]  # one for each keyframe
+    visible: bool = True
+
+
+@dataclass(frozen=True, eq=False)
 class EditState:
-    """Everything that undo restores: the domain and all poses, one of which is edited."""
+    """Everything that undo restores: the domain and all poses, one of which is edited.
+
+    A session may have several shapes, its parts. All have the same keyframes. Domain and poses of
+    the state are those of one of them, the edited part.
+    """
 
     domain: Domain
     poses: tuple[NamedPose, ...]
@@ -33,10 +53,20 @@ class EditState:
     active: int = 0  # index of the edited pose
     timeline: Timeline = field(default_factory=Timeline)
     """The times of the poses. Each pose is a keyframe, and they are sorted by time."""
+    parts: tuple[Part, ...] = ()
+    """The parts, the rearmost first; empty in a session with one shape."""
+    part: int = 0  # index of the edited part
+    pins: PinMarks = field(default_factory=PinMarks)
+    """Which pins are locked, hidden or grouped, in all poses."""
 
     def __post_init__(self) -> None:
         assert len(self.timeline) == len(self.poses)
         assert all(pose.map.domain is self.domain for pose in self.poses)
+        if self.parts:  # the edited part follows the state
+            edited = replace(self.parts[self.part], domain=self.domain, poses=self.poses)
+            before, after = self.parts[: self.part], self.parts[self.part + 1 :]
+            vars(self)["parts"] = (*before, edited, *after)
+            assert all(len(part.poses) == len(self.poses) for part in self.parts)
 
     @classmethod
     def initial(
@@ -68,6 +98,11 @@ class EditState:
         """Handles and targets of the edited pose."""
         return self.current.pose
 
+    @functools.cached_property
+    def marks(self) -> tuple[PinMark, ...]:
+        """The marks of the edited pose's handles."""
+        return self.pins.of(self.pose.handles)
+
     @property
     def order(self) -> Order:
         """The order in which parts of the shape cover each other, by the handles' depths."""
@@ -81,6 +116,37 @@ class EditState:
     @functools.cached_property
     def identity(self) -> HarmonicMap:
         return HarmonicMap.identity(self.domain)
+
+    @property
+    def edited_part(self) -> Part | None:
+        """The edited part; None in a session with one shape."""
+        return self.parts[self.part] if self.parts else None
+
+    @property
+    def shapes(self) -> tuple[Self, ...]:
+        """A state without other parts for each part, in their order; without parts itself."""
+        return self._shapes if self.parts else (self,)
+
+    @functools.cached_property
+    def _shapes(self) -> tuple[Self, ...]:
+        return tuple(
+            replace(self, domain=part.domain, poses=part.poses, parts=(), part=0)
+            for part in self.parts
+        )
+
+    @property
+    def keys(self) -> tuple[int, ...]:
+        """The keys of the parts, in the order of `shapes`; 0 is that of the only shape."""
+        return tuple(part.key for part in self.parts) or (0,)
+
+    def with_solved(self, pose: NamedPose, solved: NamedPose) -> Self:
+        """A copy where ``solved`` replaces a pose, of whichever part."""
+
+        def swapped(poses: tuple[NamedPose, ...]) -> tuple[NamedPose, ...]:
+            return tuple(solved if each is pose else each for each in poses)
+
+        parts = tuple(replace(part, poses=swapped(part.poses)) for part in self.parts)
+        return replace(self, poses=swapped(self.poses), parts=parts)
 
     def changed(self, **changes: Any) -> Self:
         """A copy where the edited pose has another pose, energy, options, map or method."""

@@ -3,7 +3,8 @@
 import functools
 import warnings
 import weakref
-from dataclasses import dataclass, replace
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -11,15 +12,18 @@ from glid_nb import samples
 from glid_nb._arrays import Array
 from glid_nb._files import portable_name
 from glid_nb.geometry import Domain
+from glid_nb.imaging import TraceError
+from glid_nb.imaging.backdrop import Backdrop
 from glid_nb.imaging.read import ImageSource
 from glid_nb.session import autosave
 from glid_nb.session.autosave import OwnFiles
 from glid_nb.session.deformation import Deformation
-from glid_nb.session.document import Document, DocumentError
+from glid_nb.session.document import Document, DocumentError, DocumentPart
 from glid_nb.session.document_file import load_document, save_document
-from glid_nb.session.edit_state import EditError, EditState
-from glid_nb.session.look import Layers, Look
+from glid_nb.session.edit_state import EditError, EditState, Part
+from glid_nb.session.look import Layers, Look, background_behind
 from glid_nb.session.model import History, Observed
+from glid_nb.session.parts import FIRST_KEY, NewPart, add_parts
 from glid_nb.session.timeline import Timeline
 from glid_nb.session.tracing import TracingModel, TracingState
 from glid_nb.session.worker import weakly
@@ -52,11 +56,24 @@ class _Session:
     domain: Domain | None
     deformation: Deformation
     path: Path | None = None  # its file, if undo or redo of the tracing may bring the session back
+    part: int = FIRST_KEY  # the key of the edited part, which the tracing shows
+    traces: dict[int, History[TracingState]] = field(default_factory=dict)  # of the other parts
 
     @property
     def image(self) -> Array:
         assert self.tracing.image is not None
         return self.tracing.image
+
+
+@dataclass(frozen=True, eq=False)
+class Shape:
+    """One shape of a session as it is drawn and exported."""
+
+    key: int
+    name: str  # empty in a session with one shape
+    state: EditState  # without other parts
+    layers: Layers
+    visible: bool = True
 
 
 def open_document(path: str | Path) -> Document:
@@ -84,6 +101,7 @@ class EditorModel(Observed):
 
     The model begins with a picture, with a document, or without either. Changes are saved to the
     file ``path``. If another program has changed this file, they go to a new file beside it.
+    ``parts`` are pictures by the names of the parts, the rearmost first, instead of one picture.
     Without a path, work is saved in the user's data folder (`session.autosave.kept_files`), and the
     next model of the same picture offers it.
     """
@@ -95,6 +113,7 @@ class EditorModel(Observed):
         document: Document | None = None,
         path: str | Path | None = None,
         look: Look | None = None,
+        parts: Mapping[str, ImageSource] | None = None,
     ) -> None:
         if path is not None:
             _check_place(Path(path))
@@ -117,12 +136,15 @@ class EditorModel(Observed):
         """The file with the work of an earlier editor of this picture without a session file."""
         self._saved_work: tuple[Any, ...] = ()
         self._look = look or Look()
-        self._layers: Layers | None = None
+        self._layers: dict[Domain, Layers] = {}  # of the present shapes
+        self._behind: tuple[tuple[Layers, ...], Backdrop] | None = None  # what lies behind them
         with self.locked():
             if document is None:
                 self.tracing = TracingModel(image)
                 """The open picture and its cage."""
-                if not self.tracing.doubt:
+                if parts:
+                    self._open_parts(parts)
+                elif not self.tracing.doubt:
                     self.apply_tracing()
             else:
                 self._take(document)
@@ -169,14 +191,20 @@ class EditorModel(Observed):
         """Whether poses with handles, of any picture, are not saved in a session file."""
         if self._session is None or self._named_path is not None:
             return False
-        states = (one.deformation.state for one in (self._session, *self._shelf))
-        posed = (state for state in states if any(len(pose.pose) for pose in state.poses))
+        states = [one.deformation.state for one in (self._session, *self._shelf)]
+        posed = (state for state in states if state.parts or _has_handles(state))
         return any(_work_of(state) != self._saved_work for state in posed)
 
     @property
     def image(self) -> Array | None:
         """The deformed picture. The tracing may have another one that is not applied yet."""
         return None if self._session is None else self._session.image
+
+    @property
+    def _first_image(self) -> Array:
+        """The picture that names kept work, whichever part is edited."""
+        document, parts = self.document, self.deformation.state.parts
+        return next((part.image for part in parts if part.key == FIRST_KEY), document.image)
 
     @property
     def look(self) -> Look:
@@ -197,17 +225,64 @@ class EditorModel(Observed):
     def layers(self) -> Layers:
         """What is drawn of the picture on the present cage, and what lies behind it."""
         with self.locked():
-            domain, session = self.deformation.state.domain, self._session
-            assert session is not None
-            known, look = self._layers, self._look
-            if known is None or known.cage is not domain.cage:
-                state = self._sources.get(domain, session.tracing)
-                tracing = self.tracing.outcome_of(state).tracing
-                known = Layers(session.image, tracing, domain.cage, look)
-            elif known.look != look:
-                known = known.seen_as(look)
-            self._layers = known
-            return known
+            state = self.deformation.state
+            return self._layers_of(state, state.domain, state.edited_part)
+
+    @property
+    def shapes(self) -> tuple[Shape, ...]:
+        """All shapes, the rearmost first: the parts of the session, or the only one."""
+        with self.locked():
+            state = self.deformation.state
+            if not state.parts:
+                return (Shape(FIRST_KEY, "", state, self.layers),)
+            return tuple(
+                Shape(
+                    part.key,
+                    part.name,
+                    shape,
+                    self._layers_of(state, part.domain, part),
+                    part.visible,
+                )
+                for part, shape in zip(state.parts, state.shapes, strict=True)
+            )
+
+    @property
+    def background(self) -> Backdrop:
+        """What lies behind all shapes."""
+        if len(shapes := self.shapes) == 1:
+            return shapes[0].layers.background
+        layers = tuple(shape.layers for shape in shapes)
+        known = self._behind
+        if known is None or known[0] != layers:  # the layers are compared by identity
+            known = self._behind = layers, background_behind(layers)
+        return known[1]
+
+    def _layers_of(self, state: EditState, domain: Domain, part: Part | None) -> Layers:
+        session, look = self._session, self._look
+        assert session is not None
+        known = self._layers.get(domain)
+        if known is None or known.cage is not domain.cage:
+            source = self._source_of(session, domain, part)
+            tracing = None if source is None else self.tracing.outcome_of(source).tracing
+            image = session.image if part is None else part.image
+            known = Layers(image, tracing, domain.cage, look)
+        elif known.look != look:
+            known = known.seen_as(look)
+        present = {shape.domain for shape in state.shapes}
+        self._layers = {d: layers for d, layers in self._layers.items() if d in present}
+        self._layers[domain] = known
+        return known
+
+    def _source_of(
+        self, session: _Session, domain: Domain, part: Part | None
+    ) -> TracingState | None:
+        """The tracing of a domain, which may be that of a part that is not edited."""
+        if (source := self._sources.get(domain)) is not None:
+            return source
+        if part is None or part.key == session.part:
+            return session.tracing
+        history = session.traces.get(part.key)
+        return None if history is None else history.present
 
     @property
     def name(self) -> str:
@@ -225,6 +300,7 @@ class EditorModel(Observed):
         back. Returns a text about effects that the user may not expect; empty if there are none.
         """
         with self.locked():
+            self.tracing.accept_guess()
             domain, session, words = self.tracing.domain, self._session, ""
             if domain is None or (session and session.domain is domain):
                 pass
@@ -241,6 +317,61 @@ class EditorModel(Observed):
                 words = _REPLACED.format(place=place, step=step)
                 self._change_picture(domain)
             return _NOT_VALID if self.tracing.problems else words
+
+    def keep_pieces(self, pieces: Iterable[TracingState]) -> int:
+        """Apply the tracing, and add the pieces that other states trace as parts in front.
+
+        Pieces that are parts already are left out. It is one step for undo if the tracing was
+        applied before. Returns how many parts were added. Raises an EditError if there are none.
+        """
+        with self.locked():
+            self.apply_tracing()
+            new, image = [], self._session.image if self._session is not None else None
+            parts = self.deformation.state.parts
+            count = len(parts) or 1
+            for source in pieces:
+                domain = self.tracing.outcome_of(source).domain
+                if domain is None or any(p.domain.cage.equals(domain.cage) for p in parts):
+                    continue
+                if source.image is not None:
+                    self._sources[domain] = replace(source, fallback=domain)
+                    new.append(NewPart(f"Part {count + len(new) + 1}", source.image, domain))
+            if not new:
+                raise EditError("there is no other piece to keep; cut the shape apart first")
+            self.deformation.add_parts(new, "Part 1", image)
+            return len(new)
+
+    def add_picture(self, name: str, image: ImageSource) -> None:
+        """Add the shape of another picture of the same size as a part in front.
+
+        Raises a TraceError for a picture that cannot be read, an EditError for another size.
+        """
+        with self.locked():
+            deformation, session = self.deformation, self._session
+            assert session is not None
+            new = self._traced_part(name, TracingModel(image))
+            deformation.add_parts([new], name=self.name, image=session.image)
+
+    def _traced_part(self, name: str, model: TracingModel) -> NewPart:
+        """The traced shape of a picture. If that would be a guess, as of a background, it is the
+        whole picture."""
+        if model.domain is None or model.doubt:
+            model.draw()
+        domain, image = model.domain, model.image
+        if domain is None or image is None:
+            raise TraceError(f"the part {name!r} has no shape")
+        self._sources[domain] = replace(model.state, fallback=domain)
+        return NewPart(name, image, domain)
+
+    def _open_parts(self, images: Mapping[str, ImageSource]) -> None:
+        """Begin with a part for each picture. The rearmost is edited."""
+        traced = {name: TracingModel(image) for name, image in images.items()}
+        every = [self._traced_part(name, model) for name, model in traced.items()]
+        first, self.tracing = next(iter(traced.items()))
+        self.apply_tracing()
+        new = every[1:]
+        deformation, image = self.deformation, self.tracing.image
+        deformation.history = History(add_parts(deformation.state, new, first, image))
 
     @property
     def document(self) -> Document:
@@ -260,7 +391,21 @@ class EditorModel(Observed):
             active=state.active,
             timeline=state.timeline,
             look=self._look,
+            pins=state.pins,
+            **self._parts_of(session, state),
         )
+
+    def _parts_of(self, session: _Session, state: EditState) -> dict[str, Any]:
+        """The document's parts; a session with one part is saved as its only shape."""
+        if len(state.parts) < 2:
+            return {}
+        parts = []
+        for part in state.parts:
+            traced = self._source_of(session, part.domain, part) or TracingState(part.image)
+            strokes = traced.scribbles or traced.options.scribbles
+            shape = part.name, part.image, part.domain, traced.options, strokes
+            parts.append(DocumentPart(*shape, part.poses, part.visible))
+        return {"parts": tuple(parts), "part": state.part}
 
     def save(self, path: str | Path) -> None:
         """Write the document to a file. If that fails, the old file stays.
@@ -299,7 +444,7 @@ class EditorModel(Observed):
         with self.locked():
             if self.saving is None and self.unsaved:
                 try:
-                    self._keep_in(autosave.new_kept_file(self.document.image))
+                    self._keep_in(autosave.new_kept_file(self._first_image))
                 except OSError as error:
                     self.not_kept(error)
             if self.saving is not None and self.has_shape:
@@ -346,7 +491,7 @@ class EditorModel(Observed):
 
     def _keep_in(self, path: Path, own: OwnFiles | None = None) -> None:
         """Save to a file from now on. A kept file is replaced by another one if saving fails."""
-        image, done = self.document.image if own is None else None, weakly(self._saved)
+        image, done = self._first_image if own is None else None, weakly(self._saved)
         elsewhere = None if image is None else functools.partial(autosave.new_kept_file, image)
         known: Any = {"on_done": done, "own": own, "owner": self, "elsewhere": elsewhere}
         self.saving = autosave.Autosave(path, **known)
@@ -359,10 +504,13 @@ class EditorModel(Observed):
         return path
 
     def _session_of(self, deformation: Deformation) -> _Session:
-        domain, state = self.tracing.domain, self.tracing.state
+        domain, state, before = self.tracing.domain, self.tracing.state, self._session
         if domain is not None:
             self._sources[domain] = state
-        return _Session(state, domain, deformation)
+        if before is not None and before.deformation is deformation:
+            return replace(before, tracing=state, domain=domain)
+        edited = deformation.state
+        return _Session(state, domain, deformation, part=edited.keys[edited.part])
 
     def _change_picture(self, domain: Domain) -> None:
         session = next((s for s in self._shelf if s.image is self.tracing.image), None)
@@ -378,6 +526,8 @@ class EditorModel(Observed):
             self._save_to(session.path)
         deformation = Deformation.from_history(session.deformation.history)
         self._replace(deformation)
+        if self._session is not None:
+            self._session = replace(self._session, traces=session.traces)
         if session.domain is not domain:
             _apply(deformation, domain)
 
@@ -399,9 +549,21 @@ class EditorModel(Observed):
         state = EditState.initial(domain)
         if poses := document.poses:
             timeline = document.timeline or Timeline.even(len(poses))
-            state = EditState(domain, poses, document.active, timeline)
+            state = EditState(domain, poses, document.active, timeline, pins=document.pins)
+        if document.parts:
+            state = replace(state, parts=self._read_parts(document, name), part=document.part)
         self._shelf.clear()
         self._replace(Deformation.from_history(History(state)))
+
+    def _read_parts(self, document: Document, name: str) -> tuple[Part, ...]:
+        parts = []
+        for key, part in enumerate(document.parts):
+            if key != document.part:
+                traced = TracingModel.from_document(part, name).state
+                self._sources[part.domain] = replace(traced, fallback=part.domain)
+            shape = part.image, part.domain, part.poses, part.visible
+            parts.append(Part(key, part.name, *shape))
+        return tuple(parts)
 
     def _replace(self, deformation: Deformation) -> None:
         self._end_keeping()
@@ -416,12 +578,35 @@ class EditorModel(Observed):
             session = self._session
             if session is None or session.deformation is not deformation:
                 return
-            if what == "state" and session.domain is not deformation.state.domain:
-                self._follow(session, deformation.state.domain)
+            if what == "state":
+                state = deformation.state
+                if state.keys[state.part] != session.part:
+                    session = self._follow_part(session, state)
+                if session.domain is not state.domain:
+                    self._follow(session, state.domain)
         if deformation.dragged:
             return
         if what == "state" or (what == "frame" and deformation.moment.solved):
             self.autosave()
+
+    def _follow_part(self, session: _Session, state: EditState) -> _Session:
+        """Show the tracing of the part that is edited now."""
+        tracing, part = self.tracing, state.edited_part
+        if tracing.image is session.image:
+            session.traces[session.part] = tracing.history
+        key = state.keys[state.part]
+        history = session.traces.get(key)
+        if history is None:
+            source = self._sources.get(state.domain)
+            if source is None:
+                image = session.image if part is None else part.image
+                loops = state.domain.cage.loops
+                source = TracingState(image, loops=loops, fallback=state.domain)
+            history = History(source)
+        tracing.show(history.ended())
+        new = replace(session, tracing=tracing.state, domain=tracing.domain, part=key)
+        self._session = new
+        return new
 
     def _follow(self, session: _Session, domain: Domain) -> None:
         tracing = self.tracing
@@ -453,8 +638,14 @@ def _apply(deformation: Deformation, domain: Domain) -> str:
 
 
 def _work_of(state: EditState) -> tuple[Any, ...]:
-    poses = ((p.name, p.pose, p.energy, p.options, p.method) for p in state.poses)
-    return (state.timeline, *poses)
+    every = (pose for shape in state.shapes for pose in shape.poses)
+    poses = ((p.name, p.pose, p.energy, p.options, p.method) for p in every)
+    parts = ((part.key, part.name, part.visible) for part in state.parts)
+    return (state.timeline, state.pins, *parts, *poses)
+
+
+def _has_handles(state: EditState) -> bool:
+    return any(len(pose.pose) for shape in state.shapes for pose in shape.poses)
 
 
 def _check_place(path: Path) -> None:

@@ -1,6 +1,7 @@
 """What is drawn of a picture: all inside its cage, or the shape cut out, and what lies behind."""
 
 import functools
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Any, Literal
 
@@ -83,7 +84,25 @@ class Layers:
             return behind
         if not self.opaque:
             return None  # nothing of the background is known
-        hole = filled_loops(self.cage, PixelFrame(*self.picture.shape[1::-1]))
+        return filled(self.picture, self.hole)
+
+    @property
+    def hole(self) -> NDArray[np.bool_]:
+        """(h, w) where the shape is taken out of its picture."""
         if self.look.cut_out and self.tracing is not None:
-            hole = self.image[..., 3] > 0
-        return filled(self.picture, hole)
+            return self.image[..., 3] > 0
+        return filled_loops(self.cage, PixelFrame(*self.picture.shape[1::-1]))
+
+
+def background_behind(layers: Sequence[Layers]) -> Backdrop:
+    """What lies behind several shapes of one look.
+
+    The look "filled" fills their common picture in; without a common one, or if it is transparent,
+    nothing is known of the background.
+    """
+    picture, behind = layers[0].picture, layers[0].look.background
+    if behind != FILLED:
+        return behind
+    if not layers[0].opaque or any(one.picture is not picture for one in layers):
+        return None
+    return filled(picture, np.logical_or.reduce([one.hole for one in layers]))

@@ -19,7 +19,7 @@ from glid_nb.imaging.options import Point
 from glid_nb.imaging.read import ImageSource, as_rgba8, read_image
 from glid_nb.imaging.trace import with_changes
 from glid_nb.session import loop_edits
-from glid_nb.session.document import Document
+from glid_nb.session.document import Document, DocumentPart
 from glid_nb.session.look import Layers
 from glid_nb.session.loop_edits import AnyLoops
 from glid_nb.session.model import History, Undoable
@@ -27,6 +27,7 @@ from glid_nb.session.worker import weakly
 
 Brush = Literal["foreground", "background"]
 
+_SPECK = 0.005  # a smaller share of the traced component's area is no piece to keep
 _KEPT_OUTCOMES = 12  # each holds a mask of the picture's size
 
 
@@ -53,6 +54,7 @@ class TracingState:
     fallback: Domain | None = None
     """The last valid domain before this state. It is used if this state's loops are not valid."""
     name: str = ""  # the stem of the picture's file name; empty if the picture came from no file
+    accepts_guess: bool = False  # whether an outline that is only a guess is the outline
 
     def __post_init__(self) -> None:
         used = self.options.method == "scribbles"
@@ -100,17 +102,17 @@ class TracingModel(Undoable[TracingState]):
         self._outcome_of = functools.lru_cache(_KEPT_OUTCOMES)(weakly(self._evaluate))
 
     @classmethod
-    def from_document(cls, document: Document, name: str = "") -> Self:
+    def from_document(cls, document: Document | DocumentPart, name: str = "") -> Self:
         """A model with the document's picture, options, scribbles and cage."""
         model = cls()
         options, loops = document.trace_options, document.cage.loops
         strokes = document.scribbles or options.scribbles
         state = TracingState(document.image, options, strokes, loops, document.domain, name)
         model.history = History(state)
-        # If tracing reproduces the cage, it was not edited by hand.
+        # If tracing reproduces the cage, it was not edited by hand. A guess was accepted then.
         tracing = model.outcome.tracing
         if tracing is not None and tracing.cage.equals(document.cage):
-            model.history = History(replace(state, loops=None))
+            model.history = History(replace(state, loops=None, accepts_guess=True))
         return model
 
     # State
@@ -142,15 +144,18 @@ class TracingModel(Undoable[TracingState]):
 
     @property
     def loops(self) -> tuple[NDArray[np.float64], ...]:
-        """The shown loops, (n, 2) in pixels, valid or not; the exterior first."""
+        """The shown loops, (n, 2) in pixels, valid or not; the exterior first. A guess is not
+        shown."""
         frame = self.frame
-        return () if frame is None else tuple(frame.to_pixel(p) for p in self.outcome.loops)
+        if frame is None or self.doubt:
+            return ()
+        return tuple(frame.to_pixel(p) for p in self.outcome.loops)
 
     @property
     def holes(self) -> tuple[Hole, ...]:
-        """The holes of the shape, kept or not."""
+        """The holes of the shown shape, kept or not."""
         tracing = self.outcome.tracing
-        return () if tracing is None else tracing.holes
+        return () if tracing is None or self.doubt else tracing.holes
 
     @property
     def cage(self) -> Cage | None:
@@ -169,9 +174,14 @@ class TracingModel(Undoable[TracingState]):
 
     @property
     def doubt(self) -> str:
-        """Why the outline is only a guess, as in `Tracing`; empty if it is clear."""
+        """Why the outline is only a guess, as in `Tracing`; empty if it is clear or accepted.
+
+        Such an outline is not shown: painting over the shape takes less time than correcting it.
+        """
         tracing = self.outcome.tracing
-        return "" if tracing is None or self.edited else tracing.doubt
+        if tracing is None or self.edited or self.state.accepts_guess:
+            return ""
+        return tracing.doubt
 
     @property
     def edited(self) -> bool:
@@ -191,7 +201,8 @@ class TracingModel(Undoable[TracingState]):
         self._step(TracingState(image=_pixels(image), name=_name_of(name or image)))
 
     def set_options(self, gesture: Any = None, **changes: Any) -> None:
-        """Trace with other options (fields of `TraceOptions`). This discards edits by hand."""
+        """Trace with other options (fields of `TraceOptions`). This discards edits by hand, and
+        shows the outline even if it is a guess."""
         with self.locked():
             before = self.state
             if "scribbles" in changes:
@@ -201,7 +212,8 @@ class TracingModel(Undoable[TracingState]):
             options = with_changes(before.options, changes)
             if options == before.options and before.loops is None:
                 return
-            self._step(replace(before, options=options, loops=None), gesture)
+            new = replace(before, options=options, loops=None, accepts_guess=True)
+            self._step(new, gesture)
 
     def pick_background(self, point: Point) -> None:
         """Use the colour of a pixel as background colour, and trace by colour distance."""
@@ -234,6 +246,12 @@ class TracingModel(Undoable[TracingState]):
             if state.scribbles is not None:
                 loops = None if state.options.method == "scribbles" else state.loops
                 self._step(replace(state, scribbles=None, loops=loops))
+
+    def accept_guess(self) -> None:
+        """Show the guess, and use it as the outline."""
+        with self.locked():
+            if self.doubt:
+                self._step(replace(self.state, accepts_guess=True))
 
     def toggle_hole(self, number: int) -> None:
         """Drop a kept hole, or keep a dropped one. Other loops keep their edits."""
@@ -325,6 +343,31 @@ class TracingModel(Undoable[TracingState]):
             if state is not self.state:
                 self._go_to(self.history.step(state))
 
+    def show(self, history: History[TracingState]) -> None:
+        """Continue with another history, that of another part of the session."""
+        with self.locked():
+            self._go_to(history)
+
+    def pieces(self, cages: Iterable[Cage] = ()) -> list[TracingState]:
+        """The states that trace the other pieces of the picture, the largest first.
+
+        They are those of some cages, or else the other components of the foreground, without
+        specks.
+        """
+        with self.locked():
+            state, tracing = self.state, self.outcome.tracing
+            if cages := list(cages):
+                return [replace(state, loops=cage.loops, fallback=None) for cage in cages]
+            if tracing is None:
+                return []
+            least = _SPECK * tracing.component.area
+            others = (c for c in tracing.components if c.rank != tracing.component.rank)
+            changes = (
+                {"component": c.rank, "component_at": None} for c in others if c.area > least
+            )
+            options = (with_changes(state.options, change) for change in changes)
+            return [replace(state, options=o, loops=None, fallback=None) for o in options]
+
     def cancel(self, gesture: Any) -> bool:
         """Go back to the state before a gesture, without redo. Returns False if the gesture was
         not the last action."""
@@ -399,7 +442,7 @@ class TracingModel(Undoable[TracingState]):
         return read_only(frame.to_world(loop_edits.drawn(outline, size)))
 
     def _shown_loops(self) -> AnyLoops:
-        if not (loops := self.outcome.loops):
+        if not (loops := self.outcome.loops) or self.doubt:
             raise GeometryError("there is no outline yet; trace or draw one first")
         return loops
 

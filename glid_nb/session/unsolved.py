@@ -20,12 +20,21 @@ def solved_document(
         what = "not solved, and their methods give no certified maps"
         advice = "open the session and choose other methods"
         raise DocumentError(f"these poses are {what}: {', '.join(mesh)}; {advice}")
-    poses = list(document.poses)
-    for i, pose in enumerate(poses):
-        if pose.unsolved:
-            progress(pose.name)
-            poses[i] = _solved(pose)
-    return replace(document, poses=tuple(poses)) if document.unsolved else document
+    if not document.unsolved:
+        return document
+
+    def solved(poses: tuple[NamedPose, ...]) -> tuple[NamedPose, ...]:
+        done = list(poses)
+        for i, pose in enumerate(poses):
+            if pose.unsolved:
+                progress(pose.name)
+                done[i] = _solved(pose)
+        return tuple(done)
+
+    if not document.parts:
+        return replace(document, poses=solved(document.poses))
+    parts = tuple(replace(part, poses=solved(part.poses)) for part in document.parts)
+    return replace(document, poses=parts[document.part].poses, parts=parts)
 
 
 def _solved(pose: NamedPose) -> NamedPose:

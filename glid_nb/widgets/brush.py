@@ -2,7 +2,7 @@
 
 import functools
 from collections.abc import Callable
-from typing import Any
+from typing import Any, Self
 
 import ipywidgets
 import numpy as np
@@ -45,6 +45,12 @@ class BrushGestures(PinGestures):
         super().__init__(deformation, fit, image)
         self._actions = {**self._actions, "tool": self._take_tool}
         self.brush = Brush(radius=_USUAL_RADIUS * deformation.state.domain.cage.longer_side)
+
+    def on(self, deformation: Deformation, image: Array) -> Self:
+        """The same gestures on another shape, with the same brush."""
+        other = type(self)(deformation, self._fit, image)
+        other.brush, other.copy, other.go_to = self.brush, self.copy, self.go_to
+        return other
 
     def _down(self, event: Event) -> None:
         if not self.brush.tool or event["button"] != LEFT:

@@ -2,7 +2,7 @@
 
 import functools
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import ipywidgets
@@ -16,24 +16,30 @@ from glid_nb.certificate.certify import PanelCertificate
 from glid_nb.figures.style import BLUE, ORANGE
 from glid_nb.geometry import Domain
 from glid_nb.harmonic import HarmonicMap
-from glid_nb.imaging import ImageSource, Order, deformed_loops, read_image
+from glid_nb.imaging import ImageSource, Order, as_rgba8, deformed_loops, read_image
 from glid_nb.imaging.backdrop import Background, check_background
+from glid_nb.imaging.order import Sheets
 from glid_nb.session.actions import turned_now
 from glid_nb.session.deformation import Deformation
 from glid_nb.session.edit_state import EditState, Moment
+from glid_nb.session.scenery import Scenery, pressed
 from glid_nb.widgets.brush import BrushGestures, painted_areas
 from glid_nb.widgets.closing import ClosingWidget
-from glid_nb.widgets.gestures import Event
+from glid_nb.widgets.gestures import LEFT, Event, place
 from glid_nb.widgets.layers import EvaluatedIn
 from glid_nb.widgets.overlays import OVERLAYS
 from glid_nb.widgets.page_solver import PageSolver
 from glid_nb.widgets.pane import Pane
 from glid_nb.widgets.scene import Drawing, Range
+from glid_nb.widgets.tracer import displayed
 
 _INTERVAL = 0.2  # least seconds between updates of panels, colours and hidden pins in a drag
 _SOURCE_SHARE = 0.4  # share of the width for the undeformed shape
 _LEAST_SIZE, _USUAL_SIZE = 100, (600, 500)  # CSS pixels
 _NARROW = 480  # CSS pixels; a canvas with less room, as on a phone, is as high as it is wide
+
+Seen = tuple[Sheets, Sequence[Scenery]]
+"""The edited shape as it is seen, and the shapes around it."""
 
 
 class DeformCanvas(ClosingWidget, ipywidgets.HBox):
@@ -94,6 +100,11 @@ class DeformCanvas(ClosingWidget, ipywidgets.HBox):
         owned = isinstance(deformation, Domain)
         self.deformation = model = Deformation(deformation) if owned else deformation
         """The model of this view."""
+        self.scenery: tuple[Scenery, ...] = ()  # the shapes around, the backmost first
+        self.on_other_part: Callable[[str, Event], None] = lambda _key, _event: None
+        """Called with the key of another shape when it is pressed, before the press acts."""
+        self.scenery_at: Callable[[float], Seen | None] = lambda _time: None
+        """The edited shape and those around it at a time of the motion. The timeline sets this."""
         self._mesh: dict[str, Any] = {"n_vertices": n_vertices, "evaluated_in": evaluated_in}
         self.pane = self._pane(size, interactive=True)
         self.pane.stage.picture_size = self.image.shape[1::-1]
@@ -118,10 +129,10 @@ class DeformCanvas(ClosingWidget, ipywidgets.HBox):
         # lock. The solver's next frame acknowledges events and so sets the pace, except during the
         # preparation of the solver.
         with model.locked():
-            self.pane.stage.serve(
-                model, self.handle, lambda: (now := model.moment).busy and now.prepared == 1
-            )
-            self._endings = (model.observe(self._on_model), *((model.close,) if owned else ()))
+            self.pane.stage.serve(model, self.handle, self._will_draw)
+            self._unfollow = model.observe(self._on_model)
+            closing = (model.close,) if owned else ()
+            self._endings = (lambda: self._unfollow(), *closing)
             self._draw("state")
             if len(model.state.pose):
                 self.fit()
@@ -150,6 +161,44 @@ class DeformCanvas(ClosingWidget, ipywidgets.HBox):
             self.pane.set_picture(image, self.background)
             if self.source is not None:
                 self.source.set_picture(image, None)
+
+    def show_scenery(self, scenery: Sequence[Scenery]) -> None:
+        """Draw other shapes behind and in front of the edited one, the backmost first. Their
+        pictures have the size of this canvas's picture."""
+        with self.deformation.locked():
+            if not self._closed:
+                self.scenery = tuple(scenery)
+                self.pane.show_scenery(self.scenery)
+
+    def edit(self, deformation: Deformation, image: Array, scenery: Sequence[Scenery] = ()) -> None:
+        """Edit another shape, with its picture (h, w, 4), and draw others around it.
+
+        What the page has of a shape is used again if the picture is the same object as before.
+        """
+        with self.deformation.locked(), deformation.locked():
+            if self._closed:
+                return
+            self._unfollow()
+            self.deformation, self.image, self.scenery = deformation, image, tuple(scenery)
+            self._unfollow = deformation.observe(self._on_model)
+            self.pane.stage.follow(deformation)
+            self.gestures = self.gestures.on(deformation, image)
+            self.pane.edit(image, self.scenery)
+            if self.source is not None:
+                self.source.edit(image, ())
+            self._draw("state")
+            self.pane.stage.prepared = deformation.moment.prepared
+        self.pane.stage.acknowledge()  # what the model before has been asked
+        if self.drawn:
+            self._on_drawn()
+
+    def set_reference(self, picture: ImageSource | None) -> None:
+        """Show a picture dimmed behind the shape, to draw poses after, or None for no picture.
+
+        It is as large as the canvas's own picture allows. Exports and session files do not have it.
+        """
+        shown = None if picture is None else as_rgba8(read_image(picture))
+        self.pane.stage.reference = displayed(shown)
 
     def fit(self) -> None:
         """Make the whole shape and all targets visible."""
@@ -217,7 +266,12 @@ class DeformCanvas(ClosingWidget, ipywidgets.HBox):
 
         self._tell_page()
 
-    def _on_drawn(self, _: Any) -> None:
+    def _will_draw(self) -> bool:
+        """Whether a frame of the solver will acknowledge what the page has asked."""
+        now = self.deformation.moment
+        return now.busy and now.prepared == 1
+
+    def _on_drawn(self, _: Any = None) -> None:
         self.deformation.begin()
         self._tell_page()
 
@@ -251,12 +305,14 @@ class DeformCanvas(ClosingWidget, ipywidgets.HBox):
             )
             self.pane.show(drawing)
             self.pane.stage.names = pose.names.tolist()
+            self.pane.stage.pins = _marked(state)
             self.pane.stage.onion = self._onion(state) if self.show_onion else []
             self.pane.stage.brush = self.brush.shown
             self.pane.stage.stiff = painted_areas(moment)
             if self.source is not None:
                 cages: Any = {"cage": drawing.cage, "offset_cage": drawing.offset_cage}
-                self.source.show(Drawing(state.identity, images=pose.handles, **cages))
+                seen = np.array([not mark.hidden for mark in state.marks], dtype=bool)
+                self.source.show(Drawing(state.identity, images=pose.handles[seen], **cages))
             if (what == "legend" or (what == "frame" and moment.solved)) and not moment.dragged:
                 self.pane.place_legend()
 
@@ -270,14 +326,24 @@ class DeformCanvas(ClosingWidget, ipywidgets.HBox):
             "panels": self._panels,
         }
 
-    def show_between(self, map: HarmonicMap | None, order: Order | None = None) -> None:
-        """Draw a map of the motion instead of the edited pose. None shows the pose again."""
+    def show_between(
+        self,
+        map: HarmonicMap | None,
+        order: Order | None = None,
+        scenery: Sequence[Scenery] | None = None,
+    ) -> None:
+        """Draw a map of the motion instead of the edited pose, and the shapes around it as in
+        ``scenery``. None shows the pose again. What the page evaluates, it draws by itself."""
         with self.deformation.locked():
+            if self._closed:
+                return
             if map is None:
                 self._draw("state")
-            elif not self._closed:
+            elif self.pane.scene.evaluated_in == "kernel":
                 look = self._look(self.deformation.state, "keep")
                 self.pane.show(Drawing(map, order=order, **look))
+            if self.scenery:
+                self.pane.show_part_maps(scenery or self.scenery)
 
     def _onion(self, state: EditState) -> list[Any]:
         """Colours and outlines of the poses before and after the edited one."""
@@ -313,12 +379,41 @@ class DeformCanvas(ClosingWidget, ipywidgets.HBox):
 
     def handle(self, events: Sequence[Event]) -> str | None:
         """Act on pointers and keys. Show why an action was refused."""
-        stage = self.pane.stage
-        stage.notice = self.gestures.handle(events) or ""
+        stage, refusal = self.pane.stage, None
+        for run in self._runs(events):
+            key = self._other_part(run[0])
+            if key is not None:
+                self.on_other_part(key, run[0])  # without a lock; it may edit another shape
+            refusal = self.gestures.handle(run)
+        stage.notice = refusal or ""
         stage.set_trait("cursor", self.gestures.cursor)
         if events[-1]["type"] not in ("down", "move"):  # no button is pressed
             self.deformation.tell("hand")
         return stage.notice or None
+
+    def _runs(self, events: Sequence[Event]) -> list[Sequence[Event]]:
+        """The events, divided before each press if there are several shapes to press."""
+        starts = [i for i, event in enumerate(events) if i and self.scenery and _presses(event)]
+        ends = [*starts, len(events)]
+        return [events[start:end] for start, end in zip([0, *starts], ends, strict=True)]
+
+    def _other_part(self, event: Event) -> str | None:
+        """The key of the shape that an event presses; None for the edited one, its pins and its
+        ring, and where there is none."""
+        if not self.scenery or not _presses(event) or event["shift"]:
+            return None
+        with self.deformation.locked():
+            point, gestures = place(event), self.gestures
+            time, edited = event.get("at"), self.deformation.sheets(self.image)
+            seen = (edited, self.scenery) if time is None else self.scenery_at(float(time))
+            if seen is None or (gestures.brush.tool and event.get("button") == LEFT):
+                return None
+            if time is None:
+                ring = event.get("part") and self.deformation.selection
+                if ring or gestures.hit(point, event["reach"]) is not None:
+                    return None
+            found = pressed(point, *seen)
+        return None if found is None else found.key
 
     def _show_source(self, _: Any = None) -> None:
         with self.deformation.locked():
@@ -337,16 +432,32 @@ class DeformCanvas(ClosingWidget, ipywidgets.HBox):
             self.fit()
 
 
+def _presses(event: Event) -> bool:
+    return event["type"] in ("down", "pin")
+
+
 @functools.lru_cache(maxsize=4)  # by identity
 def _boundary(map: HarmonicMap) -> list[Any]:
     """The deformed boundary, rounded to the precision of a screen."""
     return [np.round(loop, 3).tolist() for loop in deformed_loops(map)]
 
 
+def _marked(state: EditState) -> dict[str, list[int]]:
+    """What the page has to know of pins that are locked, hidden or grouped."""
+    marks = list(enumerate(state.marks))
+    return {
+        "locked": [i for i, mark in marks if mark.locked],
+        "away": [i for i, mark in marks if mark.hidden],
+        "groups": [mark.group for _, mark in marks],
+    }
+
+
 def _ring(moment: Moment) -> tuple[float, ...]:
     if not moment.selection or moment.comparison is not None:
         return ()
     last, pose = moment.selection[-1], moment.state.pose
+    if moment.state.marks[last].locked or moment.state.marks[last].hidden:
+        return ()
     angle, scale = (float(values[0]) for values in turned_now(moment.state, [last]))
     wanted = (float(not np.isnan(values[last])) for values in (pose.angles, pose.scales))
     return round(angle, 4), round(scale, 4), *wanted

@@ -24,12 +24,17 @@ from glid_nb.imaging.render import View
 from glid_nb.motion import Motion
 from glid_nb.pose import Pose
 from glid_nb.session.ahead import ProgramsAhead
+from glid_nb.session.animation import PartAnimation
 from glid_nb.session.deformation import Deformation
 from glid_nb.session.document import Document, DocumentError, NamedPose
 from glid_nb.session.edit_state import EditError
-from glid_nb.session.editor_model import EditorModel, KeptWorkError, find_document
+from glid_nb.session.editor_model import EditorModel, KeptWorkError, Shape, find_document
+from glid_nb.session.first_minute import IN_THIS_SESSION
 from glid_nb.session.look import Behind, Layers
+from glid_nb.session.part_sources import PartSources, named_parts, parts_in
+from glid_nb.session.scenery import Scenery
 from glid_nb.session.status_line import StatusLine
+from glid_nb.session.tracing import TracingState
 from glid_nb.solvers import Method
 from glid_nb.widgets import exporting
 from glid_nb.widgets.brush import BrushBar
@@ -40,6 +45,7 @@ from glid_nb.widgets.file_panel import FilePanel, KeptOffer, OpenPanel
 from glid_nb.widgets.live_editor import LiveEditor
 from glid_nb.widgets.monitor import SolverMonitor
 from glid_nb.widgets.motion_panel import MotionPanel
+from glid_nb.widgets.parts_panel import PartsPanel
 from glid_nb.widgets.pins import PinBar
 from glid_nb.widgets.solver_panel import SolverPanel
 from glid_nb.widgets.timeline import TimelinePanel
@@ -51,7 +57,10 @@ _PIN, _FILES = 0, 2  # of the inspector's sections
 _LEAST_SIZE = 240  # CSS pixels, of the Trace tab, and of a canvas whose corner is dragged
 _PLOTS_SIZE = 460, 382  # CSS pixels
 _PLOTS = "Show energy, steps and certificate of the solve"
-_EMPTY = "<p style='padding:2em'>Open a picture in the Trace tab; the shape appears here.</p>"
+_EMPTY = "Open a picture in the Trace tab; the shape appears here."
+_NO_OUTLINE = (
+    "There is no outline yet, as {}. Paint over the shape in the Trace tab, or use the guess there."
+)
 
 _LEFT = (
     "{left} was changed elsewhere and stays as it is; this session is saved to {path} from now on."
@@ -66,10 +75,15 @@ class Editor(ClosingWidget, ipywidgets.VBox):
     """Trace a picture, pin points on it, and drag them. The picture follows and never folds over.
 
     The Trace tab finds the cage, the Deform tab moves it. If the outline is only a guess, as on
-    most photographs, the Trace tab is open at first and says so. Code can do the same: `trace`,
-    `add_handle`, `drag`, `solve`, `save`, `load`, `export`.
+    most photographs, the Trace tab is open at first, without an outline, and asks for strokes over
+    the shape. Code can do the same: `trace`, `add_handle`, `drag`, `solve`, `save`, `load`,
+    `export`.
 
-    The image is as in `glid_nb.read_image`; without one the editor asks for a file. Every change
+    The image is as in `glid_nb.read_image`; without one the editor asks for a file. A folder of PNG
+    pictures of the same size opens as parts, in the order of their names, the rearmost first, and a
+    Photoshop file as its visible layers (with ``glid-nb[psd]``). ``parts`` gives the pictures of
+    several shapes instead, as a list or by names. Parts have one timeline, and each has its own
+    cage and proof. Every change
     updates the session file ``path``. If this file exists, the editor opens it (give the same
     picture or none). If another session is opened later, its file is updated instead. If another
     picture is opened later, it is saved to a new file beside ``path``. The session also goes to a
@@ -103,6 +117,8 @@ class Editor(ClosingWidget, ipywidgets.VBox):
     _told_path: Path | None = None
     _live: tuple[Domain, LiveEditor] | None = None
     _layers: Layers | None = None  # what the canvas draws
+    _around: list[tuple[Shape, bool]] | None = None  # the shapes around it on the canvas
+    _edited = 0  # the key of the part that the canvas edits
     _ahead: ProgramsAhead | None = None
 
     @one_a_cell
@@ -111,6 +127,7 @@ class Editor(ClosingWidget, ipywidgets.VBox):
         image: ImageSource | None = None,
         path: str | Path | None = None,
         *,
+        parts: PartSources | None = None,
         width: int | None = None,
         height: int | None = None,
         n_vertices: int | None = None,
@@ -122,12 +139,15 @@ class Editor(ClosingWidget, ipywidgets.VBox):
         self._plots = plots
         self._asked = {"width": width, "height": height, "n_vertices": n_vertices}
         once_loaded(enable_compilation_cache)
+        if parts is None and (layers := parts_in(image)) is not None:
+            parts, image = layers, None
         document = None if path is None else find_document(path)
         known = None if document is None else document.image
         if known is not None and image is not None and not np.array_equal(read_image(image), known):
             what = f"{path} exists and is of another picture; leave the picture out to continue"
             raise DocumentError(f"{what} that session, or give another path")
-        self.model = EditorModel(image, document=document, path=path)
+        pictures = None if parts is None or document is not None else named_parts(parts)
+        self.model = EditorModel(image, document=document, path=path, parts=pictures)
         """The editor without its widgets."""
         if background is not None:
             self.background = background
@@ -196,9 +216,13 @@ class Editor(ClosingWidget, ipywidgets.VBox):
     def _snapshot(self, image: NDArray[np.uint8]) -> bytes:
         if self.model.has_shape and len(self.pose):
             frame = {"size": max(self._size), "format": "apng"}
-            layers = self.model.layers
-            behind = WHITE if layers.background is None else layers.background
-            frame |= {"background": behind}
+            layers, behind = self.model.layers, self.model.background
+            frame |= {"background": WHITE if behind is None else behind}
+            if len(shapes := exporting.shown_shapes(self.model)) > 1:
+                parts = [
+                    export.StillPart(s.layers.image, s.state.map, s.state.pose) for s in shapes
+                ]
+                return export.parts_png(parts, background=frame["background"])
             return export.animation_bytes(layers.image, [self.map], [self.pose], **frame)
         picture = Image.fromarray(image)
         picture.thumbnail(self._size)
@@ -368,7 +392,9 @@ class Editor(ClosingWidget, ipywidgets.VBox):
             if self.model.has_shape:
                 self._deform_box.children = [self._deform_tab()]
             else:
-                self._deform_box.children = [ipywidgets.HTML(_EMPTY), OpenPanel(self.model)]
+                self._nothing = ipywidgets.HTML()
+                self._deform_box.children = [self._nothing, OpenPanel(self.model)]
+                self._show_nothing()
             self.tabs.selected_index = _DEFORM if self.model.has_shape else _TRACE
             self._begin()
             if self.canvas is None:
@@ -407,7 +433,9 @@ class Editor(ClosingWidget, ipywidgets.VBox):
 
     def _made(self, name: str) -> Any:
         makers: dict[str, Callable[[], ipywidgets.Widget]] = {
-            "tracer": lambda: CageTracer(model=self.model.tracing, height=self._asked["height"]),
+            "tracer": lambda: CageTracer(
+                model=self.model.tracing, height=self._asked["height"], on_pieces=self._keep_pieces
+            ),
             "pins": self._bars,
             "motion": lambda: MotionPanel(self.deformation, self._open_files),
             "solver": lambda: SolverPanel(self.deformation),
@@ -444,10 +472,15 @@ class Editor(ClosingWidget, ipywidgets.VBox):
 
     def _deform_tab(self) -> ipywidgets.Widget:
         model, layers = self.model.deformation, self.model.layers
-        self._layers = layers
-        shown = {**self._asked, "background": layers.background}
+        self._layers, self._around, self._edited = layers, None, self._edited_key
+        self._known_parts = {self._edited}  # the keys of the parts that the view was fitted to
+        shown = {**self._asked, "background": self.model.background}
+        # Before the canvas's own observer: another part comes with its picture.
+        model.observe(lambda what: self._show_layers() if what == "state" else None)
         self.canvas = canvas = DeformCanvas(layers.image, model, **shown)
+        canvas.on_other_part = self._edit_part
         self.monitor = monitor = SolverMonitor(model, *_PLOTS_SIZE, self._plots)
+        self.monitor = monitor = SolverMonitor(model, *_PLOTS_SIZE, self._plots, IN_THIS_SESSION)
         self.toolbar = Toolbar(self.canvas, monitor)
         # Make the hidden parts only when the model rests, and the pins' numbers after the first
         # gesture. So the first drag has the processor for itself.
@@ -455,8 +488,11 @@ class Editor(ClosingWidget, ipywidgets.VBox):
         canvas.pane.stage.observe(lambda _: self._fill_at_rest(), ["drawn"])
         canvas.brush.observe(self._show_brush, ["tool"])
         model.observe(lambda what: self._fill("pins") if what == "hand" else None)
-        model.observe(lambda what: self._show_layers() if what == "state" else None)
         self.timeline = TimelinePanel(self.canvas, self._open_files)
+        self.timeline.on_play = self._on_play
+        self.parts = PartsPanel(self.model)
+        """The list of the parts; hidden if there is only one shape."""
+        self._show_parts()
         # Fill these boxes later: if the tab's children changed, the page would select another tab.
         names = "pins", "motion", "files", "solver"
         self._boxes |= {name: ipywidgets.VBox() for name in names}
@@ -466,7 +502,8 @@ class Editor(ClosingWidget, ipywidgets.VBox):
         )
         ipywidgets.link((monitor, "shown"), (plots_shown, "value"))
         proof = ipywidgets.VBox([monitor.verdict, plots_shown, self._boxes["solver"]])
-        sections = [*(self._boxes[name] for name in names[:-1]), proof]
+        pins = ipywidgets.VBox([self.parts, self._boxes["pins"]])
+        sections = [pins, *(self._boxes[name] for name in names[1:-1]), proof]
         titles = "Pin", "Motion", "Files", "Proof"
         self.inspector = ipywidgets.Tab(sections, titles=titles, selected_index=_PIN)
         """The sections beside the canvas."""
@@ -477,6 +514,10 @@ class Editor(ClosingWidget, ipywidgets.VBox):
         ipywidgets.dlink((monitor, "shown"), *visible)
         parts = [self.toolbar, canvas, self.inspector, self.timeline, monitor.line, plots]
         return ipywidgets.GridBox(parts).add_class("glid-shell")
+
+    def _on_play(self) -> None:
+        IN_THIS_SESSION.made("play")
+        self.deformation.tell("status")
 
     def _open_files(self) -> None:
         self.inspector.selected_index = _FILES
@@ -524,15 +565,81 @@ class Editor(ClosingWidget, ipywidgets.VBox):
         with self.model.locked():
             if self._closed or self.canvas is None:
                 return
-            if (layers := self.model.layers) is self._layers:
+            layers, edited = self.model.layers, self._edited_key
+            if layers is self._layers:
+                self._show_parts()
                 return
             self._layers = layers
-            self.canvas.set_picture(layers.image, layers.background)
+            if edited != self._edited:
+                self._edited = edited
+                self._around = around = self._shapes_around()
+                self.canvas.edit(self.deformation, layers.image, [_scenery(*one) for one in around])
+                self._accompany()
+            else:
+                self.canvas.set_picture(layers.image, self.model.background)
+                self._show_parts()
             self.timeline.set_picture()
+
+    @property
+    def _edited_key(self) -> int:
+        state = self.deformation.state
+        return state.keys[state.part]
+
+    def _shapes_around(self) -> list[tuple[Shape, bool]]:
+        """The visible parts that are not edited, and whether each is in front of that one."""
+        shapes, edited = self.model.shapes, self.deformation.state.part
+        return [(s, i > edited) for i, s in enumerate(shapes) if s.visible and i != edited]
+
+    def _show_parts(self) -> None:
+        """Let the canvas draw the other parts, if anything of them has changed."""
+        state = self.deformation.state
+        if self.canvas is None or not (state.parts or self._around):
+            return
+        before, around = self._around or [], self._shapes_around()
+        self._around = around
+        if [_look_of(*one) for one in before] != [_look_of(*one) for one in around]:
+            self.canvas.show_scenery([_scenery(*one) for one in around])
+            self._accompany()
+        if new := {shape.key for shape, _ in around} - self._known_parts:
+            self._known_parts |= new
+            self.canvas.fit()
+
+    def _accompany(self) -> None:
+        animation = self.timeline.animation
+        keys = [shape.key for shape, _ in self._around or []]
+        self.timeline.accompany({str(key): PartAnimation(animation, key) for key in keys})
+
+    def _keep_pieces(self, pieces: list[TracingState]) -> None:
+        """Keep the other pieces of the picture or of a cut as parts, and show them."""
+        self.model.keep_pieces(pieces)
+        self.tabs.selected_index = _DEFORM
+
+    def _edit_part(self, key: str, _: Any) -> None:
+        """Edit the part that was pressed on the canvas."""
+        self.deformation.select_part(self.deformation.state.keys.index(int(key)))
 
     def _on_tab(self, change: Any) -> None:
         self._fill()
         if change["new"] == _DEFORM:
-            notice = self.model.apply_tracing()
-            if notice and self.canvas is not None:
+            doubt = self.model.tracing.doubt
+            notice = _NO_OUTLINE.format(doubt) if doubt else self.model.apply_tracing()
+            if self.canvas is None:
+                self._show_nothing()
+            elif notice:
                 self.canvas.pane.stage.notice = notice
+
+    def _show_nothing(self) -> None:
+        """Say in the Deform tab why there is nothing to deform yet."""
+        doubt = self.model.tracing.doubt
+        text = _NO_OUTLINE.format(doubt) if doubt else _EMPTY
+        self._nothing.value = paragraph(text, "padding:2em")
+
+
+def _look_of(shape: Shape, above: bool) -> tuple[Any, ...]:
+    """What the canvas draws of a shape, to be compared: objects by their identities."""
+    return shape.key, shape.layers, shape.state.current, shape.name, above
+
+
+def _scenery(shape: Shape, above: bool) -> Scenery:
+    state = shape.state
+    return Scenery(str(shape.key), shape.layers.image, state.map, state.order, above, shape.name)

@@ -14,14 +14,24 @@ from glid_nb._json import json_text, parse_json
 from glid_nb._runtime import data_directory
 from glid_nb.certificate import certificate_of
 from glid_nb.certificate.certify import proof_text
-from glid_nb.export.formats import FORMATS, MOTION_FORMATS, ExportError, file_names, suffix_of
-from glid_nb.imaging.backdrop import WHITE
+from glid_nb.export.formats import (
+    FORMATS,
+    MOTION_FORMATS,
+    OF_ONE_SHAPE,
+    ExportError,
+    file_names,
+    part_name,
+    suffix_of,
+)
+from glid_nb.imaging.backdrop import WHITE, Backdrop
 from glid_nb.imaging.read import png
 from glid_nb.imaging.render import View
-from glid_nb.motion import Motion, unlike_turns
-from glid_nb.session.animation import Animation, motion_of, order_at
+from glid_nb.motion import unlike_turns
+from glid_nb.session.animation import Animation, motion_of
+from glid_nb.session.document import Document
 from glid_nb.session.document_file import document_bytes
-from glid_nb.session.editor_model import EditorModel
+from glid_nb.session.edit_state import EditError
+from glid_nb.session.editor_model import EditorModel, Shape
 from glid_nb.session.look import FILLED, WHOLE_CAGE, Look
 from glid_nb.session.script import python_code
 from glid_nb.session.worker import LatestWins, weakly
@@ -69,6 +79,25 @@ def files_of(path: Path) -> tuple[Path, ...]:
     return tuple(map(path.with_name, file_names(path.name, FORMATS)))
 
 
+def written_names(model: EditorModel, path: Path, *, moving: bool) -> tuple[str, ...]:
+    """The names of all files that an export of the model with this name writes."""
+    formats = MOTION_FORMATS if moving else FORMATS
+    suffix = suffix_of(path.name, formats)
+    shapes = shown_shapes(model)
+    if len(shapes) == 1 or suffix not in OF_ONE_SHAPE:
+        return file_names(path.name, formats)
+    each = (part_name(path.name, suffix, shape.name) for shape in shapes)
+    return tuple(name for one in each for name in file_names(one, formats))
+
+
+def shown_shapes(model: EditorModel) -> list[Shape]:
+    """The visible shapes, the rearmost first. Raises an EditError if all parts are hidden."""
+    shapes = [shape for shape in model.shapes if shape.visible]
+    if not shapes:
+        raise EditError("all parts are hidden, so there is nothing to export; show one first")
+    return shapes
+
+
 def check_free(model: EditorModel, paths: Sequence[Path], owner: Path) -> None:
     """Raise an `OccupiedError` if a file exists that the editor did not write for ``owner``."""
     if strangers := model.own_files.strangers(paths, owner):
@@ -88,13 +117,20 @@ def export(
     if live:
         if not path.name.lower().endswith(".html"):
             raise ExportError(f"{path.name!r:.200}: the name of a live page must end in .html")
-        files = {path.name: live_page(model, path.name)}
+        model.deformation.solved_state()
+        suffix = ".live.html" if path.name.lower().endswith(".live.html") else ".html"
+        files = {
+            own.name: live_page(shape, model.background, own.name)
+            for own, shape in _own_paths(path, suffix, shown_shapes(model))
+        }
     elif path.name.lower().endswith(tuple(MOTION_FORMATS.keys() - FORMATS.keys())):
-        motion = motion_of(model.deformation.solved_state())
-        sized: dict[str, Any] = {"size": max(size)} if size else {}
-        files = _motion_files(model, motion, path.name, **sized)
+        moving = _moving_parts(model)
+        how: dict[str, Any] = {"size": max(size)} if size else {}
+        files = _motion_files(model, moving, path.name, **how)
     else:
         files = exported(model, path, size, view)
+    if path.name not in files:  # several parts, with a file for each
+        return tuple(write(model, path, files, replace=True))
     (name, data), *others = files.items()
     # If the named file exists, the additional files belong to it.
     beside = write(model, path, dict(others), replace=path.exists())
@@ -104,27 +140,50 @@ def export(
 def exported(
     model: EditorModel, path: Path, size: tuple[int, int] | None, view: View
 ) -> dict[str, bytes]:
-    """The contents of the files `files_of(path)`, by name. Arguments are as in `Editor.export`.
+    """The contents of the exported files, by name. Arguments are as in `Editor.export`.
 
-    The edited pose is solved first; for sessions and scripts, all poses. Raises an EditError if a
-    pose cannot be solved, so that a picture, a mesh or a proof would show another map.
+    A picture shows all visible parts; formats in `OF_ONE_SHAPE` have the files of each part. The
+    edited pose is solved first; for sessions and scripts, all poses. Raises an EditError if a pose
+    cannot be solved, so that a picture, a mesh or a proof would show another map.
     """
     deformation, suffix = model.deformation, suffix_of(path.name, FORMATS)
-    if suffix == ".live.html":
-        return {path.name: live_page(model, path.name)}
     if suffix in (".glid", ".py"):
         deformation.finish()
-        state = deformation.state
     else:
-        state = deformation.solved_state(only_current=True)
-    document, layers = model.document, model.layers
-    map_, pose = state.map, state.pose
-    background = layers.background if suffix in (".png", ".html") else None
+        deformation.solved_state(only_current=suffix != ".live.html")
+    shapes = shown_shapes(model)
+    if suffix == ".glid":
+        return {path.name: document_bytes(model.document)}
+    if suffix == ".png":
+        still = [to.StillPart(s.layers.image, s.state.map, s.state.pose) for s in shapes]
+        return {path.name: to.parts_png(still, size, view, model.background)}
+    files: dict[str, bytes] = {}
+    for own, shape in _own_paths(path, suffix, shapes):
+        files |= _files_of(shape, _document_of(model, shape), own, suffix, model.background)
+    return files
+
+
+def _own_paths(path: Path, suffix: str, shapes: Sequence[Shape]) -> list[tuple[Path, Shape]]:
+    """The file of each shape; that of the only one is the named file."""
+    if len(shapes) == 1:
+        return [(path, shapes[0])]
+    return [(path.with_name(part_name(path.name, suffix, s.name)), s) for s in shapes]
+
+
+def _document_of(model: EditorModel, shape: Shape) -> Document:
+    """The document with this shape only."""
+    return model.document.of_part(model.deformation.state.keys.index(shape.key))
+
+
+def _files_of(
+    shape: Shape, document: Document, path: Path, suffix: str, background: Backdrop
+) -> dict[str, bytes]:
+    """The files of one shape."""
+    layers, map_, pose = shape.layers, shape.state.map, shape.state.pose
     names = [file.name for file in files_of(path)]
     match suffix:
-        case ".png":
-            shown = {"view": view, "pose": pose, "background": background}
-            contents = [to.picture_png(layers.image, map_, size, **shown)]
+        case ".live.html":
+            contents = [live_page(shape, background, path.name)]
         case ".obj":
             files = to.mesh_obj(to.textured_mesh(layers.image, map_, pose=pose), path.stem)
             contents = [files[path.stem + rest] for rest in (".obj", *FORMATS[".obj"].beside)]
@@ -136,8 +195,6 @@ def exported(
         case ".html":
             shown = {"title": path.stem, "pose": pose, "background": background}
             contents = [to.page_html(layers.image, map_, certificate_of(map_), **shown).encode()]
-        case ".glid":
-            contents = [document_bytes(document)]
         case ".proof.json":
             depths = pose.to_dict() if pose.depths.any() else {}
             proof = proof_text(certificate_of(map_))
@@ -147,26 +204,25 @@ def exported(
     return dict(zip(names, contents, strict=True))
 
 
-def live_page(model: EditorModel, name: str) -> bytes:
+def live_page(shape: Shape, background: Backdrop, name: str) -> bytes:
     """A page with a solver of its own, at the edited pose; with several poses, with their motion.
 
-    Raises an EditError if a pose cannot be solved, and an InputError for an energy of one's own.
+    Raises an InputError for an energy of one's own.
     """
-    state = model.deformation.solved_state()
+    state = shape.state
     current = state.current
     shown, pose = state.map, state.pose
     turns = [certificate_of(one.map) for one in state.poses]
     if len(turns) > 1 and not any(unlike_turns(turns[0], one) for one in turns[1:]):
         shown, pose = motion_of(state), [one.pose for one in state.poses]
-    layers = model.layers
     page = to.live_page_html(
-        layers.image,
+        shape.layers.image,
         shown,
         pose,
         current.energy,
         current.options.p2p_weight,
         title=re.sub(r"(\.live)?\.html$", "", name, flags=re.IGNORECASE),
-        background=layers.background,
+        background=background,
     )
     return page.encode()
 
@@ -186,23 +242,41 @@ def write(
     return list(contents)
 
 
+def _moving_parts(model: EditorModel) -> list[to.MovingPart]:
+    """The visible shapes with their motions, once all poses are solved.
+
+    Raises a MotionError if a motion cannot be made, an EditError if a pose cannot be solved.
+    """
+    model.deformation.solved_state()
+    return [
+        to.MovingPart(
+            shape.layers.image,
+            motion_of(shape.state),
+            [pose.pose for pose in shape.state.poses],
+            shape.name,
+        )
+        for shape in shown_shapes(model)
+    ]
+
+
 def _motion_files(
     model: EditorModel,
-    motion: Motion,
+    parts: Sequence[to.MovingPart],
     name: str,
-    part: tuple[float, float] | None = None,
+    within: tuple[float, float] | None = None,
     **how: Any,
 ) -> dict[str, bytes]:
-    """The files of a motion, or of its part between two times, which then plays over and over."""
-    layers, background = model.layers, model.layers.background
+    """The files of moving shapes, or of a range of their time, which then plays over and over."""
+    background = model.background
     if background is None and name.lower().endswith((".gif", ".mp4")):
         background = WHITE  # they have no transparency
-    poses: list[Any] = [pose.pose for pose in model.document.poses]
-    if part is not None:
-        motion = motion.part(*part)
-        poses = [order_at(model.deformation.state, time) for time in motion.times]
-    how |= {"loop": part is not None or motion.repeat != "once", "background": background}
-    return to.motion_files(name, layers.image, motion, poses, **how)
+    how |= {"loop": within is not None or parts[0].motion.repeat != "once"}
+    how["background"] = background
+    if within is not None:
+        parts = [part.between(*within) for part in parts]
+    if len(parts) > 1:
+        return to.parts_motion_files(name, parts, **how)
+    return to.motion_files(name, parts[0].image, parts[0].motion, parts[0].poses, **how)
 
 
 def last_export() -> dict[str, Any]:
@@ -293,15 +367,16 @@ class MotionExport(ClosingWidget, ipywidgets.HBox):
             while not self._animation.deformation.finish(timeout=0.2):
                 if worker.overtaken:
                     return self._say("Stopped; nothing was written.", "")
-            motion = self._animation.motion
-            count = len(motion.times) - 1
-            if any(report(i, count) or not motion.interval(i) for i in range(count)):
+            parts = _moving_parts(self._model)
+            steps = [(part.motion, i) for part in parts for i in range(len(part.motion.times) - 1)]
+            counted = enumerate(steps)
+            if any(report(n, len(steps)) or not motion.interval(i) for n, (motion, i) in counted):
                 return self._say("Stopped; nothing was written.", "")
             name, deliver = task
             how: Any = {"size": self.size.value, "frames_per_second": self.rate.value}
             if self.part.value:
-                how["part"] = self._animation.deformation.state.timeline.played_range
-            files = _motion_files(self._model, motion, name, progress=report, **how)
+                how["within"] = self._animation.deformation.state.timeline.played_range
+            files = _motion_files(self._model, parts, name, progress=report, **how)
             stopped = worker.cancelled or not files
             self._say("Stopped; nothing was written." if stopped else deliver(files), "")
         except (OSError, ValueError) as error:  # messages for the user; other errors are bugs

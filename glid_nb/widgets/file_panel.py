@@ -13,7 +13,7 @@ import traitlets
 
 from glid_nb._errors import InputError
 from glid_nb._files import zipped
-from glid_nb.export.formats import FORMATS, MOTION_FORMATS, file_names
+from glid_nb.export.formats import FORMATS, MOTION_FORMATS
 from glid_nb.imaging.read import MAX_SIDE, png
 from glid_nb.page import bundle
 from glid_nb.session.animation import Animation
@@ -298,7 +298,7 @@ class FilePanel(Asking, ipywidgets.VBox):
     def _export(self, sure: bool) -> str:
         path, moving = self._chosen
         if not sure:
-            names = file_names(path.name, MOTION_FORMATS if moving else FORMATS)
+            names = exporting.written_names(self.model, path, moving=moving)
             exporting.check_free(self.model, tuple(map(path.with_name, names)), path)
 
         def deliver(files: Mapping[str, bytes]) -> str:
@@ -335,7 +335,8 @@ class FilePanel(Asking, ipywidgets.VBox):
         picture = exporting.files_of(script)[1]
         self.model.deformation.finish()
         lines = python_code(self.model.document, str(picture))
-        needed = ""
+        needed, part = "", self.model.deformation.state.edited_part
+        made = "These lines make the map" + ("." if part is None else f" of the part {part.name}.")
         if "glid.read_image" in lines:  # not where the cage was edited by hand
             source = {picture.name: png(self.model.document.image)}
             exporting.write(self.model, script, source, replace=sure)
@@ -350,7 +351,7 @@ class FilePanel(Asking, ipywidgets.VBox):
                 self._say("The browser did not allow copying: select the lines." + needed, REFUSED)
 
         self.clipboard.copy(lines, done)
-        return "These lines make the map." + needed
+        return made + needed
 
     def _show(self, _: Any = None) -> None:
         """Update the controls from the model and each other. Stop asking for a confirmation."""

@@ -39,6 +39,10 @@ class Pad(ClosingWidget, anywidget.AnyWidget):
         answer_during_cells(self)
         self.on_msg(self._receive)
 
+    def follow(self, model: Observed) -> None:
+        """Act on another model from now on, with the same functions as in `serve`."""
+        self._model = model
+
     def acknowledge(self) -> None:
         """Acknowledge the handled events to the page's views."""
         with self._model.locked():

@@ -10,12 +10,14 @@ import shapely
 import traitlets
 
 from glid_nb._arrays import Array
+from glid_nb.geometry import Domain
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging import PixelFrame
 from glid_nb.imaging.backdrop import Backdrop
-from glid_nb.page import bundle, outline_of, stylesheet
+from glid_nb.page import ShaderMap, bundle, stylesheet
+from glid_nb.session.scenery import Scenery
 from glid_nb.widgets.closing import ClosingWidget
-from glid_nb.widgets.layers import BackdropMesh, EvaluatedIn, picture_texture
+from glid_nb.widgets.layers import BackdropMesh, EvaluatedIn
 from glid_nb.widgets.overlays import PANEL_LEGEND, legend
 from glid_nb.widgets.pad import Pad
 from glid_nb.widgets.scene import (
@@ -25,6 +27,15 @@ from glid_nb.widgets.scene import (
     Scene,
     renderer,
     replacement,
+)
+from glid_nb.widgets.scenery import (
+    Surroundings,
+    Textures,
+    outlined,
+    stacked_meshes,
+    suits,
+    vertices_of,
+    wire_of,
 )
 
 CORNERS = ("bottom right", "bottom left", "top right", "top left")  # the default first
@@ -65,15 +76,25 @@ class Stage(Pad):
     """The map, as written by ``ShaderMap.wire``; empty if the kernel evaluates."""
     outline = traitlets.Dict({}).tag(sync=True)
     """The domain: ``outline``, and the sizes ``chain`` and ``shaderHoles`` of `coefficients`."""
+    part_shapes = traitlets.List([]).tag(sync=True, **_REFERENCE)
+    """The shapes around the edited one: for each its ``key``, its ``materials``, and the domain as
+    in `outline`."""
+    part_maps = traitlets.Dict({}).tag(sync=True)
+    """The maps of these shapes by their keys, as in `coefficients`."""
     solver_script = traitlets.Unicode("").tag(sync=True)  # of the worker of the page's own solver
     solver = traitlets.Dict({}).tag(sync=True)
     """The ``options`` of the page's own solver; empty if it cannot solve what is edited."""
     rest = traitlets.Dict({}).tag(sync=True)
-    """Where the model is at rest: the ``pose``, ``coefficients`` in double precision, and the
-    ``number`` of this rest."""
+    """Where the model is at rest, or was when a drag made its pin: the ``pose``, ``coefficients``
+    in double precision, and the ``number`` of this rest."""
     marks = traitlets.Dict({key: [] for key in _MARKS}).tag(sync=True)
     """Targets and images of handles, [x, y]; indices selected, hidden; and `Drawing.ring`."""
     names = traitlets.List(traitlets.Unicode(), []).tag(sync=True)  # the handles', may be empty
+    pins = traitlets.Dict({"locked": [], "away": [], "groups": []}).tag(sync=True)
+    """Indices of the handles that are ``locked`` and that the user hid (``away``), and for each
+    handle its group's number, 0 for none."""
+    reference = traitlets.CBytes(b"").tag(sync=True)  # the page sends memory views
+    """A picture that the page shows dimmed behind the shape; empty for none."""
     onion = traitlets.List([]).tag(sync=True)  # other poses' colours and loops of [x, y], each
     stiff = traitlets.List([]).tag(sync=True)  # painted areas' strengths and loops of [x, y], each
     brush = traitlets.Dict({}).tag(sync=True)
@@ -113,14 +134,18 @@ class Pane(ClosingWidget, ipywidgets.GridBox):
         evaluated_in: EvaluatedIn | None,
         background: Backdrop = None,
     ) -> None:
-        self._picture = PixelFrame(*image.shape[1::-1]), picture_texture(image)
+        self._frame, self._image = PixelFrame(*image.shape[1::-1]), image
+        self._textures = Textures()
         self._n_vertices = self._fewest = n_vertices or _FEWEST_VERTICES  # at first
         self._most = n_vertices or N_VERTICES
         self._asked: EvaluatedIn | None = evaluated_in
         self._evaluated_in: EvaluatedIn | None = evaluated_in
         self._drawing = Drawing(map)
         self._times: dict[str, float] = {}  # ms for a vertex, by who evaluates
-        self.scene = self._new_scene(0)  # what pythreejs draws
+        self._around = Surroundings(self._new_scene, self._suits)
+        self._rearranged = False  # whether the shapes around have to be shown anew
+        self._vectors = UNIFORM_VECTORS  # vectors of uniforms of the page's shaders
+        self.scene = self._edited_scene()  # what pythreejs draws of the edited shape
         self._backdrop = self._new_backdrop(background)
         self._renderer = renderer(self._meshes, self._multisamples)
         self.stage = Stage(
@@ -130,8 +155,8 @@ class Pane(ClosingWidget, ipywidgets.GridBox):
             renderer=self._renderer,
             camera=self._renderer.camera,
             materials=self.scene.materials,
-            coefficients=self._wire(),
-            outline=_outlined(self.scene),
+            coefficients=wire_of(self.scene),
+            outline=outlined(self.scene),
         )
         super().__init__([self.stage, self._renderer])  # a new renderer leaves the stage's views
         self.add_class("glid-pane")
@@ -146,17 +171,43 @@ class Pane(ClosingWidget, ipywidgets.GridBox):
         """Show a drawing. If only the map and the marks have changed, this sends one message."""
         self._drawing, old = drawing, self.scene
         if drawing.map.domain is not old.domain:
-            self.scene = self._new_scene(self.stage.uniform_vectors)
+            texture = self._textures.of(self._image)
+            self.scene = self._around.take(drawing.map.domain, texture) or self._edited_scene()
+            self._rearranged = bool(self._around.scenery or self._around.scenes)
         self._show(old)
+
+    def show_scenery(self, scenery: Sequence[Scenery]) -> None:
+        """Draw other shapes behind and in front of the edited one. If only their maps have changed,
+        this sends one message."""
+        before = [shape.map.domain for shape in self._around.scenery]
+        self._around.scenery, self._rearranged = tuple(scenery), True
+        self._show(self.scene)
+        if before != [shape.map.domain for shape in scenery]:
+            self.stage.drawing_time = 0.0  # the page measures how long all shapes take
+
+    def show_part_maps(self, scenery: Sequence[Scenery]) -> None:
+        """Draw the shapes of `show_scenery` under other maps for a moment, as in a motion."""
+        self._around.move(scenery)
+        self.stage.part_maps = self._around.wires
+
+    @property
+    def part_scenes(self) -> dict[str, Scene]:
+        """The scenes of the shapes around the edited one, by their keys."""
+        return self._around.scenes
+
+    def edit(self, image: Array, scenery: Sequence[Scenery]) -> None:
+        """Edit another shape from the next `show` on: its picture (h, w, 4), of the same size, and
+        the shapes around it."""
+        self._image = image
+        self._around.scenery = tuple(scenery)
 
     def set_picture(self, image: Array, background: Backdrop) -> None:
         """Draw another picture of the same size, and what lies behind it."""
-        texture, behind, old = self._picture[1], self._backdrop, self.scene
-        self._picture = self._picture[0], picture_texture(image)
+        behind, old = self._backdrop, self.scene
+        self._image = image
         self._backdrop = self._new_backdrop(background)
-        self.scene = self._new_scene(self.stage.uniform_vectors)
+        self.scene = self._edited_scene()
         self._show(old)
-        texture.close()
         if behind is not None:
             behind.close()
 
@@ -164,6 +215,7 @@ class Pane(ClosingWidget, ipywidgets.GridBox):
         """Adapt to the page: evaluate in the kernel if its shaders are too small, in the page's
         script if that is quicker than its shaders, and use a mesh that it draws fast enough."""
         stage, scene, count = self.stage, self.scene, self._n_vertices
+        self._vectors = stage.uniform_vectors or UNIFORM_VECTORS  # 0 until a page has reported it
         if stage.drawing_time:
             self._times[scene.evaluated_in] = stage.drawing_time / count
         where = self._asked or self._quickest()
@@ -174,7 +226,7 @@ class Pane(ClosingWidget, ipywidgets.GridBox):
         self._n_vertices, self._evaluated_in = wanted, where
         if where in self._times:
             self._most = wanted
-        self.scene = self._new_scene(stage.uniform_vectors)
+        self.scene, self._rearranged = self._edited_scene(), bool(self._around.scenery)
         self._show(scene)
         if self._multisamples != multisampled:
             self._replace_renderer()
@@ -199,24 +251,48 @@ class Pane(ClosingWidget, ipywidgets.GridBox):
         return max(min(int(_DRAWING_TIME / self._times[where]), self._most), self._fewest)
 
     def _show(self, old: Scene) -> None:
-        drawing, scene, stage = self._drawing, self.scene, self.stage
+        drawing, around, stage = self._drawing, self._around, self.stage
+        rearranged, self._rearranged = self._rearranged, False
+        unused = [] if old is self.scene else [old]
+        if rearranged and not self._suits(self.scene, self._share(self.scene.domain)):
+            unused.append(self.scene)
+            self.scene = self._edited_scene()
+        scene = self.scene
         scene.show(drawing)
-        if self._renderer.scene.children != (meshes := self._meshes):
-            self._renderer.scene.children = meshes
+        if rearranged:
+            unused = around.show(scene, unused, self._textures)
+        self._draw_in_order(self._meshes)
         panels = drawing.panels is not None and drawing.comparison is None
         with stage.hold_sync():
             stage.materials = scene.materials
-            stage.coefficients = self._wire()
+            stage.coefficients = wire_of(scene)
             if old.domain is not scene.domain:
-                stage.outline = _outlined(scene)
+                stage.outline = outlined(scene)
+            if rearranged:
+                stage.part_shapes, stage.part_maps = around.outlined, around.wires
             # Round to the precision of a screen.
             at = {key: np.round(getattr(drawing, key), 5).tolist() for key in ("targets", "images")}
             chosen = {"selected": list(drawing.selected), "ring": drawing.ring}
             stage.marks = {**at, **chosen, "hidden": np.flatnonzero(drawing.hidden).tolist()}
             stage.legend = legend(drawing.overlay, drawing.energy, scene.color_range)
             stage.panel_legend = PANEL_LEGEND if panels else {}
-        if old is not scene:
-            old.close()
+        for one in unused:
+            one.close()
+        self._textures.keep([self._image, *(shape.picture for shape in around.scenery)])
+
+    def _draw_in_order(self, meshes: list[Any]) -> None:
+        """Let the page draw these meshes, in their order.
+
+        The page keeps the order of the meshes that it has and appends new ones. So if that is
+        another order, it first drops all of them.
+        """
+        drawn = self._renderer.scene
+        kept = [mesh for mesh in drawn.children if mesh in meshes]
+        appended = [*kept, *(mesh for mesh in meshes if mesh not in kept)]
+        if appended != meshes:
+            drawn.children = []
+        if drawn.children != meshes:
+            drawn.children = meshes
 
     def place_legend(self) -> None:
         """Move the colour bars to the corner where they hide least of the shape and targets."""
@@ -242,9 +318,10 @@ class Pane(ClosingWidget, ipywidgets.GridBox):
         return np.split(images, ends), np.reshape(self._drawing.targets, (-1, 2))
 
     def _everything(self) -> Any:
-        """Points of the drawn outline, and the targets."""
+        """Points of the drawn outlines, and the targets."""
         loops, targets = self._drawn()
-        return np.concatenate([*loops, targets])
+        around = (scene.map(scene.domain.cage.exterior) for scene in self.part_scenes.values())
+        return np.concatenate([*loops, *around, targets])
 
     _seen: tuple[float, float]  # width and height, in world units, that must fit in the view
     _unit: float  # world units per CSS pixel with which they fit
@@ -273,10 +350,36 @@ class Pane(ClosingWidget, ipywidgets.GridBox):
         with stage.hold_sync(), stage.hold_trait_notifications():
             stage.width, stage.height, stage.view = width, height, [x, y, self._unit]
 
-    def _new_scene(self, uniform_vectors: int) -> Scene:
-        vectors = uniform_vectors or UNIFORM_VECTORS  # 0 before a page has reported the number
-        mesh = self._n_vertices, self._evaluated_in, vectors
-        return Scene(*self._picture, self._drawing.map, *mesh)
+    def _edited_scene(self) -> Scene:
+        """A new scene of the edited shape."""
+        map_ = self._drawing.map
+        count = vertices_of(self._n_vertices, self._share(map_.domain))
+        how = count, self._evaluated_in, self._vectors
+        return Scene(self._frame, self._textures.of(self._image), map_, *how)
+
+    def _new_scene(self, map: HarmonicMap, image: Array, share: float) -> Scene:
+        """A scene of another shape, with a share of all vertices."""
+        count = vertices_of(self._n_vertices, share)
+        how = count, self._where(map.domain), self._vectors
+        return Scene(self._frame, self._textures.of(image), map, *how)
+
+    def _suits(self, scene: Scene, share: float) -> bool:
+        """Whether a scene is evaluated where a new one would be, and about as fine."""
+        edited = scene is self.scene
+        where = scene.evaluated_in if edited else self._where(scene.domain)
+        fine = suits(scene, vertices_of(self._n_vertices, share))
+        return where == scene.evaluated_in and fine
+
+    def _where(self, domain: Domain) -> EvaluatedIn:
+        """Who evaluates the map of a shape that is not edited."""
+        if self._asked is not None:
+            return self._asked
+        if not ShaderMap(domain).fits(self._vectors):
+            return "kernel"
+        return "page" if self._evaluated_in == "page" else "shader"
+
+    def _share(self, domain: Domain) -> float:
+        return self._around.share(domain, self._drawing.map.domain)
 
     @property
     def _multisamples(self) -> bool:
@@ -295,28 +398,19 @@ class Pane(ClosingWidget, ipywidgets.GridBox):
         self._renderer.width, self._renderer.height = self.stage.width, self.stage.height
 
     def _new_backdrop(self, background: Backdrop) -> BackdropMesh | None:
-        return None if background is None else BackdropMesh(background, self._picture[0])
+        return None if background is None else BackdropMesh(background, self._frame)
 
     @property
     def _meshes(self) -> list[Any]:
         behind = [] if self._backdrop is None else [self._backdrop.mesh]
-        return [*behind, *self.scene.meshes]
+        return [*behind, *stacked_meshes(self.scene, self._around.in_order(self.scene))]
 
     def _free(self) -> None:
         self.scene.close()
-        self._picture[1].close()
+        self._around.close()
+        self._textures.keep([])
         if self._backdrop is not None:
             self._backdrop.close()
-
-    def _wire(self) -> bytes:
-        scene = self.scene
-        return scene.shader_map.wire(scene.map) if scene.evaluated_in != "kernel" else b""
-
-
-def _outlined(scene: Scene) -> dict[str, Any]:
-    """`Stage.outline` of a scene."""
-    sizes = {"chain": scene.shader_map.n_chain, "shaderHoles": scene.shader_map.n_holes}
-    return {"outline": outline_of(scene.domain), **sizes}
 
 
 def emptiest_corner(

@@ -28,9 +28,8 @@ UNIFORM_VECTORS = 1024
 
 _RANGE_SAMPLES = 256  # of the boundary, where distortion is largest
 _GRID_LINES = 40  # along the longer side
-# _HIGHEST: the largest height in world units, inside the camera's range.
-# _LEVELS: groups of triangles, by height, that are drawn one after the other.
-_HIGHEST, _LEVELS = 4.0, 8
+HIGHEST = 4.0  # the largest height in world units, inside the camera's range
+_LEVELS = 8  # groups of triangles, by height, that are drawn one after the other
 _COLUMN = 8.0  # width of a column of triangles in drawing order, in heights of a row
 # Lines along the boundary, the lowest first: shape, colour, opacity, half the width in pixels.
 _LINES = {
@@ -86,7 +85,8 @@ class Scene:
         self._shown = Drawing(map)
         self.color_range = color_range(self._shown.overlay, self._shown.energy)
         """The values at the ends of the overlay's colour map."""
-        self.frame, self._texture = frame, texture
+        self.frame, self.texture = frame, texture
+        self.n_vertices = n_vertices  # of the picture's mesh, roughly
         self._mesh = triangulate(self.domain.cage, n_vertices)
         self._order = order_of(self.domain.cage)
         stacked = stacked_triangles(self._mesh, self._order)
@@ -110,6 +110,11 @@ class Scene:
     def meshes(self) -> list[Any]:
         """The meshes of the drawn layers."""
         return [mesh for layer in self.drawn for mesh in layer.meshes]
+
+    @property
+    def picture_meshes(self) -> list[Any]:
+        """Those of the drawn meshes that show the picture, not lines."""
+        return self.drawn[0].meshes
 
     @property
     def materials(self) -> list[Any]:
@@ -211,7 +216,7 @@ class Scene:
         return Layer(shader, uniforms, mover, self.map, points, triangles, **how)
 
     def _textured_uniforms(self) -> Uniforms:
-        return {**self._picture_uniforms(), "map": {"value": self._texture}}
+        return {**self._picture_uniforms(), "map": {"value": self.texture}}
 
     def _picture_uniforms(self) -> Uniforms:
         xmin, ymin, xmax, ymax = self.frame.bounds
@@ -255,7 +260,7 @@ def stacked_triangles(mesh: Triangulation, order: Order) -> tuple[Array, Array]:
 def _scaled(orders: Sequence[Order], mesh: Triangulation) -> Array:
     """(n, v) heights of the vertices for each order, scaled to the camera's range."""
     z = np.stack([order(mesh.vertices) for order in orders])
-    return 2 * _HIGHEST * ((z - z.min()) / (np.ptp(z) or 1.0) - 0.5)
+    return 2 * HIGHEST * ((z - z.min()) / (np.ptp(z) or 1.0) - 0.5)
 
 
 def drawing_order(mesh: Triangulation) -> Array:

@@ -3,7 +3,8 @@
 import base64
 import io
 import weakref
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -12,17 +13,19 @@ from PIL import Image
 
 from glid_nb._arrays import Array
 from glid_nb.harmonic import HarmonicMap
-from glid_nb.imaging.order import Sheets
+from glid_nb.imaging.order import Order, Sheets
 from glid_nb.imaging.render import render
 from glid_nb.imaging.texture import Texture
 from glid_nb.page import bundle, stylesheet
-from glid_nb.session.animation import Animation, Span
+from glid_nb.session.animation import Animation, PartAnimation, Span, proved_by_all
 from glid_nb.session.document import NamedPose
 from glid_nb.session.edit_state import EditState
+from glid_nb.session.scenery import Scenery
 from glid_nb.session.worker import LatestWins, weakly
-from glid_nb.widgets.canvas import DeformCanvas
+from glid_nb.widgets.canvas import DeformCanvas, Seen
 from glid_nb.widgets.gestures import Event, Gestures, asked
 from glid_nb.widgets.pad import Pad
+from glid_nb.widgets.scene import Scene
 
 _THUMBNAIL, _SMALL = (104, 80), 512  # pixels of a thumbnail, and of the picture it is drawn from
 _COLORS, _VERTICES = 64, 300
@@ -51,22 +54,30 @@ class TimelinePanel(Pad):
     plays, None for all), and the states of the switches."""
     motion = traitlets.Dict({"spans": []}).tag(sync=True)
     """``spans`` from keyframe to keyframe: ``start``, ``end``, ``status``, ``reason``. For the
-    proved part: ``times`` of the knots, ``floats`` (their coefficients), and ``sigma2`` between
-    them."""
+    proved part, which ends at ``until``: ``times`` of the knots, ``floats`` (their coefficients),
+    and ``sigma2`` between them."""
     heights = traitlets.Dict({"times": []}).tag(sync=True)
     """``times`` of the keyframes, and ``floats``, the picture's heights at these times, if the
     depths of poses differ. If the kernel evaluates, it sends the heights with its frames."""
+    part_motions = traitlets.List([]).tag(sync=True)
+    """The motions of the shapes around the edited one: for each its ``key``, its ``spans`` as in
+    `motion`, and its ``heights``."""
     thumbnails = traitlets.Dict({}).tag(sync=True)  # pictures as data URIs, by their keys
 
     def __init__(
         self, canvas: DeformCanvas, on_export: Callable[[], None] | None = None, **kwargs: Any
     ) -> None:
         self.canvas, self.on_export = canvas, on_export
+        self.on_play: Callable[[], None] = lambda: None  # called when the page plays, once a page
         self.animation = Animation(canvas.deformation)  # proves the motion between the poses
         self._pictures = weakref.WeakKeyDictionary[HarmonicMap, tuple[str, str]]()
         self._latest: dict[str, tuple[str, str]] = {}  # by the poses' names
         self._texture: Texture | None = None
         self._stacked: tuple[Any, ...] = ()
+        self._others: dict[
+            str, Animation | PartAnimation
+        ] = {}  # of the shapes around, by their keys
+        self._others_end: list[Callable[[], None]] = []
         draw = weakly(self._draw_thumbnails)
         self.worker = LatestWins[tuple[NamedPose, ...]](draw, self, "thumbnails")
         super().__init__(stage=canvas.pane.stage.model_id, **kwargs)
@@ -74,6 +85,7 @@ class TimelinePanel(Pad):
         actions = {
             "keep": asked(self.animation.keep, "time"),
             "record": asked(self.animation.record, "on"),
+            "played": lambda _: self.on_play(),
             "onion": lambda event: canvas.set_trait("show_onion", event["on"]),
             "frame": asked(self._show_between, "time"),
             "rename_pose": asked(model.rename_pose, "index", "name"),
@@ -86,15 +98,18 @@ class TimelinePanel(Pad):
         actions |= {"undo": asked(model.undo), "redo": asked(model.redo)}
         self._gestures = Gestures(model, actions)
         canvas.gestures.go_to = self._go_to
+        canvas.scenery_at = self._scenery_at
         self.serve(model, self._on_events)
         canvas.observe(lambda _: self._show("state"), ["show_onion"])
         canvas.pane.stage.observe(lambda _: self._show("motion"), ["materials"])
+        canvas.pane.stage.observe(lambda _: self._show_others(), ["part_shapes"])
         canvas.pane.stage.observe(lambda _: self._show("state"), ["drawn"])
         self._endings = (
             model.observe(self._show),
             self.animation.observe(self._show),
             self.animation.close,
             self.worker.close,
+            lambda: self.accompany({}),
         )
         for what in ("state", "motion"):
             self._show(what)
@@ -109,9 +124,56 @@ class TimelinePanel(Pad):
     def _show_between(self, time: float | None) -> None:
         """Let the canvas draw the motion at a time. Without a time, or without a motion at that
         time, it draws the edited pose."""
-        seen = None if time is None else self.animation.seen(time)
-        map_, order = seen or (None, None)
-        self.canvas.show_between(map_, order)
+        seen = None if time is None else self._seen(time)
+        if seen is None:
+            self.canvas.show_between(None)
+        else:
+            self.canvas.show_between(*seen)
+
+    def _seen(self, time: float) -> tuple[HarmonicMap, Order, tuple[Scenery, ...]] | None:
+        """Map and order of the edited shape at a time, and the shapes around it."""
+        at = proved_by_all(time, [self.animation, *self._others.values()])
+        seen = self.animation.seen(at)
+        return None if seen is None else (*seen, tuple(self._moved(at)))
+
+    def _moved(self, time: float) -> Iterator[Scenery]:
+        """The shapes around the edited one at a time of their motions."""
+        for shape in self.canvas.scenery:
+            animation = self._others.get(shape.key)
+            seen = None if animation is None else animation.seen(time)
+            yield shape if seen is None else replace(shape, map=seen[0], order=seen[1])
+
+    def _scenery_at(self, time: float) -> Seen | None:
+        """As `DeformCanvas.scenery_at`."""
+        if (seen := self._seen(time)) is None:
+            return None
+        return Sheets(*seen[:2], self.canvas.image), seen[2]
+
+    def accompany(self, animations: Mapping[str, Animation | PartAnimation]) -> None:
+        """Play the motions of the shapes around the edited one too, by their keys. They have the
+        same keyframes. A motion that is not proved stops all of them."""
+        for end in self._others_end:
+            end()
+        self._others = dict(animations)
+        self._others_end = [a.observe(lambda _: self._show_others()) for a in animations.values()]
+        self._show_others()
+
+    def _show_others(self) -> None:
+        # One lock after the other: the models of two shapes never wait for each other.
+        motions = {key: (a.spans, a.state) for key, a in self._others.items()}
+        with self.canvas.deformation.locked():
+            if self._closed:
+                return
+            scenes = self.canvas.pane.part_scenes
+            known = {key: motion for key, motion in motions.items() if key in scenes}
+            self.part_motions = [
+                {
+                    "key": key,
+                    "spans": self._spans_of(scenes[key], spans),
+                    "heights": _heights(scenes[key], state),
+                }
+                for key, (spans, state) in known.items()
+            ]
 
     def _go_to(self, time: float, point: Array) -> bool:
         """Edit the pose at a time, if it is drawn at a point (2,). Returns whether it is."""
@@ -127,10 +189,8 @@ class TimelinePanel(Pad):
             if self._closed:
                 return
             if what == "motion":
-                # Spans of a new cage are shown later, with its scene, whose materials are new.
-                domain = self.canvas.pane.scene.domain
-                spans = [span for span in self.animation.spans if span.map.domain is domain]
-                self.motion = {"spans": [self._span(span) for span in spans]}
+                scene, spans = self.canvas.pane.scene, self.animation.spans
+                self.motion = {"spans": self._spans_of(scene, spans)}
             if what in ("state", "recording", "motion"):
                 self._show_state()
             moment = self.canvas.deformation.moment
@@ -160,31 +220,38 @@ class TimelinePanel(Pad):
             "range": timeline.played_range,
             "recording": self.animation.recording,
             "onion": self.canvas.show_onion,
-            "kernel": self.canvas.pane.scene.evaluated_in == "kernel",
+            "kernel": any(s.evaluated_in == "kernel" for s in self._scenes),
             "exports": self.on_export is not None,
         }
 
+    @property
+    def _scenes(self) -> list[Scene]:
+        pane = self.canvas.pane
+        return [pane.scene, *pane.part_scenes.values()]
+
     def _show_heights(self, state: EditState) -> None:
-        scene, times = self.canvas.pane.scene, state.timeline.closed_times
+        scene = self.canvas.pane.scene
         if scene.domain is not state.domain:
             return  # the canvas has not drawn the new cage yet
-        orders = [state.orders[i % len(state.orders)] for i in range(len(times))]
-        moves = scene.evaluated_in != "kernel" and any(o is not orders[0] for o in orders)
-        stacked = (scene, times, *orders) if moves else ()
+        stacked = (scene, state.timeline.closed_times, *state.orders)
         if stacked != self._stacked:
             self._stacked = stacked
-            floats = {"floats": scene.heights(orders)} if moves else {}
-            self.heights = {"times": times if moves else [], **floats}
+            self.heights = _heights(scene, state)
 
-    def _span(self, span: Span) -> dict[str, Any]:
+    def _spans_of(self, scene: Scene, spans: Sequence[Span]) -> list[dict[str, Any]]:
+        """The spans of a scene's shape. Those of a new cage are shown later, with its scene, whose
+        materials are new."""
+        return [self._span(scene, span) for span in spans if span.map.domain is scene.domain]
+
+    def _span(self, scene: Scene, span: Span) -> dict[str, Any]:
         """A span as data for the page. If nothing is proved, the shape stays at its keyframe."""
-        scene, pieces = self.canvas.pane.scene, span.pieces
+        pieces = span.pieces
         start = span.start, pieces[0].start_map if pieces else span.map
         ends = [(piece.end, piece.end_map) for piece in pieces] or [(span.end, span.map)]
         times, maps = zip(start, *ends, strict=True)
         in_page = scene.evaluated_in != "kernel"
         return {
-            **{key: getattr(span, key) for key in ("start", "end", "status", "reason")},
+            **{key: getattr(span, key) for key in ("start", "end", "until", "status", "reason")},
             "sigma2": list(span.sigma2),
             "times": list(times),
             "floats": b"".join(map(scene.shader_map.wire, maps)) if in_page else b"",
@@ -216,3 +283,15 @@ class TimelinePanel(Pad):
             with self.canvas.deformation.locked():
                 if not self._closed:
                     self._show_state()
+
+
+def _heights(scene: Scene, state: EditState) -> dict[str, Any]:
+    """The heights of a scene's picture at the keyframes: `TimelinePanel.heights`."""
+    times, orders = state.timeline.closed_times, state.orders
+    moves = scene.evaluated_in != "kernel" and any(o is not orders[0] for o in orders)
+    if not moves or scene.domain is not state.domain:
+        return {"times": []}
+    return {
+        "times": times,
+        "floats": scene.heights([orders[i % len(orders)] for i in range(len(times))]),
+    }

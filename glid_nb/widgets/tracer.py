@@ -12,10 +12,11 @@ import traitlets
 from numpy.typing import NDArray
 from PIL import Image
 
+from glid_nb._errors import InputError
 from glid_nb.geometry import Cage, Domain
 from glid_nb.imaging import Hole, ImageSource, TraceOptions, Tracing, png
 from glid_nb.page import bundle, stylesheet
-from glid_nb.session.tracing import TracingModel
+from glid_nb.session.tracing import TracingModel, TracingState
 from glid_nb.widgets.gestures import Event
 from glid_nb.widgets.pad import Pad
 from glid_nb.widgets.tracer_gestures import REACH_SHARES, Cut, TraceGestures
@@ -33,7 +34,9 @@ class CageTracer(Pad):
     The widget is a view of a `TracingModel`, which does the work and needs no browser. The image is
     as in `glid_nb.read_image`; without one the widget asks for a file. ``options`` are the initial
     options. Give a ``model`` instead of image and options to show that model. The picture's area is
-    ``height`` CSS pixels high, at least 240; None uses the height of the window. Raises a
+    ``height`` CSS pixels high, at least 240; None uses the height of the window. With
+    ``on_pieces`` the page offers to keep the other pieces of a picture or cut, and gives that
+    function the states that trace them. Raises a
     TraceError for an unreadable picture.
 
     >>> import numpy as np
@@ -62,6 +65,7 @@ class CageTracer(Pad):
         *,
         model: TracingModel | None = None,
         height: int | None = 460,
+        on_pieces: Callable[[list[TracingState]], None] | None = None,
         **kwargs: Any,
     ) -> None:
         if model is not None and (image is not None or options is not None):
@@ -69,6 +73,7 @@ class CageTracer(Pad):
         self.tracing_model = model if model is not None else TracingModel(image, options)
         """The model of this view."""
         self.gestures = TraceGestures(self.tracing_model)  # handles pointers and keys
+        self._on_pieces = on_pieces
         self._pushed_image: NDArray[np.uint8] | None = None
         super().__init__(height=height, **kwargs)
         self._push()
@@ -107,7 +112,13 @@ class CageTracer(Pad):
 
     def handle(self, events: Sequence[Event]) -> str | None:
         """Act on pointers and keys."""
-        refusal = self.gestures.handle(events)
+        rest = [event for event in events if event["type"] != "keep_pieces"]
+        refusal = self.gestures.handle(rest) if rest else None
+        if self._on_pieces is not None and len(rest) < len(events):
+            try:
+                self._on_pieces(self.gestures.pieces())  # without the model's lock
+            except InputError as error:
+                refusal = str(error)
         # The model announces its own changes. Changes of the tools are not the model's.
         own = _of_hand(self.gestures)
         if own != {name: self.shown[name] for name in own}:
@@ -118,8 +129,9 @@ class CageTracer(Pad):
         with self.tracing_model.locked(), self.hold_sync():
             if self.tracing_model.image is not self._pushed_image:
                 self._pushed_image = self.tracing_model.image
+                self.gestures.begin()
                 self.picture = displayed(self._pushed_image)
-            self.shown = described(self.gestures)
+            self.shown = described(self.gestures) | {"keeps": self._on_pieces is not None}
 
 
 def described(gestures: TraceGestures) -> dict[str, Any]:
@@ -166,6 +178,7 @@ def _of_hand(gestures: TraceGestures) -> dict[str, Any]:
         "corners": [list(corner) for corner in gestures.corners],
         "inside": gestures.inside,
         "cut": _cut(gestures.cut),
+        "knife_width": gestures.knife_width,
         "selected": [list(vertex) for vertex in gestures.selected],
     }
 

@@ -20,7 +20,14 @@ from PIL import Image, ImageSequence
 
 import glid_check
 from glid_nb import InputError, Motion
-from glid_nb.export import MOTION_FORMATS, animate, encode, motion_files, motion_glb
+from glid_nb.export import (
+    MOTION_FORMATS,
+    MovingPart,
+    animate,
+    encode,
+    motion_files,
+    motion_glb,
+)
 from glid_nb.export.moving import MovingMesh, frames
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging import PixelFrame
@@ -40,7 +47,7 @@ def motion(repeat: Any = "once") -> Motion:
 
 @pytest.fixture(scope="module")
 def drawn() -> list[np.ndarray]:
-    return list(frames(picture(), motion(), None, 64, 3.0, (255, 255, 255)).pictures)
+    return list(frames([MovingPart(picture(), motion())], 64, 3.0, (255, 255, 255)).pictures)
 
 
 def rgb(image: Image.Image) -> np.ndarray:

@@ -24,8 +24,14 @@ function playing(repeat) {
     () => {},
     ended,
   );
-  const first = { start: 0, end: 1, times: [0, 1], floats: new Float32Array([0, 10]) };
-  const half = { start: 1, end: 2, times: [1, 1.5], floats: new Float32Array([10, 20]) };
+  const first = { start: 0, end: 1, until: 1, times: [0, 1], floats: new Float32Array([0, 10]) };
+  const half = {
+    start: 1,
+    end: 2,
+    until: 1.5,
+    times: [1, 1.5],
+    floats: new Float32Array([10, 20]),
+  };
   player.set([first, half], repeat);
   return { player, shown, ended };
 }
@@ -50,6 +56,30 @@ test("beyond what is proved the last proved instant stays", () => {
   const { player, shown } = playing("once");
   player.scrub(1.9);
   assert.deepEqual(shown, [[[20], 1.9]]);
+});
+
+test("where one of several shapes is proved less far, all stay there", () => {
+  /** @type {[number, number[], Record<string, number[]>][]} */
+  const shown = [];
+  const player = new Player(
+    (floats, time, others) => {
+      const theirs = Object.entries(others ?? {}).map(([key, values]) => [key, [...values]]);
+      shown.push([time ?? NaN, [...(floats ?? [])], Object.fromEntries(theirs)]);
+    },
+    () => {},
+  );
+  const span = (/** @type {number} */ start, /** @type {number} */ until) => ({
+    ...{ start, end: start + 1, until, times: [start, start + 1] },
+    floats: new Float32Array([10 * start, 10 * start + 10]),
+  });
+  const [whole, half, none] = [span(0, 1), span(0, 0.5), span(1, 1)];
+  player.set([whole, span(1, 2)], "once", { arm: [half, span(1, 2)], leg: [whole, none] });
+  for (const time of [0.25, 0.75, 1.5]) player.scrub(time);
+  assert.deepEqual(shown, [
+    [0.25, [2.5], { arm: [2.5], leg: [2.5] }],
+    [0.75, [5], { arm: [5], leg: [5] }],
+    [1.5, [10], { arm: [10], leg: [10] }],
+  ]);
 });
 
 test("a loop range plays over and over, whatever the motion does at its end", async () => {
@@ -106,7 +136,7 @@ test("the next frame waits until the one before is drawn", async () => {
       }),
     () => {},
   );
-  const span = { start: 0, end: 9, times: [0, 9], floats: new Float32Array() };
+  const span = { start: 0, end: 9, until: 9, times: [0, 9], floats: new Float32Array() };
   player.set([span], "once");
   player.play();
   await frame(0);

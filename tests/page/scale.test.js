@@ -47,7 +47,7 @@ function shown(changes) {
  */
 function span(changes) {
   const floats = new DataView(new ArrayBuffer(0));
-  const proved = { start: 0, end: 1, times: [0, 1], floats, sigma2: [0.5], reason: "" };
+  const proved = { start: 0, end: 1, until: 1, times: [0, 1], floats, sigma2: [0.5], reason: "" };
   return { ...proved, status: "proved", ...changes };
 }
 

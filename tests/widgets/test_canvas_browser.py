@@ -211,7 +211,7 @@ def test_by_keyboard_alone(open_notebook: OpenNotebook) -> None:
     book = open_notebook([SETUP, EDITOR])
     hand = Hand(book)
     keys, shown = hand.page.keyboard, hand.pad.locator(".glid-help")
-    hand.pad.get_by_text("Click the shape to pin a point").wait_for()
+    assert hand.pad.get_by_text("Click the shape to pin a point").is_hidden()  # the footer says it
     hand.page.locator(".glid-tools").get_by_role("button", name="Keys and gestures").click()
     shown.get_by_text("Ctrl+Shift+Z").wait_for()
     shown.get_by_text("the shape follows, and never folds").wait_for()

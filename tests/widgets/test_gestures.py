@@ -335,6 +335,83 @@ def test_the_right_button_selects_what_its_menu_is_about(hand: Hand) -> None:
     assert "no shape here" in (hand.send("pin", 9, 9) or "")
 
 
+def three_pins(hand: Hand) -> Deformation:
+    for x, y in ((2, 0), (-2, 0), (0, 2)):
+        hand.click(x, y)
+    return hand.model
+
+
+def test_a_locked_pin_is_not_moved_by_the_hand(hand: Hand) -> None:
+    model = three_pins(hand)
+    before = model.pose.targets.copy()
+    hand.key("l")
+    assert [mark.locked for mark in model.state.marks] == [False, False, True]
+    assert hand.send("down", 0, 2) == ""
+    assert hand.send("move", 0, 2.5) == ""
+    assert hand.send("up", 0, 2.5) == "pin 3 is locked; unlock it first (L)"
+    assert model.selection == (2,)  # but it can be selected
+    for key in ("ArrowUp", ">", "x", "Delete"):
+        assert "locked" in hand.key(key)
+    assert hand.send("down", 0.8, 2, part="turn") == "pin 3 is locked; unlock it first (L)"
+    hand.send("up", 0.8, 2)
+    np.testing.assert_array_equal(model.pose.targets, before)
+
+    # Selected with others, it stays where it is and they move.
+    hand.key("a")
+    hand.drag((2, 0), (2.2, 0), (2.5, 0))
+    np.testing.assert_allclose(model.pose.targets - before, [[0.5, 0], [0.5, 0], [0, 0]], atol=1e-9)
+    hand.key("Delete")
+    np.testing.assert_allclose(model.pose.handles, [[0, 2]], atol=1e-9)
+    model.select([0])
+    hand.key("L")
+    hand.drag((0, 2), (0, 2.5))
+    np.testing.assert_allclose(model.pose.targets, [[0, 2.5]], atol=1e-9)
+
+
+def test_a_hidden_pin_is_neither_hit_nor_chosen(hand: Hand) -> None:
+    model = three_pins(hand)
+    hand.key("h")
+    hidden = [mark.hidden for mark in model.state.marks]
+    assert hidden == [False, False, True]
+    assert hand.gestures.hit(np.array([0.0, 2.0]), 0.26) is None
+    hand.key("a")
+    assert model.selection == (0, 1)
+    hand.key("Escape")
+    seen = []
+    for _ in range(3):
+        hand.key(".")
+        seen += model.selection
+    assert seen == [0, 1, 0]
+    hand.key("Escape")
+    box = [(-3, -3), (3, -3), (3, 3), (-3, 3)]
+    hand.send("up", path=box, encloses="box")
+    assert model.selection == (0, 1)
+    hand.key("h", shift=True)
+    assert hand.gestures.hit(np.array([0.0, 2.0]), 0.26) == 2
+
+
+def test_a_group_is_selected_and_moved_together(hand: Hand) -> None:
+    model = three_pins(hand)
+    model.select([0, 2])
+    hand.key("g")
+    hand.key("Escape")
+    before = model.pose.targets.copy()
+    hand.drag((2, 0), (2.2, 0.2), (2.5, 0.5))
+    assert model.selection == (2, 0)
+    moved = [[0.5, 0.5], [0, 0], [0.5, 0.5]]
+    np.testing.assert_allclose(model.pose.targets - before, moved, atol=1e-9)
+
+    # Shift and a click take the whole group out of the selection.
+    hand.key("a")
+    hand.click(2.5, 0.5, shift=True)
+    assert model.selection == (1,)
+    hand.click(2.5, 0.5)
+    hand.key("g", shift=True)
+    hand.key("Escape")
+    hand.click(0.5, 2.5)
+    assert model.selection == (2,)
+
+
 def test_removing_by_key(hand: Hand) -> None:
     for place in ((2, 0), (-2, 0), (0, 2)):
         hand.click(*place)

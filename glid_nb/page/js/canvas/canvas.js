@@ -19,7 +19,9 @@ import { arrowAt, inSight, knobInCorner } from "./marks.js";
 import { Notices } from "./notices.js";
 import { drawAxis, drawNumbers, movedPin } from "./numbers.js";
 import { KEYS, PinBehaviour } from "./pin_behaviour.js";
+import { drawLocks, withoutHidden } from "./pin_marks.js";
 import { PoseClipboard } from "./pose_clipboard.js";
+import { Reference } from "./reference.js";
 import { resizeGrip } from "./resize_grip.js";
 import { Room } from "./room.js";
 import { coveredNear, Shapes } from "./shapes.js";
@@ -27,6 +29,7 @@ import { Spacing } from "./spacing.js";
 
 /** @import { Context, Found, Point } from "../types.js" */
 /** @import { Pen } from "../pad/pen.js" */
+/** @import { PartSeen } from "./moved_shape.js" */
 /** @import { Seen } from "./shapes.js" */
 /** @import { Brush, CanvasTraits, Tool } from "./traits.js" */
 
@@ -85,6 +88,7 @@ export class Canvas {
     this.shapes = new Shapes(model, this.view);
     this.shapes.led = () => this.redraw();
     this.ahead = new Ahead(model, (lead) => this.shapes.showLead(lead));
+    this.reference = new Reference(this.box, model, this.view);
     this.redraw = painter(paper, this.view, signal, (pen) => this.#draw(pen));
     this.link = new Link(model, this.box, signal, () => this.#report());
     this.room = this.interactive ? new Room(this.box, model, signal) : null;
@@ -104,10 +108,22 @@ export class Canvas {
     clearTimeout(this.#saving);
     this.ahead.close();
     this.shapes.close();
+    this.reference.close();
   }
 
-  get marks() {
+  /** Targets and images, of pins that the user hid as well. */
+  get allMarks() {
     return marksOf(this.model.get("marks"), this.shapes.lead);
+  }
+
+  /** What is drawn. */
+  get marks() {
+    return withoutHidden(this.allMarks, this.model.get("pins"), Number.NaN);
+  }
+
+  /** What the pointer reaches. */
+  get reachable() {
+    return withoutHidden(this.allMarks, this.model.get("pins"), Infinity);
   }
 
   /** Starts the page's own solver anew, for what is edited now. */
@@ -115,9 +131,26 @@ export class Canvas {
     if (this.interactive) void this.ahead.prepare();
   }
 
-  /** Goes over to the kernel's map, unless a drag goes on. */
+  /** Goes over to the kernel's map, unless a drag goes on; a drag of the shape has a pin by now. */
   rested() {
-    if (!this.pad.grip) this.ahead.giveBack();
+    if (this.pad.grip) return;
+    const made = this.behaviour.madePin();
+    if (made === undefined) this.ahead.giveBack();
+    else this.#hold(made);
+  }
+
+  /**
+   * Holds a pin that the present drag has made, where the pointer is.
+   *
+   * @param {number} made
+   */
+  #hold(made) {
+    const { pad, view, behaviour } = this;
+    const [from] = pad.path;
+    const [place] = pad.pointers.values();
+    pad.grip = { from, points: new Map([[made, from]]) };
+    if (!behaviour.constrains) pad.held.set(made, view.toWorld(place)); // else with the next move
+    this.followHand();
   }
 
   /** Has the page's own solver follow what is dragged. */
@@ -198,7 +231,8 @@ export class Canvas {
     const { selected, targets } = this.marks;
     const mark = found?.mark === undefined ? null : Number(found.mark);
     const centre = /** @type {Point} */ ([this.view.x, this.view.y]);
-    const point = mark === null ? (this.model.get("cursor") ?? centre) : targets[mark];
+    const pinned = mark !== null && Number.isFinite(targets[mark]?.[0]);
+    const point = pinned ? targets[mark] : (this.model.get("cursor") ?? centre);
     const at = place ?? this.view.toScreen(point);
     const does = {
       press: (/** @type {string} */ key, shift = false) => {
@@ -210,9 +244,10 @@ export class Canvas {
       fullScreen: () => this.room?.fullScreen(),
       showKeys: this.help.toggle,
     };
-    const pinned = mark !== null && selected.includes(mark) ? selected.length : 1;
+    const count = mark !== null && selected.includes(mark) ? selected.length : 1;
     const covered = mark === null && coveredNear(this.box, at);
-    openMenu(this.box, at, menuRows(does, mark === null ? null : { pinned }, covered));
+    const hides = this.model.get("pins").away.length > 0;
+    openMenu(this.box, at, menuRows(does, mark === null ? null : count, covered, hides));
   }
 
   /**
@@ -221,10 +256,12 @@ export class Canvas {
    * @param {Seen} motion null for the pose that is edited
    * @param {Playing} playing
    * @param {Float32Array | null} heights of the picture's vertices
+   * @param {Record<string, PartSeen>} parts what is seen of the shapes around, by their keys
    */
-  showMotion(motion = null, playing = STILL, heights = null) {
+  showMotion(motion = null, playing = STILL, heights = null, parts = {}) {
     this.#playing = playing;
     this.shapes.motion = motion;
+    this.shapes.partMotions = parts;
     this.shapes.lift(heights);
     this.showLegend();
     this.shapes.refresh();
@@ -268,6 +305,7 @@ export class Canvas {
     if (now === this.#chosen) return;
     this.#chosen = now;
     if (now === undefined || this.pad.mode) return;
+    if (!Number.isFinite(targets[now]?.[0])) return; // hidden
     if (inSight(this.view, targets[now]) || inSight(this.view, images[now])) return;
     this.view.centreOn(targets[now]);
   }
@@ -364,6 +402,7 @@ export class Canvas {
 
   #see() {
     this.shapes.see();
+    this.reference.place();
     this.redraw();
   }
 
@@ -392,7 +431,10 @@ export class Canvas {
       this.ghosts.draw(pen, view, model.get("outline").outline, marks.targets.length > 0);
     }
     const cursor = pad.focused ? model.get("cursor") : null;
-    drawMarks(pen, view, marks, { hovered: pad.found?.mark, held: pad.held, cursor });
+    const pins = model.get("pins");
+    const held = new Map([...pad.held].filter(([mark]) => !pins.away.includes(Number(mark))));
+    drawMarks(pen, view, marks, { hovered: pad.found?.mark, held, cursor });
+    drawLocks(pen, view, marks, pins);
     if (brush) drawBrush(pen, view, brush, pad);
     else this.#drawNumbers(pen);
     if (pad.encloses && pad.path.length > 2) drawLasso(pen, view, pad.path);

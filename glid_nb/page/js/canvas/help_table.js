@@ -18,6 +18,8 @@ export const HELP = [
       ["Ring around a pin; Alt on the pin", "turn the shape there; the ring's knob scales it too"],
       ["< >, + -, X", "turn, scale; free both again"],
       ["Page Down, Page Up, [ ]", "send selected pins and their surroundings back, forward"],
+      ["L, H", "lock the selected pins, hide them; Shift+H shows all again"],
+      ["G", "make a group: it is selected and moved together; with Shift dissolve it"],
       ["Arrow keys", "nudge selected pins, with Shift farther; else move a cursor"],
       ["Enter", "show the cursor; pin or select there"],
     ],
@@ -26,6 +28,7 @@ export const HELP = [
     "Selecting",
     [
       ["Shift-click, A", "select several pins, all pins"],
+      ["N, Shift+N, click a part", "edit another part, if there are several"],
       ["Shift and drag, Ctrl and drag", "select the pins in a box, in a lasso"],
       [
         ", .",

@@ -1,12 +1,15 @@
 // Puts the kernel's coefficients and the page's view into pythreejs's objects.
 
 import { make, penOf, toFloats } from "../pad/dom.js";
-import { movedByPage, Vertices } from "./vertices.js";
+import { Detail } from "./detail.js";
+import { MovedShape } from "./moved_shape.js";
+import { movedByPage } from "./vertices.js";
 
 /** @import { Model, Point } from "../types.js" */
 /** @import { Lead } from "./ahead.js" */
 /** @import { View } from "../pad/view.js" */
-/** @import { CanvasTraits } from "./traits.js" */
+/** @import { PartSeen } from "./moved_shape.js" */
+/** @import { CanvasTraits, Outlined } from "./traits.js" */
 
 /**
  * What the timeline shows instead of the pose that is edited: coefficients, or true where the kernel
@@ -23,25 +26,23 @@ const MOST_FRAMES = 100; // until there is a renderer to be timed
 export class Shapes {
   /** @type {Seen} */
   motion = null;
+  /** @type {Record<string, PartSeen>} the motions of the shapes around the edited one, by their keys */
+  partMotions = {};
   /** @type {Lead | null} a map of the page's own solver, ahead of the kernel's */
   lead = null;
   /** Called when the lead has changed. */
   led = () => {};
 
-  /** @type {Vertices | null} */
-  #vertices = null;
-
-  /** @type {any[]} pythreejs's models of materials */
-  #materials = [];
+  #edited = new MovedShape();
+  /** @type {Map<string, MovedShape>} the shapes around the edited one, by their keys */
+  #around = new Map();
   /** @type {any} */
   #camera = null;
   /** @type {any} */
   #renderer = null;
   #loading = 0; // counts the loads, to tell the newest
-  /** @type {Float32Array | null} the vertices of the picture as a motion moves them */
-  #lifted = null;
-  /** @type {Float32Array | null} the vertices as the kernel sent them */
-  #resting = null;
+  #loaded = ""; // the references of the materials that are loaded
+  #detail = new Detail(() => Object.values(this.#renderer?.views ?? {}));
 
   /**
    * @param {Model<CanvasTraits>} model
@@ -50,42 +51,68 @@ export class Shapes {
   constructor(model, view) {
     this.model = model;
     this.view = view;
-    model.on("change:outline", () => this.#takeOutline());
-    this.#takeOutline();
-    model.on("change:materials change:camera change:renderer", () => this.load());
+    const loaded = "change:materials change:part_shapes change:camera change:renderer";
+    model.on(loaded, () => this.load());
   }
 
   async load() {
     this.#loading += 1;
     const turn = this.#loading;
     const { model } = this;
-    const references = [model.get("camera"), model.get("renderer"), ...model.get("materials")];
-    const [camera, renderer, ...materials] = await Promise.all(
-      references.map((one) => model.widget_manager.get_model(one.replace("IPY_MODEL_", ""))),
-    );
-    await Promise.all([camera, renderer, ...materials].map((one) => one.initPromise));
+    const parts = model.get("part_shapes") ?? [];
+    const [[camera, renderer], materials, ...others] = await Promise.all([
+      this.#models([model.get("camera"), model.get("renderer")]),
+      this.#models(model.get("materials")),
+      ...parts.map((part) => this.#models(part.materials)),
+    ]);
     if (turn !== this.#loading) return; // there are newer ones
     this.#forget();
     this.#camera = camera;
     this.#renderer = renderer;
-    this.#materials = materials;
+    this.#edited = shapeOf(model.get("outline"), materials);
+    this.#around = new Map(parts.map((part, i) => [part.key, shapeOf(part, others[i])]));
+    this.#loaded = this.#references;
     // When the kernel changes a uniform, pythreejs replaces them all, on the event "change".
-    for (const material of materials) material.on("change", this.refresh, this);
+    for (const material of this.#materials) material.on("change", this.refresh, this);
     renderer.get("scene").off("beforeRender", keepLittle).on("beforeRender", keepLittle);
     for (const view of Object.values(renderer.views)) view.then(drawNoMore);
     renderer.on(LEAD, this.#takeLead, this);
     this.refresh();
   }
 
-  #forget() {
-    this.#renderer?.off(null, null, this);
-    for (const material of this.#materials) material.off(null, null, this);
-    this.#materials = [];
+  /**
+   * The models of some references, once they have three.js's objects.
+   *
+   * @param {string[]} references
+   * @returns {Promise<any[]>}
+   */
+  async #models(references) {
+    const { widget_manager: manager } = this.model;
+    const models = await Promise.all(
+      references.map((one) => manager.get_model(one.replace("IPY_MODEL_", ""))),
+    );
+    await Promise.all(models.map((one) => one.initPromise));
+    return models;
   }
 
-  #takeOutline() {
-    const outlined = this.model.get("outline");
-    this.#vertices = outlined?.outline ? new Vertices(outlined) : null;
+  /** @type {any[]} pythreejs's models of the materials of all shapes */
+  get #materials() {
+    return [this.#edited, ...this.#around.values()].flatMap(({ materials }) => materials);
+  }
+
+  #forget() {
+    this.#detail.restore();
+    this.#renderer?.off(null, null, this);
+    for (const material of this.#materials) material.off(null, null, this);
+    this.#edited = new MovedShape();
+    this.#around.clear();
+    this.#loaded = "";
+  }
+
+  /** Which materials the kernel says belong to which shape. */
+  get #references() {
+    const parts = this.model.get("part_shapes") ?? [];
+    return JSON.stringify([this.model.get("materials"), parts.map(({ materials }) => materials)]);
   }
 
   /**
@@ -101,6 +128,7 @@ export class Shapes {
   /** @param {Lead | null} lead */
   #takeLead(lead) {
     this.lead = lead;
+    if (lead && this.movesVertices) this.#detail.moved(this.model.get("drawing_time"));
     this.refresh();
     this.led();
   }
@@ -117,22 +145,22 @@ export class Shapes {
 
   /** Puts the newest coefficients into every material. */
   refresh() {
+    // The maps and materials of another shape come together, but the materials are loaded later.
+    if (this.#loaded === this.#references) this.#move();
+    this.see();
+    this.redraw();
+  }
+
+  #move() {
     const { motion } = this;
     const moved = motion instanceof Float32Array && motion.length ? motion : null;
     const floats = moved ?? this.lead?.floats ?? toFloats(this.model.get("coefficients"));
-    this.#vertices?.move(this.#meshes, floats);
-    for (const { obj } of this.#materials) {
-      const { cage, coefficients, holes, by_margin: byMargin } = obj?.uniforms ?? {};
-      if (byMargin?.value) byMargin.value = motion ? 2 : 1;
-      if (!coefficients) continue;
-      const chain = cage.value.length;
-      // The kernel evaluates, or another domain's coefficients arrive before its materials.
-      if (floats.length !== chain + holes.value.length) continue;
-      coefficients.value = floats.subarray(0, chain);
-      holes.value = floats.subarray(chain);
+    this.#edited.move(this.#meshes, floats, Boolean(motion));
+    for (const [key, shape] of this.#around) {
+      const seen = motion instanceof Float32Array ? this.partMotions[key] : undefined;
+      if (seen) shape.move(this.#meshes, seen.floats, true);
+      else shape.rest(this.#meshes, this.model.get("part_maps")[key]);
     }
-    this.see();
-    this.redraw();
   }
 
   /**
@@ -141,23 +169,10 @@ export class Shapes {
    * @param {Float32Array | null} heights
    */
   lift(heights) {
-    const picture = this.#renderer?.get("scene").obj?.children[0];
-    const position = picture?.geometry.attributes.position;
-    if (!position) return;
-    if (position.array !== this.#lifted) this.#resting = position.array; // the kernel's
-    const resting = /** @type {Float32Array} */ (this.#resting);
-    if (heights?.length === position.count) {
-      const lifted = position.array === resting ? resting.slice() : position.array;
-      /** @type {Float32Array} */ (heights).forEach((height, i) => {
-        lifted[3 * i + 2] = height;
-      });
-      if (position.array === resting) position.setArray(lifted);
-      this.#lifted = lifted;
-    } else {
-      if (position.array === resting) return;
-      position.setArray(resting);
+    this.#edited.lift(this.#meshes, heights);
+    for (const [key, shape] of this.#around) {
+      shape.lift(this.#meshes, this.partMotions[key]?.heights ?? null);
     }
-    position.needsUpdate = true;
   }
 
   /** Shows what the view shows; the camera's renderer draws anew by itself. */
@@ -179,6 +194,16 @@ export class Shapes {
     this.#loading += 1;
     this.#forget();
   }
+}
+
+/**
+ * @param {Outlined} outlined
+ * @param {any[]} materials pythreejs's models
+ */
+function shapeOf(outlined, materials) {
+  const shape = new MovedShape(outlined);
+  shape.materials = materials;
+  return shape;
 }
 
 /** @type {WeakSet<object>} renderers of three.js that end with their contexts */

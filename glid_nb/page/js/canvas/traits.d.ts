@@ -14,6 +14,13 @@ export interface Marks {
   ring: Ring | [];
 }
 
+/** Pins by their indices: which are locked, which the user hid, and the group's number of each. */
+export interface PinMarks {
+  locked: number[];
+  away: number[];
+  groups: number[];
+}
+
 export interface ColorBar {
   title: string;
   /** The title while a motion is seen. */
@@ -39,6 +46,12 @@ export interface Outlined {
   shaderHoles: number;
 }
 
+/** A shape that is drawn but not edited. */
+export interface PartShape extends Outlined {
+  key: string;
+  materials: string[];
+}
+
 /** A pose whose map the kernel has found. */
 export interface Rest {
   number: number;
@@ -53,13 +66,18 @@ export interface CanvasTraits {
   view: [x: number, y: number, unit: number];
   coefficients: DataView;
   outline: Outlined;
+  part_shapes: PartShape[];
+  part_maps: Record<string, DataView>;
   solver_script: string;
   solver: { options: SolverOptions } | Record<string, never>;
   rest: Rest | Record<string, never>;
   marks: Marks;
   names: string[];
+  pins: PinMarks;
   /** Width and height of the picture in its pixels. */
   picture_size: number[];
+  /** A picture behind the shape; empty for none. */
+  reference: DataView<ArrayBuffer>;
   onion: [color: string, loops: Point[][]][];
   stiff: [strength: number, loops: Point[][]][];
   /** Empty before the kernel has told of it. */

@@ -8,11 +8,14 @@ import { Wire } from "../live/wire.js";
 
 const MOVED_BY_PAGE = "moved by the page"; // `MOVED_BY_PAGE` of glid_nb/widgets/layers.py
 
+/** @type {WeakMap<object, FieldPoints>} the rows of a shape's basis at a geometry's vertices */
+const pointsIn = new WeakMap();
+/** @type {WeakMap<object, Float32Array>} the map whose images an array has; pythreejs changes arrays */
+const imagesIn = new WeakMap();
+
 export class Vertices {
   #domain;
   #wire;
-  /** @type {WeakMap<object, FieldPoints>} the rows of the basis at a geometry's vertices */
-  #points = new WeakMap();
 
   /** @param {Outlined} outlined */
   constructor({ outline, ...sizes }) {
@@ -25,20 +28,23 @@ export class Vertices {
    *
    * @param {any[]} meshes three.js's
    * @param {Float32Array} wire the map
+   * @param {boolean} still whether the same array has the same numbers as before
    */
-  move(meshes, wire) {
+  move(meshes, wire, still = false) {
     const moved = meshes.filter(movedByPage);
     if (!moved.length || wire.length !== this.#wire.length) return;
     const coefficients = this.#wire.coefficients(wire);
     const distorted = new Set(moved.filter(showsDerivatives).map((mesh) => mesh.geometry));
     for (const geometry of new Set(moved.map((mesh) => mesh.geometry))) {
-      const points = this.#pointsOf(geometry);
       const { image, derivatives } = geometry.attributes;
+      if (still && imagesIn.get(image.array) === wire) continue;
+      const points = this.#pointsOf(geometry);
+      imagesIn.set(image.array, wire);
       image.array.set(points.images(coefficients));
-      image.needsUpdate = true;
+      renew(image);
       if (distorted.has(geometry)) {
         interleave(points.samples(coefficients), derivatives.array);
-        derivatives.needsUpdate = true;
+        renew(derivatives);
       }
       geometry.userData.wire = wire; // what is drawn, for whoever looks at the page's objects
     }
@@ -46,15 +52,28 @@ export class Vertices {
 
   /** @param {any} geometry three.js's */
   #pointsOf(geometry) {
-    const known = this.#points.get(geometry);
+    const known = pointsIn.get(geometry);
     if (known) return known;
     const { array, count } = geometry.attributes.position;
     /** @type {import("../types.js").Point[]} */
     const places = Array.from({ length: count }, (_, i) => [array[3 * i], array[3 * i + 1]]);
     const points = new FieldPoints(this.#domain, places);
-    this.#points.set(geometry, points);
+    pointsIn.set(geometry, points);
     return points;
   }
+}
+
+let newest = 0;
+
+/**
+ * Has three.js take an attribute anew. pythreejs may set its version back to one that was taken before,
+ * so every change gets a number of its own.
+ *
+ * @param {any} attribute three.js's
+ */
+export function renew(attribute) {
+  newest = Math.max(newest, attribute.version) + 1;
+  attribute.version = newest;
 }
 
 /**

@@ -1,6 +1,7 @@
 // Shows a motion at a time and plays it. What is not proved is not shown: where an interval ends
 // early, its last proved instant stays. After the last keyframe its pose stays, until a keyframe is
-// made there.
+// made there. The motions of several shapes have the same intervals; where one of them ends early, all
+// stay at the last instant that is proved for all.
 
 import { Motion } from "../motion/motion.js";
 
@@ -12,16 +13,21 @@ import { Motion } from "../motion/motion.js";
  * @typedef {object} Interval
  * @property {number} start
  * @property {number} end
+ * @property {number} until the last proved instant
  * @property {number[]} times of the knots
  * @property {Float32Array} floats coefficients at the knots; empty where the kernel evaluates
  */
 
 /**
  * Draws coefficients, or, where they are null, has the kernel draw the time, and resolves when it
- * has. Without a time: the pose that is edited.
+ * has. Without a time: the pose that is edited. The last argument are coefficients of other shapes,
+ * by their keys.
  *
- * @typedef {(floats: Float32Array | null, time?: number) => Promise<unknown> | void} Show
+ * @typedef {(floats: Float32Array | null, time?: number, others?: Record<string, Float32Array>) =>
+ *   Promise<unknown> | void} Show
  */
+
+/** @typedef {{ end: number, until: number, motion: Motion | null }} Part of a motion */
 
 export class Player {
   /** @type {Motion | null} the times of all intervals, without coefficients */
@@ -34,8 +40,10 @@ export class Player {
   /** @type {number | null} a time after the last keyframe */
   later = null;
 
-  /** @type {{ end: number, motion: Motion | null }[]} */
+  /** @type {Part[]} */
   #intervals = [];
+  /** @type {Map<string, Part[]>} those of other shapes, by their keys */
+  #others = new Map();
   #frame = 0;
 
   /**
@@ -52,12 +60,12 @@ export class Player {
   /**
    * @param {Interval[]} intervals
    * @param {Repeat} repeat
+   * @param {Record<string, Interval[]>} others those of other shapes, by their keys
    */
-  set(intervals, repeat) {
-    this.#intervals = intervals.map(({ end, times, floats }) => ({
-      end,
-      motion: floats.length ? new Motion({ times, repeat: "once" }, floats) : null,
-    }));
+  set(intervals, repeat, others = {}) {
+    this.#intervals = intervals.map(partOf);
+    const entries = Object.entries(others);
+    this.#others = new Map(entries.map(([key, theirs]) => [key, theirs.map(partOf)]));
     const first = intervals[0];
     const last = intervals.at(-1);
     const times = first && last ? [first.start, last.end] : null;
@@ -159,7 +167,7 @@ export class Player {
     this.later = time;
     this.time = this.clock?.last ?? this.only;
     this.seen = true;
-    this.show(this.#intervals.at(-1)?.motion?.at(this.time) ?? null, time);
+    this.#showAt(this.time, time);
     this.moved();
   }
 
@@ -174,9 +182,45 @@ export class Player {
     this.time = time === clock.end ? time : clock.within(time);
     this.seen = true;
     const { place } = this;
-    const interval = this.#intervals.find(({ end }) => place <= end) ?? this.#intervals.at(-1);
-    const shown = this.show(interval?.motion?.at(place) ?? null, place);
+    const shown = this.#showAt(place, place);
     this.moved();
     return shown;
   }
+
+  /**
+   * Shows the motions at a place of theirs, or where they are proved last before it.
+   *
+   * @param {number} place
+   * @param {number} time that is told
+   */
+  #showAt(place, time) {
+    const own = partAt(this.#intervals, place);
+    const others = [...this.#others].map(([key, parts]) => ({ key, part: partAt(parts, place) }));
+    const untils = others.map(({ part }) => part?.until ?? place);
+    const at = Math.min(place, own?.until ?? place, ...untils);
+    const moved = others.flatMap(({ key, part }) => {
+      const floats = part?.motion?.at(at);
+      return floats ? [[key, floats]] : [];
+    });
+    return this.show(own?.motion?.at(at) ?? null, time, Object.fromEntries(moved));
+  }
+}
+
+/**
+ * @param {Interval} interval
+ * @returns {Part}
+ */
+function partOf({ end, until, times, floats }) {
+  const motion = floats.length ? new Motion({ times, repeat: "once" }, floats) : null;
+  return { end, until, motion };
+}
+
+/**
+ * The part of a motion that holds a place; the last one after its end.
+ *
+ * @param {Part[]} parts
+ * @param {number} place
+ */
+function partAt(parts, place) {
+  return parts.find(({ end }) => place <= end) ?? parts.at(-1);
 }

@@ -12,7 +12,7 @@ import { Track } from "./track.js";
 import { noteOn } from "./words.js";
 
 /** @import { Context, Model } from "../types.js" */
-/** @import { TimelineTraits } from "./traits.js" */
+/** @import { Heights, Span, TimelineTraits } from "./traits.js" */
 
 const NUDGE = 0.1; // s, with Alt
 
@@ -23,7 +23,10 @@ export class Timeline {
 
   /** @type {Motion | null} the picture's heights at the keyframes, where they differ */
   #layers = null;
+  /** @type {Record<string, Motion | null>} those of the shapes around the edited one, by their keys */
+  #otherLayers = {};
   #easeBefore = -1; // the segment whose easing was open when a button was pressed
+  #played = false; // whether the kernel knows that somebody has played
   #hovered = ""; // what lies below the pointer, in words
   #playing = {
     release: () => this.release(),
@@ -44,12 +47,12 @@ export class Timeline {
     this.root.dataset.lmSuppressShortcuts = "true"; // JupyterLab must not take the keys first
     this.link = new Link(model, this.root, signal, () => this.tell());
     this.player = new Player(
-      (floats, time) => this.#show(floats, time),
+      (floats, time, others) => this.#show(floats, time, others),
       () => this.showHead(),
       () => this.#selectHere(),
     );
     this.bar = new Bar({
-      play: () => this.player.play(),
+      play: () => this.play(),
       keep: () => this.keep(),
       act: (type, content) => void this.act(type, content),
       edit: (type, content) => void this.edit(type, content),
@@ -183,9 +186,8 @@ export class Timeline {
   showMotion() {
     const { player, shown, spans } = this;
     player.only = shown.keyframes?.[0].time ?? 0;
-    const intervals = spans.map((span) => ({ ...span, floats: toFloats(span.floats) }));
     player.range = shown.range ?? null;
-    player.set(intervals, shown.repeat);
+    player.set(intervalsOf(spans), shown.repeat, this.#others);
     const computing = spans.some(({ status }) => status === "computing");
     if (shown.kernel && !player.playing && player.seen && computing) this.release();
     this.tell();
@@ -193,9 +195,20 @@ export class Timeline {
     this.showHead();
   }
 
+  /** The motions of the shapes around the edited one, by their keys. */
+  get #others() {
+    const motions = this.model.get("part_motions");
+    return Object.fromEntries(motions.map(({ key, spans }) => [key, intervalsOf(spans)]));
+  }
+
+  showOthers() {
+    const layers = this.model.get("part_motions").map((one) => [one.key, layersOf(one.heights)]);
+    this.#otherLayers = Object.fromEntries(layers);
+    this.showMotion();
+  }
+
   showHeights() {
-    const { times, floats } = this.model.get("heights");
-    this.#layers = times.length ? new Motion({ times, repeat: "once" }, toFloats(floats)) : null;
+    this.#layers = layersOf(this.model.get("heights"));
   }
 
   /**
@@ -204,14 +217,27 @@ export class Timeline {
    *
    * @param {Float32Array | null} floats
    * @param {number} [time]
+   * @param {Record<string, Float32Array>} others coefficients of the shapes around, by their keys
    */
-  #show(floats, time) {
+  #show(floats, time, others = {}) {
     const { stage } = this;
     if (!stage) return;
     const moving = time !== undefined;
     const heights = moving ? (this.#layers?.at(time) ?? null) : null;
-    stage.trigger("glid:motion", moving ? (floats ?? true) : null, this.#playing, heights);
+    const parts = Object.entries(others).map(([key, theirs]) => {
+      return [key, { floats: theirs, heights: this.#otherLayers[key]?.at(time ?? 0) ?? null }];
+    });
+    const seen = moving ? (floats ?? true) : null;
+    stage.trigger("glid:motion", seen, this.#playing, heights, Object.fromEntries(parts));
     if (this.shown.kernel) return this.act("frame", { time: time ?? null, replaces: "frame" });
+  }
+
+  /** Plays, or pauses. The kernel hears of the first time. */
+  play() {
+    this.player.play();
+    if (!this.player.playing || this.#played) return;
+    this.#played = true;
+    void this.act("played");
   }
 
   /** Makes a keyframe of what is shown. */
@@ -318,7 +344,7 @@ export class Timeline {
     const { keyframes } = this.shown;
     switch (e.key) {
       case " ":
-        return () => void (e.repeat || this.player.play());
+        return () => void (e.repeat || this.play());
       case "ArrowLeft":
         return () => this.#step(e, -1);
       case "ArrowRight":
@@ -360,4 +386,17 @@ export class Timeline {
       this.#scrub(player.place + sign / track.rate);
     }
   }
+}
+
+/**
+ * @param {Span[]} spans
+ * @returns {import("./player.js").Interval[]}
+ */
+function intervalsOf(spans) {
+  return spans.map((span) => ({ ...span, floats: toFloats(span.floats) }));
+}
+
+/** @param {Heights} heights */
+function layersOf({ times, floats }) {
+  return times.length ? new Motion({ times, repeat: "once" }, toFloats(floats)) : null;
 }

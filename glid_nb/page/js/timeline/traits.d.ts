@@ -18,6 +18,8 @@ export interface Span {
   end: number;
   status: "proved" | "fails" | "computing";
   reason: string;
+  /** The last instant that is proved. */
+  until: number;
   /** Of the knots, as far as it is proved. */
   times: number[];
   /** The coefficients at the knots; empty where the kernel evaluates. */
@@ -42,12 +44,26 @@ export interface Shown {
   kernel: boolean;
 }
 
+/** The heights of a picture's vertices at the keyframes; no times where they stay. */
+export interface Heights {
+  times: number[];
+  floats: DataView;
+}
+
+/** The motion of a shape around the edited one. */
+export interface PartMotion {
+  key: string;
+  spans: Span[];
+  heights: Heights;
+}
+
 export interface TimelineTraits {
   stage: string;
   /** Frames in a second of an export. */
   rate: number;
   shown: Shown;
   motion: { spans: Span[] };
-  heights: { times: number[]; floats: DataView };
+  heights: Heights;
+  part_motions: PartMotion[];
   thumbnails: Record<string, string>;
 }

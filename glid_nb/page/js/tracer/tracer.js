@@ -47,6 +47,7 @@ export class Tracer {
       "Discard edits",
     );
     this.question = this.#askAbout();
+    this.keepAll = this.#answer("Keep all as parts", () => this.act("keep_pieces"));
     this.pieces = this.#askWhichPiece();
     this.stage.element.append(this.question, this.pieces);
     const keys = help(HELP);
@@ -107,6 +108,7 @@ export class Tracer {
     this.discard.hidden = !shown.edited;
     this.question.hidden = !shown.inside.length;
     this.pieces.hidden = (shown.cut?.shares.length ?? 1) < 2;
+    this.keepAll.hidden = !shown.keeps;
     for (const button of this.tools) button.disabled = !shown.size;
     if (this.link.idle) this.#showTool(shown.tool);
     this.showStatus();
@@ -158,6 +160,7 @@ export class Tracer {
       "Pieces of the cut",
       "Only the outlined piece is kept. ",
       this.#answer("Keep another", keepNext),
+      this.keepAll,
       this.#answer("Undo the cut", () => this.act("undo")),
     );
   }

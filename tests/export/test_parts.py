@@ -1,0 +1,139 @@
+"""Exports of several shapes: drawn in their order, or one file for each of them."""
+
+from __future__ import annotations
+
+import io
+import zipfile
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+import pytest
+from PIL import Image
+
+import glid_nb as glid
+from glid_nb.cli import main
+from glid_nb.imaging.backdrop import WHITE
+from glid_nb.session.document import Document
+from glid_nb.session.document_file import save_document
+from glid_nb.session.editor_model import EditorModel
+from glid_nb.widgets import exporting
+
+RED, BLUE = (220, 30, 30), (30, 30, 220)
+
+
+def disk(x: float, radius: float, color: tuple[int, int, int]) -> np.ndarray:
+    rows, columns = np.mgrid[:90, :120]
+    pixels = np.zeros((90, 120, 4), np.uint8)
+    pixels[np.hypot(columns - x, rows - 45) < radius] = (*color, 255)
+    return pixels
+
+
+@pytest.fixture(scope="module")
+def model() -> Iterator[EditorModel]:
+    """A red disk, which comes from the left to the middle of a blue one in front of it."""
+    made = EditorModel(parts={"red": disk(30, 22, RED), "blue": disk(85, 25, BLUE)})
+    deformation = made.deformation
+    x, y = deformation.state.domain.cage.exterior.mean(axis=0)
+    pin = deformation.add_handle((x, y))
+    deformation.save_pose()
+    deformation.drag(pin, to=(x + 6, y))
+    deformation.solve()
+    yield made
+    made.close()
+
+
+def opened(data: bytes) -> np.ndarray:
+    return np.asarray(Image.open(io.BytesIO(data)).convert("RGBA"))
+
+
+def picture(model: EditorModel, path: Path, view: str = "source") -> np.ndarray:
+    return opened(exporting.exported(model, path, None, view)["a.png"])  # type: ignore[arg-type]
+
+
+def test_a_picture_is_the_parts_warped_and_laid_over_each_other(
+    model: EditorModel, tmp_path: Path
+) -> None:
+    drawn = picture(model, tmp_path / "a.png")
+    whole = Image.new("RGBA", (120, 90))
+    for shape in model.shapes:
+        layer = glid.render(shape.layers.image, shape.state.map)
+        whole.alpha_composite(Image.fromarray(layer))
+    assert np.array_equal(drawn, np.asarray(whole))
+    assert tuple(drawn[45, 85]) == (*BLUE, 255)
+
+
+def test_order_and_visibility_decide_what_is_seen(model: EditorModel, tmp_path: Path) -> None:
+    deformation = model.deformation
+    try:
+        deformation.move_part(0, 1)
+        middle = picture(model, tmp_path / "a.png")[45, 75]
+        assert tuple(middle) == (*RED, 255)  # the red disk was dragged here
+        deformation.show_part(1, False)
+        hidden = picture(model, tmp_path / "a.png")
+        assert not (hidden[..., 0] > 100).any()
+    finally:
+        for _ in range(2):
+            deformation.undo()
+
+
+def test_the_whole_view_holds_all_parts(model: EditorModel, tmp_path: Path) -> None:
+    drawn = picture(model, tmp_path / "a.png", "fit")
+    for channel in (0, 2):
+        columns = (drawn[..., channel] > 150).any(axis=0).nonzero()[0]
+        assert columns[0] > 0
+        assert columns[-1] < drawn.shape[1] - 1
+
+
+def test_frames_show_all_parts_as_they_are_at_their_time(
+    model: EditorModel, tmp_path: Path
+) -> None:
+    (path,) = exporting.export(model, tmp_path / "a.zip", (240, 240))
+    with zipfile.ZipFile(path) as archive:
+        first, *_, last = (opened(archive.read(name)) for name in sorted(archive.namelist()))
+    reds, blues = (
+        [((frame[..., c] > 150) & (frame[..., 3] > 128)).sum() for frame in (first, last)]
+        for c in (0, 2)
+    )
+    assert reds[1] < 0.9 * reds[0]  # the blue disk covers a part of the red one at the end
+    assert abs(blues[1] - blues[0]) < 0.01 * blues[0]
+
+
+def test_a_gif_has_one_background(model: EditorModel, tmp_path: Path) -> None:
+    (path,) = exporting.export(model, tmp_path / "a.gif", (120, 120))
+    with Image.open(path) as gif:
+        assert tuple(np.asarray(gif.convert("RGB"))[0, 0]) == WHITE
+        assert gif.n_frames > 10
+
+
+def test_formats_of_one_shape_have_files_for_each_part(model: EditorModel, tmp_path: Path) -> None:
+    written = exporting.export(model, tmp_path / "a.proof.json")
+    names = ["a-red.proof.json", "a-red.map.json", "a-blue.proof.json", "a-blue.map.json"]
+    assert [path.name for path in written] == names
+    assert exporting.written_names(model, tmp_path / "a.proof.json", moving=False) == tuple(names)
+    maps = [glid.HarmonicMap.load(tmp_path / name) for name in names[1::2]]
+    for map, shape in zip(maps, model.shapes, strict=True):
+        assert np.array_equal(map.phi, shape.state.map.phi)
+    moving = exporting.export(model, tmp_path / "b.motion.json")
+    assert [path.name for path in moving if "proof" not in path.name] == [
+        "b-red.motion.json",
+        "b-blue.motion.json",
+    ]
+    assert exporting.written_names(model, tmp_path / "b.motion.json", moving=True) == tuple(
+        path.name for path in moving
+    )
+
+
+def test_a_session_with_parts_is_animated_from_the_command_line(
+    model: EditorModel, tmp_path: Path
+) -> None:
+    document: Document = model.document
+    save_document(document, tmp_path / "two.glid")
+    assert main(["animate", str(tmp_path / "two.glid"), "--out", str(tmp_path / "a.gif")]) in (
+        0,
+        None,
+    )
+    with Image.open(tmp_path / "a.gif") as gif:
+        frame = np.asarray(gif.convert("RGB")).astype(int)
+    assert ((frame[..., 0] - frame[..., 2]) > 100).any()
+    assert ((frame[..., 2] - frame[..., 0]) > 100).any()
