@@ -1,5 +1,6 @@
 """The list of a session's parts: their order, their names, and which one is edited."""
 
+import base64
 import io
 from collections.abc import Callable
 from pathlib import Path
@@ -19,6 +20,8 @@ from glid_nb.widgets.controls import EditControls, button, heading
 
 _THUMBNAIL = 48  # pixels of the longer side
 _SHOWN, _HIDDEN = "eye", "eye-slash"
+# The name beside it says what it shows.
+_PICTURE = '<img alt="" style="max-width:30px;max-height:30px" src="data:image/png;base64,{}">'
 
 
 class _Row(ipywidgets.HBox):
@@ -39,8 +42,7 @@ class _Row(ipywidgets.HBox):
         self.eye = ipywidgets.ToggleButton(value=True, icon=_SHOWN, layout=narrow)
         """Whether the part is shown."""
         self.eye.observe(lambda change: show(change["new"]), ["value"])
-        self.picture = ipywidgets.Image(layout={"width": "30px", "height": "30px"})
-        self.picture.add_class("glid-thumbnail")
+        self.picture = ipywidgets.HTML(layout={"width": "30px", "height": "30px"})
         self.name = button(
             "",
             "",
@@ -60,7 +62,8 @@ class _Row(ipywidgets.HBox):
         self.name.button_style = "primary" if edited else ""
         if part.domain is not self._domain:
             self._domain = part.domain
-            self.picture.value = thumbnail(part)
+            data = base64.b64encode(thumbnail(part)).decode()
+            self.picture.value = _PICTURE.format(data)
 
 
 class PartsPanel(EditControls):

@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
+from ..support.axe import faults
 from ..support.browser import ARTEFACTS
 from . import editor_page
 from .conftest import OpenNotebook
@@ -66,6 +67,7 @@ def test_two_islands_are_kept_dragged_played_saved_and_exported(
     book.wait_for("len(model.state.parts) == 2")
     parts.wait_for()
     hand = editor_page.Hand(book)
+    assert faults(page, parts) == []
     round_one, square = book.value(CENTRES)
     hand.wait_for_color(round_one, red)
     hand.wait_for_color(square, blue)
