@@ -8,6 +8,7 @@ the stages.
 
 import functools
 import hashlib
+import logging
 import os
 import threading
 import time
@@ -26,6 +27,7 @@ from glid_nb._runtime import default_device, jax_option, stage
 
 # Programs in memory, 15 MB each. A solve uses up to four; to read one takes as long as many solves.
 MOST_LOADED = 8
+_LOG = logging.getLogger(__name__)
 _FORMAT = 2  # of the files; a change of how programs are written needs another number
 
 
@@ -79,9 +81,7 @@ class Program:
 
     def _loaded_or_made(self, key: Any, arguments: Any) -> Any:
         if (folder := self._folder(key, arguments)) is None:
-            lowered = self._lowered(arguments, "")
-            stage("compile")
-            return lowered.compile()
+            return _compiled(self._lowered(arguments, ""))
         self._make_room()
         self._last_use[key] = time.monotonic()
         programs, alias = KeptPrograms(folder), _alias(key)
@@ -97,8 +97,7 @@ class Program:
         if (known := programs.by_name(name)) is not None:
             programs.name_again(name, alias)
             return known
-        stage("compile")
-        compiled = lowered.compile()
+        compiled = _compiled(lowered)
         programs.keep(compiled, name, [alias])
         return compiled
 
@@ -118,6 +117,15 @@ class Program:
         traced = jitted.trace(*arguments)
         stage("lower")
         return traced.lower()
+
+
+def _compiled(lowered: Any) -> Any:
+    stage("compile")
+    _LOG.info("compiling a program for this size of problem, which takes seconds")
+    start = time.perf_counter()
+    compiled = lowered.compile()
+    _LOG.info("compiled in %.1f s", time.perf_counter() - start)
+    return compiled
 
 
 def _key(arguments: Any) -> tuple[Any, ...]:

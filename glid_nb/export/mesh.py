@@ -1,7 +1,8 @@
 """The deformed shape as a textured triangle mesh: Wavefront OBJ and binary glTF."""
 
 import functools
-from collections.abc import Callable, Sequence
+import io
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
@@ -16,6 +17,7 @@ from glid_nb.export.moving import MovingMesh, check_picture
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging import PixelFrame, as_rgba8, png
 from glid_nb.imaging.bleed import bled
+from glid_nb.imaging.order import Order
 from glid_nb.imaging.progress import Progress, report
 from glid_nb.motion import Motion
 from glid_nb.pose import Pose
@@ -108,25 +110,61 @@ def mesh_glb(mesh: TexturedMesh, edit: Callable[..., None] | None = None) -> byt
     return data
 
 
+def parts_glb(meshes: Mapping[str, TexturedMesh]) -> bytes:
+    """Several meshes as binary glTF 2.0, with a node for each by its name.
+
+    The first is the rearmost. Each lies a little in front of the one before, as sheets of one shape
+    do.
+    """
+    from trimesh import Scene  # noqa: PLC0415
+    from trimesh.visual.material import PBRMaterial  # noqa: PLC0415
+
+    scene = Scene()
+    matt: Any = {"metallicFactor": 0.0, "roughnessFactor": 1.0}
+    look: Any = {**matt, "alphaMode": "BLEND", "doubleSided": True}
+    for number, (name, mesh) in enumerate(meshes.items()):
+        raised = mesh.positions + np.array([0, 0, 2 * _RELIEF * number])
+        material = PBRMaterial(name, baseColorTexture=Image.fromarray(mesh.texture), **look)
+        shape = _trimesh(replace(mesh, positions=raised), material)
+        scene.add_geometry(shape, node_name=name, geom_name=name)
+    data = scene.export(file_type="glb", buffer_postprocessor=_finish_all)
+    assert isinstance(data, bytes)
+    return data
+
+
+def _finish_all(buffers: Any, tree: Any) -> None:
+    """Like `_finish`, for all textures of a glTF."""
+    for image in tree["images"]:
+        name = list(buffers)[image["bufferView"]]
+        with Image.open(io.BytesIO(buffers[name])) as picture:
+            data = png(np.asarray(picture.convert("RGBA")))
+        buffers[name] = data + bytes(-len(data) % 4)
+    _clamp(tree)
+
+
 def _finish(texture: Array, edit: Callable[..., None] | None, buffers: Any, tree: Any) -> None:
     """Mark glTF's only texture as sRGB, and clamp it at its sides. By default it would repeat."""
     name = list(buffers)[tree["images"][0]["bufferView"]]
     data = png(texture)
     buffers[name] = data + bytes(-len(data) % 4)
+    _clamp(tree)
+    if edit is not None:
+        edit(buffers, tree)
+
+
+def _clamp(tree: Any) -> None:
     linear, mipmaps, clamped = 9729, 9987, 33071
     tree["samplers"] = [
         {"magFilter": linear, "minFilter": mipmaps, "wrapS": clamped, "wrapT": clamped}
     ]
     for one in tree["textures"]:
         one["sampler"] = 0
-    if edit is not None:
-        edit(buffers, tree)
 
 
 def motion_glb(
     image: ArrayLike,
     motion: Motion,
-    poses: Sequence[Pose] | None = None,
+    poses: Sequence[Pose | Order] | None = None,
     n_vertices: int = 3000,
     tolerance: float | None = 0.02,
     progress: Progress | None = None,

@@ -16,6 +16,7 @@ from glid_nb.export.moving import MovingPart, check_picture, frames
 from glid_nb.export.page import page_html
 from glid_nb.imaging import as_rgba8
 from glid_nb.imaging.backdrop import WHITE, Background
+from glid_nb.imaging.order import Order
 from glid_nb.imaging.progress import Progress, Stopped, report
 from glid_nb.motion import Motion
 from glid_nb.motion.settings import checked
@@ -29,7 +30,7 @@ def animate(
     path: str | Path,
     image: ArrayLike,
     motion: Motion,
-    poses: Sequence[Pose] | None = None,
+    poses: Sequence[Pose | Order] | None = None,
     **settings: Any,
 ) -> tuple[Path, ...]:
     """Write a motion in the format of the path's suffix. The settings are those of `motion_files`.
@@ -89,7 +90,7 @@ def motion_files(
     name: str,
     image: ArrayLike,
     motion: Motion,
-    poses: Sequence[Pose] | None = None,
+    poses: Sequence[Pose | Order] | None = None,
     *,
     size: int = 480,
     frames_per_second: float = _FPS,

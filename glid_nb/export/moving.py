@@ -5,7 +5,7 @@ import itertools
 import math
 import threading
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Self
 
 import numpy as np
@@ -17,9 +17,11 @@ from glid_nb._arrays import Array
 from glid_nb._errors import InputError
 from glid_nb.export.encode import Frames
 from glid_nb.export.picture import frame_around
+from glid_nb.geometry import Cage
 from glid_nb.harmonic import HarmonicMap, images_under
 from glid_nb.imaging import DeformedMesh, PixelFrame, as_rgba8, fine_mesh, order_of
 from glid_nb.imaging.backdrop import Backdrop, drawn_backdrop, over
+from glid_nb.imaging.order import Order, order_at
 from glid_nb.imaging.progress import Progress, report
 from glid_nb.imaging.render import TOLERANCE_PX, check_fits, draw_mesh
 from glid_nb.imaging.texture import Texture, texels_per_pixel
@@ -61,11 +63,12 @@ class MovingMesh:
     def of(
         cls,
         shown: Motion | HarmonicMap,
-        pose: Sequence[Pose] | Pose | None,
+        pose: Sequence[Pose | Order] | Pose | None,
         n_vertices: int,
         tolerance: float | None = None,
     ) -> Self:
-        """A mesh that is fine enough for all maps. Each keyframe's pose gives the heights."""
+        """A mesh that is fine enough for all maps. Each keyframe's pose, or order, gives the
+        heights."""
         check_type(
             "the motion",
             shown,
@@ -75,7 +78,8 @@ class MovingMesh:
         )
         poses = list(pose) if isinstance(pose, Sequence) else [pose]
         for one in poses:
-            check_type("a pose", one, Pose | None, "give one for each keyframe", InputError)
+            kinds = Pose | Order | None
+            check_type("a pose", one, kinds, "give one for each keyframe", InputError)
         if isinstance(shown, HarmonicMap):
             maps, times, pose_times = (shown,), (0.0,), (0.0,)
         else:
@@ -89,7 +93,7 @@ class MovingMesh:
         cage = shown.domain.cage
         image = functools.partial(images_under, maps)
         vertices, images, triangles = fine_mesh(cage, image, n_vertices, tolerance)
-        orders = [order_of(cage, one) for one in poses]
+        orders = [_order_of(cage, one) for one in poses]
         if all(order is orders[0] for order in orders):
             del orders[1:]
         heights = np.stack([order(vertices) for order in orders])
@@ -112,12 +116,26 @@ class MovingMesh:
 
 @dataclass(frozen=True, eq=False)
 class MovingPart:
-    """A shape of an animation: its picture, its motion, and a pose for each keyframe."""
+    """A shape of an animation: its picture, its motion, and a pose for each keyframe, or how its
+    sheets lie there."""
 
     image: ArrayLike
     motion: Motion
-    poses: Sequence[Pose] | None = None
+    poses: Sequence[Pose | Order] | None = None
     name: str = ""  # of one of several
+
+    def between(self, start: float, end: float) -> Self:
+        """The shape between two times of its motion, see `Motion.part`."""
+        motion = self.motion.part(start, end)
+        if self.poses is None:
+            return replace(self, motion=motion)
+        orders = [_order_of(self.motion.domain.cage, one) for one in self.poses]
+        poses = [order_at(orders, self.motion.times, time) for time in motion.times]
+        return replace(self, motion=motion, poses=poses)
+
+
+def _order_of(cage: Cage, pose: Pose | Order | None) -> Order:
+    return pose if isinstance(pose, Order) else order_of(cage, pose)
 
 
 def _between(times: Array, values: Array, time: float) -> Array:

@@ -25,6 +25,7 @@ from glid_nb.harmonic import FixedPoints, HarmonicMap
 from glid_nb.imaging import PixelFrame, as_rgba8, png
 from glid_nb.imaging.backdrop import Background, check_background
 from glid_nb.imaging.bleed import bled
+from glid_nb.imaging.order import Order
 from glid_nb.imaging.progress import Progress, report
 from glid_nb.imaging.render import MARGIN
 from glid_nb.motion import Motion, MotionCertificate
@@ -55,7 +56,7 @@ def page_html(
     certificate: Certificate | None = None,
     title: str = "Deformed picture",
     tolerance: float = _TOLERANCE,
-    pose: Pose | Sequence[Pose] | None = None,
+    pose: Pose | Sequence[Pose | Order] | None = None,
     loop: bool = True,
     progress: Progress | None = None,
     background: Background = None,

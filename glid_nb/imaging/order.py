@@ -4,8 +4,9 @@
 finds, the one that covers the others. It also finds the points that are hidden below others.
 """
 
+import bisect
 import functools
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
@@ -58,6 +59,14 @@ class Order:
     def depths(self, points: Any) -> Array:
         """(k,) depths of (k, 2) points, spread from the handles' depths."""
         return self._mesh.weights(points) @ self._depths
+
+
+def order_at(orders: Sequence[Order], times: Sequence[float], time: float) -> Order:
+    """The order at a time, between those of two keyframes. A loop's last time is that of its return
+    to the first one."""
+    i = max(min(bisect.bisect_right(times, time), len(times) - 1) - 1, 0)
+    first, last = orders[i], orders[(i + 1) % len(orders)]
+    return first.towards(last, (time - times[i]) / (times[i + 1] - times[i]))
 
 
 def order_of(cage: Cage, pose: Pose | None = None) -> Order:

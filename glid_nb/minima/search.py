@@ -1,11 +1,14 @@
 """The search for a lower minimum: try the ways of the table, keep the best result."""
 
+import logging
 from dataclasses import replace
 
 from glid_nb.minima.known import LOW_ENERGY, Known, is_above
 from glid_nb.minima.ways import GROWTH, WAYS, Case, Way, with_options
 from glid_nb.solvers.method import Inputs, Method
 from glid_nb.solvers.result import Attempt, Result, Status
+
+_LOG = logging.getLogger(__name__)
 
 
 def run(method: Method, inputs: Inputs) -> Result:
@@ -21,6 +24,7 @@ def improve(first: Result, inputs: Inputs, method: Method) -> Result:
     if not (inputs.options.restarts and len(inputs.pose)) or not is_above(first, LOW_ENERGY):
         return first
     known = Known(first, inputs)
+    _LOG.info("energy %.6g; trying whether other starts end lower", first.energy)
     _search(known, method)
     if len(known.tried) == 1:
         return first
@@ -45,6 +49,7 @@ def _search(known: Known, method: Method) -> None:
                 known.stop(way.name.format(case.place), result)
                 return
             known.add(way.name.format(case.place), result)
+            _LOG.info("energy %.6g by %s", result.energy, known.tried[-1][0])
             if len(known.tried) > known.inputs.options.restarts:
                 return
             if way.enough is not None and known.best.energy <= way.enough * known.isometry:

@@ -15,7 +15,8 @@ from glid_nb.harmonic import HarmonicMap
 from glid_nb.minima import solve
 from glid_nb.motion.boundary import boundary_of
 from glid_nb.motion.bounded import EXCESS, Bounded, Coefficients
-from glid_nb.motion.settings import EASINGS, MotionError
+from glid_nb.motion.easing import Easing, eased, sample_times
+from glid_nb.motion.errors import MotionError
 from glid_nb.pose import Pose
 from glid_nb.solvers import Options
 
@@ -44,6 +45,11 @@ class Piece(NamedTuple):
         s = (time - self.start) / (self.end - self.start)
         return HarmonicMap(self.start_map.domain, *blend((self.start_map, self.end_map), 0, s))
 
+    def within(self, start: float, end: float) -> "Piece":
+        """What of it lies between two times."""
+        start, end = max(start, self.start), min(end, self.end)
+        return Piece(start, end, self.at(start), self.at(end))
+
 
 def linear_pieces(times: Sequence[float], maps: Sequence[HarmonicMap]) -> tuple[Piece, ...]:
     spans = zip(itertools.pairwise(times), itertools.pairwise(maps), strict=True)
@@ -56,7 +62,7 @@ class Curve:
 
     maps: tuple[HarmonicMap, ...]
     times: tuple[float, ...]
-    easing: tuple[str, ...]
+    easing: tuple[Easing, ...]
     between: Between
     """Coefficients between keyframe i and the next, by the eased time in [0, 1]."""
     laps: tuple[int, ...]  # of each interval, see `Bounded.laps`
@@ -70,7 +76,7 @@ class Curve:
         if time not in self.known:
             i = bisect.bisect_right(self.times, time) - 1
             s = (time - self.times[i]) / (self.times[i + 1] - self.times[i])
-            coefficients = self.between(i, EASINGS[self.easing[i]](s))
+            coefficients = self.between(i, eased(self.easing[i], s))
             self.known[time] = HarmonicMap(self.maps[0].domain, *coefficients)
         return self.known[time]
 
@@ -81,21 +87,51 @@ class Curve:
         are as short as the square root of the second derivative is large.
         """
         start, end = self.times[interval : interval + 2]
-        samples = np.linspace(start, end, _SAMPLES * self.laps[interval] + 1)
-        maps, boundary = map(self.map, samples.tolist()), boundary_of(self.maps[0].domain)
-        images = np.stack([boundary.images(at.phi, at.psi) for at in maps])
-        bend = np.abs(np.diff(images, 2, axis=0)).max(axis=1)
-        needed = np.sqrt(np.concatenate([bend[:1], bend, bend[-1:]]) / (8 * tolerance))
+        easing = self.easing[interval]
+        samples = sample_times(easing, start, end, _SAMPLES * self.laps[interval])
+        images = self._images(samples)
+        share = (np.diff(samples)[:-1] / (samples[2:] - samples[:-2]))[:, None]
+        chords = images[:-2] + share * (images[2:] - images[:-2])
+        off = np.abs(images[1:-1] - chords).max(axis=1)
+        needed = np.sqrt(np.concatenate([off[:1], off, off[-1:]]) / (4 * tolerance))
         along = np.append(0, np.cumsum((needed[1:] + needed[:-1]) / 2))
         if along[-1] > _MOST_PIECES:
-            raise MotionError(
-                f"from {start:g} to {end:g} s the motion bends so much that the tolerance needs "
-                f"{along[-1]:,.0f} straight pieces; {_MOST_PIECES:,} is the most. Choose a larger "
-                "tolerance or fewer turns, or put keyframes between"
-            )
+            raise _too_many(start, end, along[-1])
         count = int(np.ceil(max(along[-1], 1)))
-        inside = np.interp(np.arange(1, count) / count * along[-1], along, samples)
-        return np.unique([start, *inside, end]).tolist()
+        inside = np.interp(np.arange(count) / count * along[-1], along, samples)
+        times = np.unique([start, *inside, end]).tolist()
+        return times if isinstance(easing, str) else self._halved(times, tolerance)
+
+    def _halved(self, times: list[float], tolerance: float) -> list[float]:
+        """Halve the pieces that are off by more than the tolerance.
+
+        A curve with an upright handle is so steep at its end that its samples do not show it.
+        """
+        kept, left = times[:1], list(itertools.pairwise(times))[::-1]
+        while left:
+            start, end = left.pop()
+            images, middle = self._images(np.linspace(start, end, 5)), (start + end) / 2
+            chord = images[0] + np.linspace(0, 1, 5)[:, None] * (images[-1] - images[0])
+            if np.abs(images - chord).max() <= tolerance:
+                kept.append(end)
+            elif len(kept) + len(left) < _MOST_PIECES:
+                left += [(middle, end), (start, middle)]
+            else:
+                raise _too_many(times[0], times[-1], 2 * _MOST_PIECES)
+        return kept
+
+    def _images(self, times: Array) -> Array:
+        """The images of points of the boundary at these times."""
+        boundary = boundary_of(self.maps[0].domain)
+        return np.stack([boundary.images(at.phi, at.psi) for at in map(self.map, times.tolist())])
+
+
+def _too_many(start: float, end: float, count: float) -> MotionError:
+    return MotionError(
+        f"from {start:g} to {end:g} s the motion bends so much that the tolerance needs "
+        f"{count:,.0f} straight pieces; {_MOST_PIECES:,} is the most. Choose a larger "
+        "tolerance or fewer turns, or put keyframes between"
+    )
 
 
 def blend(maps: Sequence[HarmonicMap], piece: int, s: float) -> Coefficients:

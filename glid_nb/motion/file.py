@@ -16,12 +16,15 @@ from glid_nb.geometry import as_points
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.harmonic import map as maps
 from glid_nb.motion.curve import Piece
-from glid_nb.motion.settings import LATEST, MotionError, checked
+from glid_nb.motion.errors import MotionError
+from glid_nb.motion.settings import LATEST, checked
 
 Maps = list[HarmonicMap]
 
-_VERSION, MOST_KNOTS = 1, 10_000
+_VERSION, MOST_KNOTS = 2, 10_000
+_EASINGS_BEFORE = {"linear", "in", "out", "in-out"}  # that version 1 knows
 SETTINGS = ("easing", "repeat", "between", "tolerance", "turns")
+OF_INTERVALS = ("easing", "turns")  # one value for each interval
 _REQUIRED = {
     **_json.keys("format", "version", *maps.DOMAIN_KEYS, *SETTINGS),
     "times": _json.check_list,
@@ -37,7 +40,7 @@ def texts(
     first = pieces[0].start_map
     knots = [(pieces[0].start, first), *((p.end, p.end_map) for p in pieces)]
     shared = {
-        "version": _VERSION,
+        "version": 1,  # of the proof, and of the motion where programs of version 1 can read it
         **first.domain.to_dict(),
         "knots": [
             {"time": time, "phi": as_points(map.phi).tolist(), "psi": as_points(map.psi).tolist()}
@@ -47,6 +50,8 @@ def texts(
     told = {key: value for key, value in settings.items() if key != "image_size"}
     if (size := settings.get("image_size")) is not None:
         told["image_size_px"] = list(size)
+    if not _EASINGS_BEFORE.issuperset(settings["easing"]):
+        told["version"] = _VERSION
     text = _json.json_text({"format": "glid_nb-motion", **shared, **told})
     if len(knots) > MOST_KNOTS or text.count(",") > _json.MOST_VALUES:
         raise MotionError(f"{len(knots):,} maps are too many for a file; raise the tolerance")

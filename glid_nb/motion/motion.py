@@ -24,7 +24,9 @@ from glid_nb.motion import file, settings
 from glid_nb.motion.boundary import boundary_of
 from glid_nb.motion.bounded import Bounded
 from glid_nb.motion.curve import Curve, Piece, blend, linear_pieces, through_mended, through_solved
-from glid_nb.motion.settings import Between, Easing, MotionError, Repeat, checked
+from glid_nb.motion.easing import Easing, checked_easings
+from glid_nb.motion.errors import MotionError
+from glid_nb.motion.settings import Between, Repeat, checked
 
 _TOLERANCE = 0.002
 _MOST_FRAMES = 100_000
@@ -62,7 +64,9 @@ class Motion(Rebuilt):
     """Seconds, strictly increasing; by default 0, 1, 2 and so on. A loop may have one more time,
     for its return to the first keyframe; by default that takes as long as a mean interval."""
     easing: tuple[Easing, ...]
-    """One of "linear", "in", "out" or "in-out", for all intervals or for each."""
+    """For all intervals or for each, "linear", "in", "out", "in-out", "hold", or the handles
+    (x1, y1, x2, y2) of a cubic Bezier curve from (0, 0) to (1, 1), as in CSS, all from 0 to 1.
+    "hold" stays for 99 % of the time, then moves evenly through all maps."""
     repeat: Repeat
     """Either "once"; "loop", back to the first keyframe after the last; or "ping-pong"."""
     between: Between
@@ -101,7 +105,7 @@ class Motion(Rebuilt):
         vars(self).update(
             keyframes=maps,
             times=all_times,
-            easing=settings.checked_each("easing", Easing, easing, count),
+            easing=checked_easings(easing, count),
             repeat=checked("repeat", Repeat, repeat),
             between=checked("between", Between, between),
             tolerance=checked("tolerance", float, tolerance, above=0),
@@ -221,6 +225,35 @@ class Motion(Rebuilt):
         """:meth:`frame_times`, and the maps then."""
         times = self.frame_times(fps)
         return times, tuple(self(float(time)) for time in times)
+
+    @single_blas_thread()
+    def part(self, start: float, end: float) -> Self:
+        """The motion from a time to a later one on the way forth, proved anew; it plays once.
+
+        It moves as this motion does, on the same straight pieces, the first and the last shortened.
+        Its keyframes are the maps at both times and the keyframes between.
+        """
+        start, end = (checked("time", float, t, least=-settings.LATEST) for t in (start, end))
+        least = settings.least_gap(self.times)
+        if not self.start <= start <= end - least < end <= self.times[-1]:
+            asked = f"there is no motion from {start:g} to {end:g} s"
+            raise MotionError(f"{asked}; choose times from {self.start:g} to {self.times[-1]:g} s")
+        spans = enumerate(itertools.pairwise(self.times))
+        across = [i for i, (before, after) in spans if before < end and after > start]
+        pieces = [piece for i in across for piece in self.interval(i)[0]]
+        inside = [time for time in self.times if start + least <= time <= end - least]
+        times = [start, *inside, end]
+        runs = [
+            [piece.within(a, b) for piece in pieces if piece.start < b and piece.end > a]
+            for a, b in itertools.pairwise(times)
+        ]
+        keyframes = [runs[0][0].start_map, *(run[-1].end_map for run in runs)]
+        known = {key: value for key, value in self.settings.items() if key not in file.OF_INTERVALS}
+        part = type(self)(keyframes, times, **{**known, "repeat": "once"})
+        for i, run in enumerate(runs):
+            maps = [run[0].start_map, *(piece.end_map for piece in run)]
+            part._intervals[i] = tuple(run), tuple(certify_pieces(maps))
+        return part
 
     @single_blas_thread()
     def interval(self, index: int) -> tuple[tuple[Piece, ...], tuple[PieceCertificate, ...]]:

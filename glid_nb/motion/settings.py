@@ -1,34 +1,22 @@
 """Settings of a motion, checked; every error names the culprit."""
 
 import itertools
-from collections.abc import Callable
+from collections.abc import Sequence
 from typing import Any, Literal
 
 import numpy as np
 
 from glid_nb._arguments import unmet
-from glid_nb._errors import InputError
 from glid_nb.certificate import Certificate, certificate_of
 from glid_nb.geometry import loop_name
 from glid_nb.harmonic import HarmonicMap
+from glid_nb.motion.errors import MotionError
 
-Easing = Literal["linear", "in", "out", "in-out"]
 Between = Literal["auto", "bounded", "solved", "linear"]
 Repeat = Literal["once", "loop", "ping-pong"]
 
-EASINGS: dict[str, Callable[[float], float]] = {
-    "linear": lambda s: s,
-    "in": lambda s: s * s,
-    "out": lambda s: s * (2 - s),
-    "in-out": lambda s: s * s * (3 - 2 * s),
-}
-"""Monotone maps of [0, 1] to itself, so easing adds no map to a motion."""
 LATEST = 1e9  # seconds
 _LEAST_GAP = 1e-9  # of the largest time, or of 1 s if that is more: room for thousands of pieces
-
-
-class MotionError(InputError):
-    """Keyframes, times or settings that make no motion, or a file of one that is not valid."""
 
 
 def checked(name: str, kind: Any, value: Any, **limits: float) -> Any:
@@ -84,6 +72,11 @@ def unlike_turns(first: Certificate, last: Certificate) -> str:
     )
 
 
+def least_gap(times: Sequence[float]) -> float:
+    """The least seconds between keyframes at about these times."""
+    return _LEAST_GAP * max(map(abs, [1.0, *times]))
+
+
 def checked_times(times: Any, count: int, closed: bool) -> tuple[float, ...]:
     """Increasing times of the keyframes, and of a loop's return."""
     times = range(count + closed) if times is None else times
@@ -94,7 +87,7 @@ def checked_times(times: Any, count: int, closed: bool) -> tuple[float, ...]:
     if len(values) not in (count, count + closed):
         wanted = f"{count} or {count + 1}" if closed else f"{count}"
         raise MotionError(f"there are {len(values)} times for {count} keyframes; give {wanted}")
-    least = _LEAST_GAP * max(map(abs, [1.0, *values]))
+    least = least_gap(values)
     for i, (before, after) in enumerate(itertools.pairwise(values)):
         if after - before < least:
             given = f"times[{i + 1}] is {after:.16g} and times[{i}] is {before:.16g}"

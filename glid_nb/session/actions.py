@@ -19,11 +19,13 @@ from glid_nb.certificate import certificate_of
 from glid_nb.energies import Energy
 from glid_nb.geometry import Cage, Domain, place
 from glid_nb.harmonic import HarmonicMap
-from glid_nb.motion.settings import Easing, Repeat
+from glid_nb.motion.easing import Easing
+from glid_nb.motion.settings import Repeat
 from glid_nb.pose import DEEPEST, PER_HANDLE, Pose, Stiffness, misplaced
 from glid_nb.session.document import NamedPose, check_room
 from glid_nb.session.edit_state import EditError, EditState
 from glid_nb.session.parts import everywhere, over_parts
+from glid_nb.session.pin_marks import PinMarks
 from glid_nb.session.timeline import LEAST_GAP
 from glid_nb.solvers import Method
 
@@ -113,6 +115,30 @@ def name_pin(state: EditState, index: int, name: str) -> EditState:
 def set_pins(state: EditState, indices: Iterable[int], **numbers: ArrayLike | None) -> EditState:
     """Set ``angles`` (radians), ``scales`` or ``weights`` of some handles; None sets them free."""
     return _pinned(state, _with_numbers(state, indices, **numbers))
+
+
+def mark_pins(state: EditState, indices: Iterable[int], **changes: bool) -> EditState:
+    """Set whether some handles are ``locked`` or ``hidden`` for the hand, in all poses. The map
+    does not change."""
+    return _marked(state, state.pins.changed(_handles_of(state, indices), **changes))
+
+
+def group_pins(state: EditState, indices: Iterable[int]) -> EditState:
+    """Make a group of at least two handles: they are selected and moved together."""
+    handles = _handles_of(state, indices)
+    if len(handles) < 2:
+        raise EditError("a group needs two pins or more; select several, for example by Shift")
+    return _marked(state, state.pins.grouped(handles))
+
+
+def ungroup_pins(state: EditState, indices: Iterable[int]) -> EditState:
+    """Take some handles out of their groups."""
+    return _marked(state, state.pins.changed(_handles_of(state, indices), group=0))
+
+
+def show_all_pins(state: EditState) -> EditState:
+    """Show the hidden handles of the edited pose again."""
+    return mark_pins(state, range(len(state.pose)), hidden=False)
 
 
 def turned_now(state: EditState, indices: Iterable[int]) -> tuple[Array, Array]:
@@ -256,13 +282,20 @@ def move_pose(state: EditState, index: int, time: float) -> EditState:
 
 
 def set_easing(state: EditState, index: int, easing: Easing) -> EditState:
-    """Set the easing of the motion from a pose to the next one."""
-    return replace(state, timeline=state.timeline.eased(_checked_pose(state, index), easing))
+    """Set the easing of the motion from a pose to the next one, or of a loop's return."""
+    timeline = state.timeline.eased(_checked_pose(state, index), easing)
+    return state if timeline == state.timeline else replace(state, timeline=timeline)
 
 
 def set_repeat(state: EditState, repeat: Repeat) -> EditState:
     """Set whether the motion plays once, in a loop, or there and back."""
     return replace(state, timeline=replace(state.timeline, repeat=repeat))
+
+
+def set_loop_range(state: EditState, part: tuple[float, float] | None) -> EditState:
+    """Set the part of the motion that plays over and over; None for the whole motion."""
+    timeline = replace(state.timeline, loop_range=part)
+    return state if timeline == state.timeline else replace(state, timeline=timeline)
 
 
 def keep_between(state: EditState, time: float, *maps: HarmonicMap) -> EditState:
@@ -338,6 +371,14 @@ def _with_inserted(
     poses = (*state.poses[:index], copy, *state.poses[index:])
     timeline = state.timeline.inserted(index, time)
     return replace(state, poses=poses, active=index, timeline=timeline)
+
+
+def _handles_of(state: EditState, indices: Iterable[int]) -> Array:
+    return state.pose.handles[_checked_indices(state, indices)]
+
+
+def _marked(state: EditState, pins: PinMarks) -> EditState:
+    return state if pins == state.pins else replace(state, pins=pins)
 
 
 def _relaxed(state: EditState, pose: Pose) -> EditState:

@@ -1,6 +1,5 @@
 """The motion between the poses of a deformation, proved in the background, interval by interval."""
 
-import bisect
 import itertools
 import time
 from collections.abc import Callable, Iterable, Iterator
@@ -12,13 +11,13 @@ import numpy as np
 from glid_nb.certificate import certificate_of
 from glid_nb.certificate.rounding import rounded_down
 from glid_nb.harmonic import HarmonicMap
-from glid_nb.imaging.order import Order
+from glid_nb.imaging.order import Order, order_at
 from glid_nb.motion import Motion, MotionError, Piece, unlike_turns
 from glid_nb.session.deformation import Deformation
 from glid_nb.session.document import AS_SEEN, NamedPose
 from glid_nb.session.edit_state import EditError, EditState, Moment
 from glid_nb.session.model import Observed, Observer
-from glid_nb.session.timeline import LEAST_GAP, on_grid, thinned
+from glid_nb.session.timeline import LEAST_GAP, Timeline, on_grid, thinned
 from glid_nb.session.worker import LatestWins, weakly
 
 _THINNED = 0.02  # largest error of a recorded target, as a share of the cage's longer side
@@ -126,10 +125,7 @@ class Animation(Observed):
     def order(self, time: float, key: int | None = None) -> Order:
         """The order of a shape's sheets at a time, interpolated between two keyframes."""
         state = self._shape(key)
-        orders, times = state.orders, state.timeline.closed_times
-        i = max(min(bisect.bisect_right(times, time), len(times) - 1) - 1, 0)
-        first, last = orders[i], orders[(i + 1) % len(orders)]
-        return first.towards(last, (time - times[i]) / (times[i + 1] - times[i]))
+        return order_at(state.orders, state.timeline.closed_times, time)
 
     def keep(self, time: float) -> None:
         """Save the map at a time as a pose. Between poses, the map must be proved. After the last
@@ -293,8 +289,9 @@ class PartAnimation:
 
 
 def _same_motion(task: EditState, other: EditState | None) -> bool:
-    """Whether two states have the same motion and the same solved poses. Names do not matter."""
-    if other is None or task.timeline != other.timeline or set(task.keys) != set(other.keys):
+    """Whether two states have the same motion and the same solved poses. Names do not matter, nor
+    does the part that is played."""
+    if other is None or _whole(task) != _whole(other) or set(task.keys) != set(other.keys):
         return False
     shapes = dict(zip(other.keys, other.shapes, strict=True))
     pairs = [
@@ -313,6 +310,10 @@ def _all_spans(task: EditState) -> dict[int, tuple[Span, ...]]:
 def _told(spans: dict[int, tuple[Span, ...]]) -> dict[int, list[tuple[float, float, str]]]:
     """What views show of spans."""
     return {key: [(s.start, s.end, s.status) for s in each] for key, each in spans.items()}
+
+
+def _whole(task: EditState) -> Timeline:
+    return replace(task.timeline, loop_range=None)
 
 
 def _spans(task: EditState) -> tuple[Span, ...]:

@@ -25,6 +25,7 @@ from glid_nb.session.document import NamedPose, Solution
 from glid_nb.session.edit_state import EditError, EditState, Frame, Moment, Task
 from glid_nb.session.live_solver import LiveSolver, solve_edited
 from glid_nb.session.model import History, Undoable
+from glid_nb.session.pin_marks import with_groups
 from glid_nb.session.status_line import StatusLine, describe
 from glid_nb.session.worker import LatestWins, weakly
 from glid_nb.solvers import Options
@@ -170,6 +171,10 @@ class Deformation(Undoable[EditState], AbstractContextManager["Deformation"]):
     bring_forward = _step(actions.bring_forward)
     name_pin = _step(actions.name_pin)
     set_pins = _step(actions.set_pins)
+    mark_pins = _step(actions.mark_pins)
+    group_pins = _step(actions.group_pins)
+    ungroup_pins = _step(actions.ungroup_pins)
+    show_all_pins = _step(actions.show_all_pins)
     turn = _step(actions.turn)
     mirror_pose = _step(pose_text.mirror_pose)
     paste_pose = _step(pose_text.paste_pose)
@@ -188,6 +193,7 @@ class Deformation(Undoable[EditState], AbstractContextManager["Deformation"]):
     move_pose = _step(actions.move_pose)
     set_easing = _step(actions.set_easing)
     set_repeat = _step(actions.set_repeat)
+    set_loop_range = _step(actions.set_loop_range)
     keep_between = _step(actions.keep_between)
     keep_after = _step(actions.keep_after)
     add_parts = _step(parts.add_parts)
@@ -344,10 +350,10 @@ class Deformation(Undoable[EditState], AbstractContextManager["Deformation"]):
     # Selection
 
     def select(self, indices: Iterable[int]) -> None:
-        """Select these handles and no others."""
+        """Select these handles, with those of their groups, and no others."""
         with self.locked():
-            count = len(self.pose)
-            chosen = tuple(dict.fromkeys(int(i) for i in indices if 0 <= i < count))
+            marks = self.state.marks
+            chosen = with_groups(marks, (int(i) for i in indices if 0 <= i < len(marks)))
             if chosen != self.selection:
                 self.selection = chosen
                 self.tell("selection")

@@ -17,6 +17,7 @@ from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging import Scribbles, TraceOptions
 from glid_nb.pose import Pose
 from glid_nb.session.look import WHOLE_CAGE, Look
+from glid_nb.session.pin_marks import PinMarks
 from glid_nb.session.timeline import Timeline
 from glid_nb.solvers import Iteration, Method, Newton, Options, Status
 
@@ -161,11 +162,14 @@ class Document:
     """All shapes of a session with several, the rearmost first. Empty for one shape."""
     part: int = 0
     """Index of the edited part. Its image, domain and poses are those of the document."""
+    pins: PinMarks = field(default_factory=PinMarks)
+    """Which pins are locked, hidden or grouped in the editor."""
 
     def __post_init__(self) -> None:
         image = _checked_image(self.image)
         vars(self).update(image=image, poses=tuple(self.poses), parts=tuple(self.parts))
         kinds = {"cage": Cage, "domain": Domain, "trace_options": TraceOptions, "look": Look}
+        kinds |= {"pins": PinMarks}
         kinds |= {} if self.scribbles is None else {"scribbles": Scribbles}
         for key, kind in kinds.items():
             _check_kind(key, getattr(self, key), kind)

@@ -38,13 +38,14 @@ from glid_nb.session.document import (
     is_identity,
 )
 from glid_nb.session.look import WHOLE_CAGE, Look
+from glid_nb.session.pin_marks import PinMarks
 from glid_nb.session.timeline import Timeline
 from glid_nb.solvers import Newton, Options
 
 T = TypeVar("T")
 
 FORMAT = "glid_nb-document"
-FORMAT_VERSION = 7  # the newest that can be opened
+FORMAT_VERSION = 7
 
 _JSON, _IMAGE = "document.json", "image.png"
 _MASKS = {key: f"scribbles-{key}.png" for key in ("foreground", "background")}
@@ -74,14 +75,16 @@ _MOST_ITERATIONS = 200  # older files have this for max_iterations=None, the met
 _RELATIVE_WEIGHT = (
     5  # since this version p2p_weight is relative to the cage's unit, not the world's
 )
-_PARTS = 7  # since this version a session may have several parts; with one it is still written as 6
+_PARTS = 7  # since this version a session may have several parts
 _OF_PARTS = re.compile(r"(image|scribbles-foreground|scribbles-background)-\d{1,3}\.png")
 _LOOK = 6  # since this version a picture may be drawn otherwise than as all inside its cage
+_PINS = 7  # since this version pins may be locked, hidden or grouped
 _MASK = "mask"  # written instead of strokes; another member holds the pixels
 _NEVER = "never"  # stands for TraceOptions.max_edge == inf, which JSON cannot express
 
-# The PNG of the last encoded picture, because an editor saves the same picture again and again.
-_last: tuple[weakref.ref[NDArray[np.uint8]], bytes] | None = None
+# The PNGs of pictures that still exist, by their ids: an editor saves the same pictures again and
+# again.
+_encoded: dict[int, tuple[weakref.ref[NDArray[np.uint8]], bytes]] = {}
 
 
 def save_document(document: Document, path: str | Path) -> None:
@@ -98,16 +101,21 @@ def document_bytes(document: Document) -> bytes:
     look = {} if document.look == WHOLE_CAGE else {"look": vars(document.look)}
     shape, masks = _shape_to_dict(document)
     parts, members = _parts_to_members(document)
+    shapes = document.parts or (document,)
+    handles = (pose.pose.handles for each in shapes for pose in each.poses)
+    marks = document.pins.only(handles)
+    pins = {"pins": marks.to_list()} if marks else {}
     height, width = document.image.shape[:2]
     data = {
         "format": FORMAT,
-        "version": _PARTS if parts else _LOOK,
+        "version": FORMAT_VERSION,
         "image_size_px": [width, height],
         **shape,
         "active": document.active,
         **timeline,
         **look,
         **parts,
+        **pins,
     }
     text = json.dumps(data, allow_nan=False, default=np.generic.item).encode("utf-8")
     pixels = {_IMAGE: _image_png(document.image), **masks, **members}
@@ -148,7 +156,7 @@ def _parts_to_members(document: Document) -> tuple[dict[str, Any], dict[str, byt
             if member is None:
                 member = _numbered(_IMAGE, number)
                 names.append((part.image, member))
-                members[member] = png(part.image, compress_level=1)
+                members[member] = _image_png(part.image)
             entry |= {"image": member, **shape}
             members |= masks
         parts.append(entry)
@@ -178,6 +186,8 @@ def load_document(path: str | Path) -> Document:
             optional["look"] = _json.check_object
         if version >= _PARTS:
             optional |= {"parts": _json.check_list, **_json.keys("part")}
+        if version >= _PINS:
+            optional["pins"] = _json.check_list
         _json.check_fields(data, _JSON, _KEYS, optional)
         size = _json.picture_size(data["image_size_px"], "image_size_px")
         if max(size) > MAX_SIDE:
@@ -187,9 +197,9 @@ def load_document(path: str | Path) -> Document:
         given = data.get("timeline")
         timeline = None if given is None else _from_fields(Timeline, given, "timeline")
         look = _from_fields(Look, data["look"], "look") if "look" in data else WHOLE_CAGE
-        document = Document(
-            image, domain.cage, domain, options, scribbles, poses, data["active"], timeline, look
-        )
+        marks = PinMarks.from_list(data.get("pins") or [], "pins")
+        posed = poses, data["active"], timeline, look
+        document = Document(image, domain.cage, domain, options, scribbles, *posed, pins=marks)
         if "parts" not in data:
             return document
         return _with_parts(document, data, members, version)
@@ -292,11 +302,12 @@ def _check_member(info: zipfile.ZipInfo) -> None:
 
 def _image_png(image: NDArray[np.uint8]) -> bytes:
     """A read-only (h, w, 4) uint8 picture as PNG, exactly, including hidden colours."""
-    global _last
-    last = _last  # read once: another thread may save another picture meanwhile
-    if last is None or last[0]() is not image:
-        last = _last = weakref.ref(image), png(image, compress_level=1)
-    return last[1]
+    key = id(image)
+    known = _encoded.get(key)  # read once: another thread may save another picture meanwhile
+    if known is None or known[0]() is not image:
+        reference = weakref.ref(image, lambda _: _encoded.pop(key, None))
+        known = _encoded[key] = reference, png(image, compress_level=1)
+    return known[1]
 
 
 def _read_png(data: bytes, size: tuple[int, int], mode: str, name: str) -> NDArray[Any]:

@@ -15,6 +15,7 @@ from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging.order import Order, order_of
 from glid_nb.pose import DeformationMap, Pose
 from glid_nb.session.document import NamedPose, Solution
+from glid_nb.session.pin_marks import PinMark, PinMarks
 from glid_nb.session.timeline import Timeline
 from glid_nb.solvers import Iteration, Options
 
@@ -55,6 +56,8 @@ class EditState:
     parts: tuple[Part, ...] = ()
     """The parts, the rearmost first; empty in a session with one shape."""
     part: int = 0  # index of the edited part
+    pins: PinMarks = field(default_factory=PinMarks)
+    """Which pins are locked, hidden or grouped, in all poses."""
 
     def __post_init__(self) -> None:
         assert len(self.timeline) == len(self.poses)
@@ -94,6 +97,11 @@ class EditState:
     def pose(self) -> Pose:
         """Handles and targets of the edited pose."""
         return self.current.pose
+
+    @functools.cached_property
+    def marks(self) -> tuple[PinMark, ...]:
+        """The marks of the edited pose's handles."""
+        return self.pins.of(self.pose.handles)
 
     @property
     def order(self) -> Order:

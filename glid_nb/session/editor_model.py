@@ -300,6 +300,7 @@ class EditorModel(Observed):
         back. Returns a text about effects that the user may not expect; empty if there are none.
         """
         with self.locked():
+            self.tracing.accept_guess()
             domain, session, words = self.tracing.domain, self._session, ""
             if domain is None or (session and session.domain is domain):
                 pass
@@ -390,6 +391,7 @@ class EditorModel(Observed):
             active=state.active,
             timeline=state.timeline,
             look=self._look,
+            pins=state.pins,
             **self._parts_of(session, state),
         )
 
@@ -547,7 +549,7 @@ class EditorModel(Observed):
         state = EditState.initial(domain)
         if poses := document.poses:
             timeline = document.timeline or Timeline.even(len(poses))
-            state = EditState(domain, poses, document.active, timeline)
+            state = EditState(domain, poses, document.active, timeline, pins=document.pins)
         if document.parts:
             state = replace(state, parts=self._read_parts(document, name), part=document.part)
         self._shelf.clear()
@@ -639,7 +641,7 @@ def _work_of(state: EditState) -> tuple[Any, ...]:
     every = (pose for shape in state.shapes for pose in shape.poses)
     poses = ((p.name, p.pose, p.energy, p.options, p.method) for p in every)
     parts = ((part.key, part.name, part.visible) for part in state.parts)
-    return (state.timeline, *parts, *poses)
+    return (state.timeline, state.pins, *parts, *poses)
 
 
 def _has_handles(state: EditState) -> bool:

@@ -61,7 +61,8 @@ def _posed(
     apart = ~np.triu(gaps < _MARGIN / 4 * state.domain.cage.longer_side, 1).any(axis=0)
     new = replace(pose.only(apart), handles=moved[apart], targets=targets[apart])
     state.current.method.check(state.current.energy, new)
-    return state.changed(pose=new, map=state.identity)
+    marked = replace(state, pins=state.pins.moved(pose.handles[apart], new.handles))
+    return marked.changed(pose=new, map=state.identity)
 
 
 def _inside(cage: Cage, points: Array) -> Array:

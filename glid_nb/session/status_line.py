@@ -42,7 +42,7 @@ def describe(moment: Moment) -> StatusLine:
         iteration = f", iteration {frame.history[-1].iteration}" if frame.history else ""
         return StatusLine("working", f"Working{iteration}{_bound(frame)}")
     if not moment.paused and not len(state.pose):
-        return StatusLine("idle", "Click the shape to pin a point, then drag the pin")
+        return StatusLine("idle", "No pins yet")
     if not moment.paused and not moment.solved and frame is None:
         return StatusLine("idle", "Not solved yet")
     level, text = ("idle", "Paused") if moment.paused else _ended(moment)

@@ -12,7 +12,8 @@ from scipy.interpolate import CubicSpline
 from glid_nb._arrays import Array
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.motion import Motion, MotionError, settings
-from glid_nb.motion.settings import Easing, Repeat, checked
+from glid_nb.motion.easing import Easing, checked_easings
+from glid_nb.motion.settings import Repeat, checked
 
 LATEST = 3600.0  # seconds; no keyframe is moved later than this
 
@@ -36,18 +37,25 @@ class Timeline:
     """The easing from each keyframe to the next. The last one is for a loop's way back."""
     repeat: Repeat = "once"
     back: float = _USUAL  # seconds that a loop takes from the last keyframe to the first
+    loop_range: tuple[float, float] | None = None
+    """The part that plays over and over, from one time to a later one; None for the whole motion.
+    It may reach beyond the keyframes, whose times change."""
 
     def __post_init__(self) -> None:
         if not self.times or not isinstance(self.times, list | tuple):
             raise MotionError("times must be a list of at least one number")
         times = settings.checked_times(self.times, len(self.times), False)
         checked("the first of times", float, times[0], most=1e9)
-        easing = settings.checked_each("easing", Easing, self.easing, len(times))
+        easing = checked_easings(self.easing, len(times))
         checked("repeat", Repeat, self.repeat)
         back = checked("back", float, self.back, above=0, most=1e9)
         if self.repeat == "loop":
             settings.checked_times((*times, times[-1] + back), len(times) + 1, False)
-        vars(self).update(times=times, easing=easing, back=back)
+        part = self.loop_range
+        if part is not None:
+            part = settings.checked_times(part, 2, False)
+            checked("the first of loop_range", float, part[0])
+        vars(self).update(times=times, easing=easing, back=back, loop_range=part)
 
     @classmethod
     def even(cls, count: int) -> Self:
@@ -67,6 +75,15 @@ class Timeline:
         """The time of the last keyframe; in a loop, the time of the return to the first."""
         return self.times[-1] + (self.back if self.repeat == "loop" else 0.0)
 
+    @property
+    def played_range(self) -> tuple[float, float] | None:
+        """The loop range within the motion; None if the whole motion is played."""
+        if self.loop_range is None or len(self) < 2:
+            return None
+        start, end = max(self.loop_range[0], self.times[0]), min(self.loop_range[1], self.end)
+        whole = (start, end) == (self.times[0], self.end)
+        return None if whole or end - start < LEAST_GAP else (start, end)
+
     def motion(self, maps: Sequence[HarmonicMap]) -> Motion:
         """The motion through maps, one for each keyframe."""
         times = self.closed_times
@@ -76,7 +93,10 @@ class Timeline:
         """Rescale the times to run from 0 to ``seconds``. A ping-pong's way back takes as long."""
         share = seconds / (self.end - self.times[0])
         times = tuple(share * (time - self.times[0]) for time in self.times)
-        return replace(self, times=times, back=share * self.back)
+        part = self.played_range
+        if part is not None:
+            part = share * (part[0] - self.times[0]), share * (part[1] - self.times[0])
+        return replace(self, times=times, back=share * self.back, loop_range=part)
 
     def inserted(self, index: int, time: float | None = None) -> Self:
         """Insert a keyframe at an index above 0, by default midway between its neighbours."""

@@ -54,6 +54,7 @@ class TracingState:
     fallback: Domain | None = None
     """The last valid domain before this state. It is used if this state's loops are not valid."""
     name: str = ""  # the stem of the picture's file name; empty if the picture came from no file
+    accepts_guess: bool = False  # whether an outline that is only a guess is the outline
 
     def __post_init__(self) -> None:
         used = self.options.method == "scribbles"
@@ -108,10 +109,10 @@ class TracingModel(Undoable[TracingState]):
         strokes = document.scribbles or options.scribbles
         state = TracingState(document.image, options, strokes, loops, document.domain, name)
         model.history = History(state)
-        # If tracing reproduces the cage, it was not edited by hand.
+        # If tracing reproduces the cage, it was not edited by hand. A guess was accepted then.
         tracing = model.outcome.tracing
         if tracing is not None and tracing.cage.equals(document.cage):
-            model.history = History(replace(state, loops=None))
+            model.history = History(replace(state, loops=None, accepts_guess=True))
         return model
 
     # State
@@ -143,15 +144,18 @@ class TracingModel(Undoable[TracingState]):
 
     @property
     def loops(self) -> tuple[NDArray[np.float64], ...]:
-        """The shown loops, (n, 2) in pixels, valid or not; the exterior first."""
+        """The shown loops, (n, 2) in pixels, valid or not; the exterior first. A guess is not
+        shown."""
         frame = self.frame
-        return () if frame is None else tuple(frame.to_pixel(p) for p in self.outcome.loops)
+        if frame is None or self.doubt:
+            return ()
+        return tuple(frame.to_pixel(p) for p in self.outcome.loops)
 
     @property
     def holes(self) -> tuple[Hole, ...]:
-        """The holes of the shape, kept or not."""
+        """The holes of the shown shape, kept or not."""
         tracing = self.outcome.tracing
-        return () if tracing is None else tracing.holes
+        return () if tracing is None or self.doubt else tracing.holes
 
     @property
     def cage(self) -> Cage | None:
@@ -170,9 +174,14 @@ class TracingModel(Undoable[TracingState]):
 
     @property
     def doubt(self) -> str:
-        """Why the outline is only a guess, as in `Tracing`; empty if it is clear."""
+        """Why the outline is only a guess, as in `Tracing`; empty if it is clear or accepted.
+
+        Such an outline is not shown: painting over the shape takes less time than correcting it.
+        """
         tracing = self.outcome.tracing
-        return "" if tracing is None or self.edited else tracing.doubt
+        if tracing is None or self.edited or self.state.accepts_guess:
+            return ""
+        return tracing.doubt
 
     @property
     def edited(self) -> bool:
@@ -192,7 +201,8 @@ class TracingModel(Undoable[TracingState]):
         self._step(TracingState(image=_pixels(image), name=_name_of(name or image)))
 
     def set_options(self, gesture: Any = None, **changes: Any) -> None:
-        """Trace with other options (fields of `TraceOptions`). This discards edits by hand."""
+        """Trace with other options (fields of `TraceOptions`). This discards edits by hand, and
+        shows the outline even if it is a guess."""
         with self.locked():
             before = self.state
             if "scribbles" in changes:
@@ -202,7 +212,8 @@ class TracingModel(Undoable[TracingState]):
             options = with_changes(before.options, changes)
             if options == before.options and before.loops is None:
                 return
-            self._step(replace(before, options=options, loops=None), gesture)
+            new = replace(before, options=options, loops=None, accepts_guess=True)
+            self._step(new, gesture)
 
     def pick_background(self, point: Point) -> None:
         """Use the colour of a pixel as background colour, and trace by colour distance."""
@@ -235,6 +246,12 @@ class TracingModel(Undoable[TracingState]):
             if state.scribbles is not None:
                 loops = None if state.options.method == "scribbles" else state.loops
                 self._step(replace(state, scribbles=None, loops=loops))
+
+    def accept_guess(self) -> None:
+        """Show the guess, and use it as the outline."""
+        with self.locked():
+            if self.doubt:
+                self._step(replace(self.state, accepts_guess=True))
 
     def toggle_hole(self, number: int) -> None:
         """Drop a kept hole, or keep a dropped one. Other loops keep their edits."""
@@ -425,7 +442,7 @@ class TracingModel(Undoable[TracingState]):
         return read_only(frame.to_world(loop_edits.drawn(outline, size)))
 
     def _shown_loops(self) -> AnyLoops:
-        if not (loops := self.outcome.loops):
+        if not (loops := self.outcome.loops) or self.doubt:
             raise GeometryError("there is no outline yet; trace or draw one first")
         return loops
 

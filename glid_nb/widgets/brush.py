@@ -18,7 +18,7 @@ from glid_nb.widgets.controls import EditControls, button, toggle
 from glid_nb.widgets.gestures import LEFT, Event, PinGestures
 from glid_nb.widgets.pad import answer_during_cells
 
-_KEYS = {"b": "stiff", "e": "erase"}
+TOOLS = "", "stiff", "erase"
 _USUAL_RADIUS, _LARGEST_RADIUS = 0.05, 0.25  # of the shape's longer side
 _EDGES = 60  # along the longer side, so that edges bend with the shape
 
@@ -26,15 +26,14 @@ _EDGES = 60  # along the longer side, so that edges bend with the shape
 class Brush(traitlets.HasTraits):
     """The brush of the left button. Without a tool, the button does not paint."""
 
-    tool = traitlets.Enum(("", "stiff", "erase"), "")
+    tool = traitlets.Enum(TOOLS, "")
     radius = traitlets.Float()  # in world units
     strength = traitlets.Float(1.0)  # how stiff, from 0 to 1
 
     @property
-    def shown(self) -> dict[str, float]:
-        """Radius and strength for the page, strength 0 for the eraser; empty without a tool."""
-        strength = self.strength if self.tool == "stiff" else 0.0
-        return {"radius": self.radius, "strength": strength} if self.tool else {}
+    def shown(self) -> dict[str, Any]:
+        """What the page needs to paint, also with a tool that a key chooses there."""
+        return {"tool": self.tool, "radius": self.radius, "strength": self.strength}
 
 
 class BrushGestures(PinGestures):
@@ -44,6 +43,7 @@ class BrushGestures(PinGestures):
         self, deformation: Deformation, fit: Callable[[], None], image: Array | None = None
     ) -> None:
         super().__init__(deformation, fit, image)
+        self._actions = {**self._actions, "tool": self._take_tool}
         self.brush = Brush(radius=_USUAL_RADIUS * deformation.state.domain.cage.longer_side)
 
     def on(self, deformation: Deformation, image: Array) -> Self:
@@ -63,11 +63,15 @@ class BrushGestures(PinGestures):
         else:
             super()._up(event)
 
+    def _take_tool(self, event: Event) -> None:
+        """Take the tool that a key chose in the page, which has it already."""
+        if (tool := event.get("name")) not in TOOLS:
+            raise EditError(f"the brush has no tool {tool!r:.40}")
+        self.brush.tool = tool
+
     def _key(self, event: Event) -> None:
-        key, brush = event["key"], self.brush
-        tool = brush.tool if key == "Escape" else _KEYS.get(key.lower())
-        if tool:
-            brush.tool = "" if brush.tool == tool else tool
+        if event["key"] == "Escape" and self.brush.tool:
+            self.brush.tool = ""
         else:
             super()._key(event)
 
@@ -82,9 +86,10 @@ class BrushGestures(PinGestures):
         if outside.all():
             raise EditError("there is no shape here; paint over the shape")
         stiffness = model.pose.stiffness
+        strength = brush.strength if brush.tool == "stiff" else 0.0
         for line in np.split(sources, np.flatnonzero(far | outside[1:] | outside[:-1]) + 1):
             if not np.isnan(line).any():
-                stiffness = stiffness.painted(line, brush.radius, brush.shown["strength"])
+                stiffness = stiffness.painted(line, brush.radius, strength)
         model.set_stiffness(stiffness)
 
 

@@ -16,7 +16,7 @@ from glid_nb.certificate.certify import PanelCertificate
 from glid_nb.figures.style import BLUE, ORANGE
 from glid_nb.geometry import Domain
 from glid_nb.harmonic import HarmonicMap
-from glid_nb.imaging import ImageSource, Order, deformed_loops, read_image
+from glid_nb.imaging import ImageSource, Order, as_rgba8, deformed_loops, read_image
 from glid_nb.imaging.backdrop import Background, check_background
 from glid_nb.imaging.order import Sheets
 from glid_nb.session.actions import turned_now
@@ -31,6 +31,7 @@ from glid_nb.widgets.overlays import OVERLAYS
 from glid_nb.widgets.page_solver import PageSolver
 from glid_nb.widgets.pane import Pane
 from glid_nb.widgets.scene import Drawing, Range
+from glid_nb.widgets.tracer import displayed
 
 _INTERVAL = 0.2  # least seconds between updates of panels, colours and hidden pins in a drag
 _SOURCE_SHARE = 0.4  # share of the width for the undeformed shape
@@ -191,6 +192,14 @@ class DeformCanvas(ClosingWidget, ipywidgets.HBox):
         if self.drawn:
             self._on_drawn()
 
+    def set_reference(self, picture: ImageSource | None) -> None:
+        """Show a picture dimmed behind the shape, to draw poses after, or None for no picture.
+
+        It is as large as the canvas's own picture allows. Exports and session files do not have it.
+        """
+        shown = None if picture is None else as_rgba8(read_image(picture))
+        self.pane.stage.reference = displayed(shown)
+
     def fit(self) -> None:
         """Make the whole shape and all targets visible."""
         self.pane.fit()
@@ -296,12 +305,14 @@ class DeformCanvas(ClosingWidget, ipywidgets.HBox):
             )
             self.pane.show(drawing)
             self.pane.stage.names = pose.names.tolist()
+            self.pane.stage.pins = _marked(state)
             self.pane.stage.onion = self._onion(state) if self.show_onion else []
             self.pane.stage.brush = self.brush.shown
             self.pane.stage.stiff = painted_areas(moment)
             if self.source is not None:
                 cages: Any = {"cage": drawing.cage, "offset_cage": drawing.offset_cage}
-                self.source.show(Drawing(state.identity, images=pose.handles, **cages))
+                seen = np.array([not mark.hidden for mark in state.marks], dtype=bool)
+                self.source.show(Drawing(state.identity, images=pose.handles[seen], **cages))
             if (what == "legend" or (what == "frame" and moment.solved)) and not moment.dragged:
                 self.pane.place_legend()
 
@@ -431,10 +442,22 @@ def _boundary(map: HarmonicMap) -> list[Any]:
     return [np.round(loop, 3).tolist() for loop in deformed_loops(map)]
 
 
+def _marked(state: EditState) -> dict[str, list[int]]:
+    """What the page has to know of pins that are locked, hidden or grouped."""
+    marks = list(enumerate(state.marks))
+    return {
+        "locked": [i for i, mark in marks if mark.locked],
+        "away": [i for i, mark in marks if mark.hidden],
+        "groups": [mark.group for _, mark in marks],
+    }
+
+
 def _ring(moment: Moment) -> tuple[float, ...]:
     if not moment.selection or moment.comparison is not None:
         return ()
     last, pose = moment.selection[-1], moment.state.pose
+    if moment.state.marks[last].locked or moment.state.marks[last].hidden:
+        return ()
     angle, scale = (float(values[0]) for values in turned_now(moment.state, [last]))
     wanted = (float(not np.isnan(values[last])) for values in (pose.angles, pose.scales))
     return round(angle, 4), round(scale, 4), *wanted

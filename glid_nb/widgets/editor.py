@@ -29,6 +29,7 @@ from glid_nb.session.deformation import Deformation
 from glid_nb.session.document import Document, DocumentError, NamedPose
 from glid_nb.session.edit_state import EditError
 from glid_nb.session.editor_model import EditorModel, KeptWorkError, Shape, find_document
+from glid_nb.session.first_minute import IN_THIS_SESSION
 from glid_nb.session.look import Behind, Layers
 from glid_nb.session.part_sources import PartSources, named_parts, parts_in
 from glid_nb.session.scenery import Scenery
@@ -56,7 +57,10 @@ _PIN, _FILES = 0, 2  # of the inspector's sections
 _LEAST_SIZE = 240  # CSS pixels, of the Trace tab, and of a canvas whose corner is dragged
 _PLOTS_SIZE = 460, 382  # CSS pixels
 _PLOTS = "Show energy, steps and certificate of the solve"
-_EMPTY = "<p style='padding:2em'>Open a picture in the Trace tab; the shape appears here.</p>"
+_EMPTY = "Open a picture in the Trace tab; the shape appears here."
+_NO_OUTLINE = (
+    "There is no outline yet, as {}. Paint over the shape in the Trace tab, or use the guess there."
+)
 
 _LEFT = (
     "{left} was changed elsewhere and stays as it is; this session is saved to {path} from now on."
@@ -71,8 +75,9 @@ class Editor(ClosingWidget, ipywidgets.VBox):
     """Trace a picture, pin points on it, and drag them. The picture follows and never folds over.
 
     The Trace tab finds the cage, the Deform tab moves it. If the outline is only a guess, as on
-    most photographs, the Trace tab is open at first and says so. Code can do the same: `trace`,
-    `add_handle`, `drag`, `solve`, `save`, `load`, `export`.
+    most photographs, the Trace tab is open at first, without an outline, and asks for strokes over
+    the shape. Code can do the same: `trace`, `add_handle`, `drag`, `solve`, `save`, `load`,
+    `export`.
 
     The image is as in `glid_nb.read_image`; without one the editor asks for a file. A folder of PNG
     pictures of the same size opens as parts, in the order of their names, the rearmost first, and a
@@ -387,7 +392,9 @@ class Editor(ClosingWidget, ipywidgets.VBox):
             if self.model.has_shape:
                 self._deform_box.children = [self._deform_tab()]
             else:
-                self._deform_box.children = [ipywidgets.HTML(_EMPTY), OpenPanel(self.model)]
+                self._nothing = ipywidgets.HTML()
+                self._deform_box.children = [self._nothing, OpenPanel(self.model)]
+                self._show_nothing()
             self.tabs.selected_index = _DEFORM if self.model.has_shape else _TRACE
             self._begin()
             if self.canvas is None:
@@ -473,6 +480,7 @@ class Editor(ClosingWidget, ipywidgets.VBox):
         self.canvas = canvas = DeformCanvas(layers.image, model, **shown)
         canvas.on_other_part = self._edit_part
         self.monitor = monitor = SolverMonitor(model, *_PLOTS_SIZE, self._plots)
+        self.monitor = monitor = SolverMonitor(model, *_PLOTS_SIZE, self._plots, IN_THIS_SESSION)
         self.toolbar = Toolbar(self.canvas, monitor)
         # Make the hidden parts only when the model rests, and the pins' numbers after the first
         # gesture. So the first drag has the processor for itself.
@@ -481,6 +489,7 @@ class Editor(ClosingWidget, ipywidgets.VBox):
         canvas.brush.observe(self._show_brush, ["tool"])
         model.observe(lambda what: self._fill("pins") if what == "hand" else None)
         self.timeline = TimelinePanel(self.canvas, self._open_files)
+        self.timeline.on_play = self._on_play
         self.parts = PartsPanel(self.model)
         """The list of the parts; hidden if there is only one shape."""
         self._show_parts()
@@ -505,6 +514,10 @@ class Editor(ClosingWidget, ipywidgets.VBox):
         ipywidgets.dlink((monitor, "shown"), *visible)
         parts = [self.toolbar, canvas, self.inspector, self.timeline, monitor.line, plots]
         return ipywidgets.GridBox(parts).add_class("glid-shell")
+
+    def _on_play(self) -> None:
+        IN_THIS_SESSION.made("play")
+        self.deformation.tell("status")
 
     def _open_files(self) -> None:
         self.inspector.selected_index = _FILES
@@ -608,9 +621,18 @@ class Editor(ClosingWidget, ipywidgets.VBox):
     def _on_tab(self, change: Any) -> None:
         self._fill()
         if change["new"] == _DEFORM:
-            notice = self.model.apply_tracing()
-            if notice and self.canvas is not None:
+            doubt = self.model.tracing.doubt
+            notice = _NO_OUTLINE.format(doubt) if doubt else self.model.apply_tracing()
+            if self.canvas is None:
+                self._show_nothing()
+            elif notice:
                 self.canvas.pane.stage.notice = notice
+
+    def _show_nothing(self) -> None:
+        """Say in the Deform tab why there is nothing to deform yet."""
+        doubt = self.model.tracing.doubt
+        text = _NO_OUTLINE.format(doubt) if doubt else _EMPTY
+        self._nothing.value = paragraph(text, "padding:2em")
 
 
 def _look_of(shape: Shape, above: bool) -> tuple[Any, ...]:

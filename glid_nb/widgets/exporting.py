@@ -36,7 +36,7 @@ from glid_nb.session.look import FILLED, WHOLE_CAGE, Look
 from glid_nb.session.script import python_code
 from glid_nb.session.worker import LatestWins, weakly
 from glid_nb.widgets.closing import ClosingWidget
-from glid_nb.widgets.controls import REFUSED, button
+from glid_nb.widgets.controls import REFUSED, button, toggle
 
 _MOST_CHOICES = 10_000  # most bytes of the file with an export's choices
 _NUMBER = {"width": "70px", "flex": "0 0 auto"}
@@ -84,7 +84,7 @@ def written_names(model: EditorModel, path: Path, *, moving: bool) -> tuple[str,
     formats = MOTION_FORMATS if moving else FORMATS
     suffix = suffix_of(path.name, formats)
     shapes = shown_shapes(model)
-    if len(shapes) == 1 or suffix not in OF_ONE_SHAPE:
+    if len(shapes) == 1 or suffix not in OF_ONE_SHAPE or (suffix == ".glb" and not moving):
         return file_names(path.name, formats)
     each = (part_name(path.name, suffix, shape.name) for shape in shapes)
     return tuple(name for one in each for name in file_names(one, formats))
@@ -125,7 +125,7 @@ def export(
         }
     elif path.name.lower().endswith(tuple(MOTION_FORMATS.keys() - FORMATS.keys())):
         moving = _moving_parts(model)
-        how = {"size": max(size)} if size else {}
+        how: dict[str, Any] = {"size": max(size)} if size else {}
         files = _motion_files(model, moving, path.name, **how)
     else:
         files = exported(model, path, size, view)
@@ -157,6 +157,11 @@ def exported(
     if suffix == ".png":
         still = [to.StillPart(s.layers.image, s.state.map, s.state.pose) for s in shapes]
         return {path.name: to.parts_png(still, size, view, model.background)}
+    if suffix == ".glb" and len(shapes) > 1:
+        meshes = {
+            s.name: to.textured_mesh(s.layers.image, s.state.map, pose=s.state.pose) for s in shapes
+        }
+        return {path.name: to.parts_glb(meshes)}
     files: dict[str, bytes] = {}
     for own, shape in _own_paths(path, suffix, shapes):
         files |= _files_of(shape, _document_of(model, shape), own, suffix, model.background)
@@ -242,7 +247,7 @@ def write(
     return list(contents)
 
 
-def _moving_parts(model: EditorModel) -> list[to.MovingPart]:
+def _moving_parts(model: EditorModel) -> list["to.MovingPart"]:
     """The visible shapes with their motions, once all poses are solved.
 
     Raises a MotionError if a motion cannot be made, an EditError if a pose cannot be solved.
@@ -260,12 +265,20 @@ def _moving_parts(model: EditorModel) -> list[to.MovingPart]:
 
 
 def _motion_files(
-    model: EditorModel, parts: Sequence[to.MovingPart], name: str, **how: Any
+    model: EditorModel,
+    parts: Sequence["to.MovingPart"],
+    name: str,
+    within: tuple[float, float] | None = None,
+    **how: Any,
 ) -> dict[str, bytes]:
+    """The files of moving shapes, or of a range of their time, which then plays over and over."""
     background = model.background
     if background is None and name.lower().endswith((".gif", ".mp4")):
         background = WHITE  # they have no transparency
-    how |= {"loop": parts[0].motion.repeat != "once", "background": background}
+    how |= {"loop": within is not None or parts[0].motion.repeat != "once"}
+    how["background"] = background
+    if within is not None:
+        parts = [part.between(*within) for part in parts]
     if len(parts) > 1:
         return to.parts_motion_files(name, parts, **how)
     return to.motion_files(name, parts[0].image, parts[0].motion, parts[0].poses, **how)
@@ -323,6 +336,8 @@ class MotionExport(ClosingWidget, ipywidgets.HBox):
         self.size = ipywidgets.BoundedIntText(480, min=16, max=4096, tooltip=tip, layout=_NUMBER)
         tip = "Frames per second"
         self.rate = ipywidgets.BoundedFloatText(25, min=1, max=100, tooltip=tip, layout=_NUMBER)
+        tip = "Only the part between the two marks on the timeline's ruler"
+        self.part = toggle("Loop range", "repeat", tip, {"width": "auto"})
         self.progress = ipywidgets.IntProgress(layout={"width": "auto", "flex": "1 1 40px"})
         """The number of drawn frames; hidden without an export."""
         self.worker: LatestWins[_Task] = LatestWins(weakly(self._draw), self, "export")
@@ -332,8 +347,15 @@ class MotionExport(ClosingWidget, ipywidgets.HBox):
         names = "Size", "px", "fps"
         name, px, fps = (ipywidgets.Label(text, layout={"flex": "0 0 auto"}) for text in names)
         layout = {"flex": "1 1 auto", "min_width": "0", "flex_flow": "row wrap"}
-        super().__init__([name, self.size, px, self.rate, fps, *self._running], layout=layout)
-        self._endings = (self.worker.close,)
+        shown = [name, self.size, px, self.rate, fps, self.part, *self._running]
+        super().__init__(shown, layout=layout)
+        self._endings = (animation.deformation.observe(weakly(self._on_model)), self.worker.close)
+        self._on_model("state")
+
+    def _on_model(self, what: str) -> None:
+        if what == "state":
+            part = self._animation.deformation.state.timeline.played_range
+            self.part.layout.display = "none" if part is None else None
 
     def start(self, name: str, deliver: Callable[[dict[str, bytes]], str]) -> str:
         """Draw a file in the background, then deliver it. Returns a message at once."""
@@ -357,6 +379,8 @@ class MotionExport(ClosingWidget, ipywidgets.HBox):
                 return self._say("Stopped; nothing was written.", "")
             name, deliver = task
             how: Any = {"size": self.size.value, "frames_per_second": self.rate.value}
+            if self.part.value:
+                how["within"] = self._animation.deformation.state.timeline.played_range
             files = _motion_files(self._model, parts, name, progress=report, **how)
             stopped = worker.cancelled or not files
             self._say("Stopped; nothing was written." if stopped else deliver(files), "")

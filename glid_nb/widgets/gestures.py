@@ -1,6 +1,6 @@
 """The meaning of pointers and keys on a canvas, without a browser."""
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -13,6 +13,7 @@ from glid_nb.session.actions import turned_now, wrapped
 from glid_nb.session.deformation import Deformation
 from glid_nb.session.edit_state import EditError
 from glid_nb.session.model import Observed
+from glid_nb.session.pin_marks import with_groups
 from glid_nb.session.pose_text import pose_text
 
 Event = Mapping[str, Any]
@@ -29,6 +30,7 @@ _TURNS = {"<": (np.radians(5), 1.0), ">": (np.radians(-5), 1.0)}  # angle and sc
 _TURNS |= {"+": (0.0, 1.05), "=": (0.0, 1.05), "-": (0.0, 1 / 1.05)}
 _LEAST_SCALE, _LARGEST_SCALE = 0.05, 20.0  # limits of scales set by dragging
 _TURN = np.radians(15)  # to multiples of this, Shift turns
+_LOCKED = "pin {} is locked; unlock it first (L)"
 _LEVER = 12.0  # pixels from a pin: nearer to it, the pointer gives no direction
 # A knob's drag turns, or scales, only beyond these: an angle, and the logarithm of a ratio.
 _LEAST_TURN, _LEAST_SCALING = 0.06, 0.12
@@ -82,6 +84,10 @@ class _PinPress:
     scales: bool = False
     toggled: int | None = None
     """The handle that a click with Shift adds to the selection, or takes from it."""
+    locked: int | None = None
+    """The pressed handle if it is locked, so that nothing can be dragged."""
+    pulls: bool = False
+    """Whether the hand pulls at that one. When it lets go, it is told why nothing moves."""
 
 
 class PinGestures(Gestures):
@@ -109,17 +115,32 @@ class PinGestures(Gestures):
         """Take another picture, whose transparent parts hide nothing."""
         self._image = image
 
+    def _shown(self) -> list[int]:
+        """The handles that are not hidden by the user."""
+        return [i for i, mark in enumerate(self.deformation.state.marks) if not mark.hidden]
+
+    def _movable(self, chosen: Sequence[int] | None = None) -> list[int]:
+        """Those of some handles, by default of the selected ones, that are not locked. Refused if
+        all of them are."""
+        model = self.deformation
+        chosen = model.selection if chosen is None else chosen
+        free = [i for i in chosen if not model.state.marks[i].locked]
+        if chosen and not free:
+            raise EditError(_LOCKED.format(chosen[-1] + 1))
+        return free
+
     def hit(self, point: Array, reach: float) -> int | None:
         """The handle with the nearest target within reach, else with the nearest image.
-        ``canvas/marks.js`` uses the same rule."""
+        ``canvas/marks.js`` uses the same rule. Those that the user has hidden are not hit."""
         pose = self.deformation.pose
         if not len(pose):
             return None
         hidden = self.deformation.sheets(self._image).hidden(pose.handles)
+        away = np.array([mark.hidden for mark in self.deformation.state.marks])
         for places in (pose.targets, self.deformation.moment.shown(pose.handles)):
             gap = np.linalg.norm(places - point, axis=1)
             # Hidden handles count as farther away.
-            seen = np.where(gap <= reach, gap + hidden * reach / 3, np.inf)
+            seen = np.where((gap <= reach) & ~away, gap + hidden * reach / 3, np.inf)
             nearest = int(np.argmin(seen))
             if seen[nearest] < np.inf:
                 return nearest
@@ -150,27 +171,36 @@ class PinGestures(Gestures):
             model.select([hit])  # the menu acts on the selection
         if event["button"] != LEFT:
             return
-        if hit is None and (part := event.get("part")) and model.selection:
+        if hit is not None:
+            self._down_on(hit, event)
+        elif (part := event.get("part")) and model.selection:
             # A click on the ring's line without a turn pins the point below it.
             source = self._source(point) if part == "turn" else None
             self._press = self._turning(point, source, part)
-        elif hit is None:
+        else:
             source = None if event["shift"] else self._source(point)
             self._press = _PinPress(point, source, None)
-        elif event["shift"] and not event.get("alt"):
+
+    def _down_on(self, hit: int, event: Event) -> None:
+        """Press a handle with the left button."""
+        model, point = self.deformation, place(event)
+        toggles = event["shift"] and not event.get("alt")
+        if not toggles and hit not in model.selection:
+            model.select([hit])
+        if model.state.marks[hit].locked:
+            self._press = _PinPress(point, None, None, locked=hit, toggled=hit if toggles else None)
+        elif toggles:
             # A click selects several; a drag moves along an axis.
-            moved = model.selection if hit in model.selection else (hit,)
-            self._press = _PinPress(point, None, model.pose.targets[list(moved)], toggled=hit)
+            chosen = hit in model.selection
+            moved = self._movable(None if chosen else with_groups(model.state.marks, [hit]))
+            self._press = _PinPress(point, None, model.pose.targets[moved], toggled=hit)
+        elif event.get("alt"):
+            self._press = self._turning(point, None, "turn")
         else:
-            if hit not in model.selection:
-                model.select([hit])
-            if event.get("alt"):
-                self._press = self._turning(point, None, "turn")
-            else:
-                self._press = _PinPress(point, None, model.pose.targets[list(model.selection)])
+            self._press = _PinPress(point, None, model.pose.targets[self._movable()])
 
     def _turning(self, point: Array, source: Array | None, part: str) -> _PinPress:
-        turned = turned_now(self.deformation.state, self.deformation.selection)
+        turned = turned_now(self.deformation.state, self._movable())
         return _PinPress(point, source, None, part=part, turned=turned, turns=part == "turn")
 
     def _move(self, event: Event) -> None:
@@ -184,6 +214,9 @@ class PinGestures(Gestures):
             return
         slop = _SLOP if press.part or press.targets is not None else _SLOP_ON_SHAPE
         if not press.dragging and np.linalg.norm(point - press.start) <= slop * event["unit"]:
+            return
+        if press.locked is not None:
+            press.pulls = True
             return
         if press.part:
             self._turn(press, point, _LEVER * event["unit"], event["shift"])
@@ -206,7 +239,7 @@ class PinGestures(Gestures):
                 model.select([press.toggled])
             press.toggled = None
         if not press.dragging and model.selection:
-            model.begin_drag(model.selection)
+            model.begin_drag(self._movable())
             press.dragging = True
         elif not model.dragged:
             self._press = None
@@ -246,24 +279,31 @@ class PinGestures(Gestures):
     def _up(self, event: Event) -> None:
         press, self._press, self._waiting = self._press, None, None
         path = event.get("path") or ()
-        if event.get("encloses") and len(path) > 2:  # a box or a lasso
-            inside = shapely.make_valid(shapely.Polygon(path))
-            chosen = np.flatnonzero(shapely.contains_xy(inside, *self.deformation.pose.targets.T))
-            self.deformation.select([*self.deformation.selection, *chosen.tolist()])
+        if event.get("encloses") and len(path) > 2:
+            self._enclose(path)
             return
         if press is None:
             return
+        if press.pulls and press.locked is not None:
+            raise EditError(_LOCKED.format(press.locked + 1))
         if press.dragging:
             self.deformation.end_drag()
         elif press.toggled is not None:
             hit, chosen = press.toggled, self.deformation.selection
-            rest = [i for i in chosen if i != hit]
+            mates = with_groups(self.deformation.state.marks, [hit])
+            rest = [i for i in chosen if i not in mates]
             self.deformation.select(rest if hit in chosen else [*chosen, hit])
-        elif press.targets is None:
+        elif press.targets is None and press.locked is None:
             if press.source is not None:
                 self._pin_at(press.source)
             elif not event["shift"] and not press.part:
                 self.deformation.select([])
+
+    def _enclose(self, path: Sequence[Any]) -> None:
+        """Select the shown handles in a box or a lasso too."""
+        model, inside = self.deformation, shapely.make_valid(shapely.Polygon(path))
+        chosen = np.flatnonzero(shapely.contains_xy(inside, *model.pose.targets.T))
+        model.select([*model.selection, *(i for i in chosen.tolist() if i in self._shown())])
 
     def _cancel(self, _: Event) -> None:
         self._press = self._waiting = None
@@ -285,8 +325,10 @@ class PinGestures(Gestures):
         key, model = event["key"], self.deformation
         plain: dict[str, Callable[[], Any]] = {"undo": model.undo, "redo": model.redo}
         plain |= {"0": model.reset, "m": model.mirror_pose, "f": self._fit}
-        plain |= {"x": lambda: model.set_pins(model.selection, angles=None, scales=None)}
-        plain |= {"a": lambda: model.select(range(len(model.pose)))}
+        plain |= {"x": lambda: model.set_pins(self._movable(), angles=None, scales=None)}
+        plain |= {"a": lambda: model.select(self._shown())}
+        plain |= {"l": lambda: self.toggle("locked"), "h": lambda: self._hide(event["shift"])}
+        plain |= {"g": lambda: self._group(event["shift"])}
         parts = model.select_next_part
         plain |= {"n": lambda: parts(-1 if event["shift"] else 1)}
         plain |= {",": lambda: self._next(-1), ".": lambda: self._next(1)}
@@ -296,7 +338,7 @@ class PinGestures(Gestures):
             self._enter(event)
         elif key in ("Delete", "Backspace"):
             if model.selection:
-                model.remove_handles(*model.selection, keep_shape=event["shift"])
+                model.remove_handles(*self._movable(), keep_shape=event["shift"])
         elif key == "Escape":
             if model.dragged:
                 self._cancel(event)
@@ -308,14 +350,14 @@ class PinGestures(Gestures):
         elif key in _DEPTHS:
             model.bring_forward(model.selection, _DEPTHS[key])
         elif key in _TURNS:
-            model.turn(model.selection, *_TURNS[key])
+            model.turn(self._movable(), *_TURNS[key])
         elif key == "copy":
             self.copy(pose_text(model.state))
 
     def _arrow(self, event: Event) -> None:
         direction, model = np.array(ARROWS[event["key"]], dtype=float), self.deformation
         if model.selection and self.cursor is None:
-            model.nudge(model.selection, direction * (_NUDGE_SHIFT if event["shift"] else _NUDGE))
+            model.nudge(self._movable(), direction * (_NUDGE_SHIFT if event["shift"] else _NUDGE))
             return
         step = (_CURSOR_SHIFT if event["shift"] else _CURSOR) * event["unit"]
         self.cursor = (np.array(self.cursor or place(event)) + step * direction).tolist()
@@ -333,12 +375,30 @@ class PinGestures(Gestures):
         self.cursor = None
 
     def _next(self, step: int) -> None:
-        model = self.deformation
-        count = len(model.pose)
-        if count:
-            last = model.selection[-1] if model.selection else (-1 if step > 0 else count)
-            model.select([(last + step) % count])
+        model, shown = self.deformation, self._shown()
+        if shown:
+            last = model.selection[-1] if model.selection else (-1 if step > 0 else len(model.pose))
+            beyond = [i for i in shown if (i - last) * step > 0] or shown
+            model.select([beyond[0 if step > 0 else -1]])
             self.cursor = None
+
+    def toggle(self, mark: str) -> None:
+        """Lock or hide the selected handles, or undo that if all of them are."""
+        model = self.deformation
+        marks = [model.state.marks[i] for i in model.selection]
+        model.mark_pins(model.selection, **{mark: not all(getattr(one, mark) for one in marks)})
+
+    def _hide(self, shows: bool) -> None:
+        """Hide the selected handles, or show all hidden ones."""
+        if shows:
+            self.deformation.show_all_pins()
+        else:
+            self.toggle("hidden")
+
+    def _group(self, dissolves: bool) -> None:
+        """Make a group of the selected handles, or dissolve their groups."""
+        model = self.deformation
+        (model.ungroup_pins if dissolves else model.group_pins)(model.selection)
 
 
 def asked(act: Callable[..., Any], *items: str) -> Action:

@@ -13,6 +13,7 @@ from glid_nb.energies import isometry_energy
 from glid_nb.figures.style import BLUE, FAINT, GREEN, GREY, ORANGE, VERMILION
 from glid_nb.session.deformation import Deformation
 from glid_nb.session.edit_state import Moment
+from glid_nb.session.first_minute import FirstMinute
 from glid_nb.session.status_line import StatusLine, describe
 from glid_nb.session.worker import LatestWins, weakly
 from glid_nb.widgets.closing import ClosingWidget
@@ -68,6 +69,7 @@ class SolverMonitor(ClosingWidget, ipywidgets.VBox):
     """A status line, and plots of a deformation's energy, iterations and certificate.
 
     The plots are ``width`` by ``height`` CSS pixels. Without ``plots``, there is only the line.
+    With ``first_minute``, the line ends with its hint.
     """
 
     shown = traitlets.Bool(True)  # whether the plots are shown; hidden ones are not drawn
@@ -79,9 +81,11 @@ class SolverMonitor(ClosingWidget, ipywidgets.VBox):
         width: int = 500,
         height: int = 340,
         plots: bool = True,
+        first_minute: FirstMinute | None = None,
         **kwargs: Any,
     ) -> None:
         self.deformation = deformation  # the model of this view
+        self._first_minute = first_minute
         self.line = ipywidgets.HTML().add_class("glid-foot")  # the status line
         self.verdict = ipywidgets.HTML().add_class("glid-verdict")
         """What is proved, in plain words, then the status line."""
@@ -129,7 +133,7 @@ class SolverMonitor(ClosingWidget, ipywidgets.VBox):
                 return
             moment = self.deformation.moment
             status = self._status(moment)
-            self.line.value = _line(status)
+            self.line.value = _line(status, self._hint(moment, status))
             self.verdict.value = _verdict(status)
         begun, moves = self.deformation.begun, moment.busy or moment.dragged
         now_rests = begun and not moves and time.monotonic() - self._changed > REST
@@ -141,6 +145,11 @@ class SolverMonitor(ClosingWidget, ipywidgets.VBox):
         pulled = moment.frame is not None and moment.frame.history and not moment.dragged
         if self.shown and (self._plots or self.rested or pulled):
             self._draw(moment)
+
+    def _hint(self, moment: Moment, status: StatusLine) -> str:
+        """What to try next; empty while something is wrong, which the status says."""
+        first_minute = None if status.level in ("blocked", "error") else self._first_minute
+        return "" if first_minute is None else first_minute.hint(moment.state)
 
     def _status(self, moment: Moment) -> StatusLine:
         """The model's status, during a solve with the number of frames per second."""
@@ -179,17 +188,18 @@ class SolverMonitor(ClosingWidget, ipywidgets.VBox):
         self._drawn = new
 
 
-def _line(status: StatusLine) -> str:
-    """The status in one line: what is proved first, if all is well."""
+def _line(status: StatusLine, hint: str) -> str:
+    """The status in one line: what is proved first, if all is well. Then what to try next."""
     text = html.escape(status.text)
+    advice = f'<span class="glid-next" role="status">{html.escape(hint)}</span>' if hint else ""
     if status.level == "good" and status.proved:
         text = f'<b>{html.escape(status.proved)}</b> <span class="glid-detail">{text}</span>'
     return (
-        f'<div style="display:flex;align-items:center;gap:8px;line-height:1.4" '
+        f'<div style="display:flex;align-items:center;gap:2px 8px;line-height:1.4" '
         f'title="{html.escape(status.text)}">'
         f'<span style="flex:none;width:10px;height:10px;border-radius:5px;'
         f'background:{_TONES[status.level]}"></span>'
-        f'<span class="glid-said">{text}</span></div>'
+        f'<span class="glid-said">{text}</span>{advice}</div>'
     )
 
 

@@ -14,6 +14,7 @@ _EASINGS = (
     ("Ease in", "in"),
     ("Ease out", "out"),
     ("Ease in, out", "in-out"),
+    ("Hold", "hold"),
 )
 _REPEATS = (("Once", "once"), ("Loop", "loop"), ("There and back", "ping-pong"))
 _FULL = {"width": "auto"}
@@ -67,7 +68,12 @@ class MotionPanel(EditControls):
         self.pose.value = state.active
         self.name.value = state.current.name
         self.time.value = f"{state.timeline.times[state.active]:.2f}"
-        self.easing.value = state.timeline.easing[state.active]
+        easing = state.timeline.easing[state.active]
+        # A curve is drawn on the timeline; here it only has a name.
+        curve = () if isinstance(easing, str) else (("Curve", easing),)
+        if self.easing.options != (*_EASINGS, *curve):
+            self.easing.options = (*_EASINGS, *curve)
+        self.easing.value = easing
         self.repeat.value = state.timeline.repeat
         for control in (self.time, self.easing, self.repeat, self.export):
             control.disabled = len(poses) < 2

@@ -28,13 +28,17 @@ class PageSolver:
     def __init__(self, stage: Stage) -> None:
         self._stage = stage
         self._told: Any = None  # what was told last of the rest; None since the last drag
+        self._n_pins = 0  # how many pins that had
         self._asked: Any = None  # what the options were made from
 
     def follow(self, moment: Moment) -> None:
-        """Tell the page of a moment, if it is at rest and the page has drawn the stage."""
-        if moment.dragged or (moment.busy and not moment.solved):
+        """Tell the page of a moment, if it is at rest and the page has drawn the stage. A drag that
+        has just made its pin is told too, so that the page follows that pin from there."""
+        moves = bool(moment.dragged) or (moment.busy and not moment.solved)
+        if moves:
             self._told = None
-        elif self._stage.drawn:
+        makes_pin = moment.dragged and len(moment.state.pose) > self._n_pins
+        if self._stage.drawn and (makes_pin or not moves):
             self._tell_options(moment)
             self._tell_rest(moment)
 
@@ -64,7 +68,7 @@ class PageSolver:
         map, pose = moment.map, moment.state.pose
         if self._told is not None and self._told[0] is map and self._told[1] is pose:
             return
-        self._told = map, pose
+        self._told, self._n_pins = (map, pose), len(pose)
         self._stage.rest = {
             "number": self._stage.rest.get("number", 0) + 1,
             "pose": _pose(pose),

@@ -85,15 +85,20 @@ class Stage(Pad):
     solver = traitlets.Dict({}).tag(sync=True)
     """The ``options`` of the page's own solver; empty if it cannot solve what is edited."""
     rest = traitlets.Dict({}).tag(sync=True)
-    """Where the model is at rest: the ``pose``, ``coefficients`` in double precision, and the
-    ``number`` of this rest."""
+    """Where the model is at rest, or was when a drag made its pin: the ``pose``, ``coefficients``
+    in double precision, and the ``number`` of this rest."""
     marks = traitlets.Dict({key: [] for key in _MARKS}).tag(sync=True)
     """Targets and images of handles, [x, y]; indices selected, hidden; and `Drawing.ring`."""
     names = traitlets.List(traitlets.Unicode(), []).tag(sync=True)  # the handles', may be empty
+    pins = traitlets.Dict({"locked": [], "away": [], "groups": []}).tag(sync=True)
+    """Indices of the handles that are ``locked`` and that the user hid (``away``), and for each
+    handle its group's number, 0 for none."""
+    reference = traitlets.CBytes(b"").tag(sync=True)  # the page sends memory views
+    """A picture that the page shows dimmed behind the shape; empty for none."""
     onion = traitlets.List([]).tag(sync=True)  # other poses' colours and loops of [x, y], each
     stiff = traitlets.List([]).tag(sync=True)  # painted areas' strengths and loops of [x, y], each
     brush = traitlets.Dict({}).tag(sync=True)
-    """The brush of the left button: ``radius`` and ``strength``; empty without a brush."""
+    """The brush of the left button: ``tool`` (empty without a brush), ``radius``, ``strength``."""
     cursor = traitlets.List(default_value=None, allow_none=True).tag(sync=True)
     """The place of the keyboard's cursor, [x, y]; None while it is not used."""
     legend = traitlets.Dict({}).tag(sync=True)

@@ -14,6 +14,7 @@ from glid_nb.imaging import PixelFrame
 from glid_nb.session.deformation import Deformation
 from glid_nb.session.edit_state import Part
 from glid_nb.session.editor_model import EditorModel
+from glid_nb.widgets.closing import close_with_parts
 from glid_nb.widgets.controls import EditControls, button, heading
 
 _THUMBNAIL = 48  # pixels of the longer side
@@ -33,16 +34,21 @@ class _Row(ipywidgets.HBox):
             act(lambda: model.show_part(index(), shown))
 
         self._domain: Domain | None = None
-        self.eye = ipywidgets.ToggleButton(True, icon=_SHOWN, layout={"width": "34px"})
-        self.eye.layout.padding = "0"  # else the theme cuts the icon off
+        # Without the padding, which would cut the icon off.
+        narrow = {"width": "34px", "padding": "0"}
+        self.eye = ipywidgets.ToggleButton(value=True, icon=_SHOWN, layout=narrow)
         """Whether the part is shown."""
         self.eye.observe(lambda change: show(change["new"]), ["value"])
         self.picture = ipywidgets.Image(layout={"width": "30px", "height": "30px"})
         self.picture.add_class("glid-thumbnail")
-        self.name = button("", "", "Edit this part (N: the next one)", lambda: None)
+        self.name = button(
+            "",
+            "",
+            "Edit this part (N: the next one)",
+            lambda: act(lambda: model.select_part(index())),
+            {"flex": "1 1 auto", "width": "auto", "min_width": "0"},
+        )
         """A click edits the part."""
-        self.name.on_click(lambda _: act(lambda: model.select_part(index())))
-        self.name.layout = {"flex": "1 1 auto", "min_width": "0"}
         super().__init__([self.eye, self.picture, self.name])
 
     def show(self, part: Part, edited: bool) -> None:
@@ -87,9 +93,11 @@ class PartsPanel(EditControls):
         )
         """The name of the edited part."""
         self.add = ipywidgets.FileUpload(
-            accept="image/*", description="Add", tooltip="Add a picture as a part in front"
+            accept="image/*",
+            description="Add",
+            tooltip="Add a picture as a part in front",
+            layout={"width": "auto", "flex": "0 0 auto"},
         )
-        self.add.layout = {"width": "auto", "flex": "0 0 auto"}
         buttons = ipywidgets.HBox([self.front, self.back, self.remove, self.add])
         children = [heading("Parts"), self.rows, self.name, buttons]
         super().__init__(deformation, children, **kwargs)
@@ -105,8 +113,8 @@ class PartsPanel(EditControls):
     def _show(self) -> None:
         state = self.deformation.state
         self.layout.display = None if state.parts else "none"
-        for key in self._rows.keys() - set(state.keys if state.parts else ()):
-            self._rows.pop(key).close()
+        present = {part.key for part in state.parts}
+        gone = [self._rows.pop(key) for key in self._rows.keys() - present]
         for part in state.parts:
             if part.key not in self._rows:
                 self._rows[part.key] = _Row(self.deformation, part.key, self._act)
@@ -114,6 +122,7 @@ class PartsPanel(EditControls):
         rows = tuple(self._rows[part.key] for part in reversed(state.parts))
         if self.rows.children != rows:
             self.rows.children = rows
+        close_with_parts(*gone)
         if state.edited_part is not None:
             self.name.value = state.edited_part.name
         count = len(state.parts)

@@ -1,5 +1,6 @@
 """The pins of a deformation as numbers to read and type."""
 
+from collections.abc import Sequence
 from typing import Any
 
 import ipywidgets
@@ -9,7 +10,8 @@ from glid_nb.pose import DEEPEST, SCALES, Pose
 from glid_nb.session.actions import wrapped
 from glid_nb.session.deformation import Deformation
 from glid_nb.session.edit_state import EditError
-from glid_nb.widgets.controls import EditControls, button
+from glid_nb.session.pin_marks import PinMark
+from glid_nb.widgets.controls import EditControls, button, toggle
 
 _NO_PIN, _SEVERAL = -1, -2  # in the list, where pins have their indices
 _NOTHING = Pose([(0, 0)], [(0, 0)])  # shown in the fields while nothing is selected
@@ -23,20 +25,25 @@ _SCALE = "a scale from {:g} to {:g}, such as 1.5".format(*SCALES), *SCALES, True
 class PinBar(EditControls):
     """The list of pins, the numbers of the last selected pin, and buttons for all selected pins.
 
-    The numbers are target, angle (degrees), scale, weight and depth. An empty angle or scale is
-    free.
+    The buttons below the list lock, hide and group pins, and the list says which are. The numbers
+    are target, angle (degrees), scale, weight and depth. An empty angle or scale is free.
     """
 
     def __init__(self, deformation: Deformation, **kwargs: Any) -> None:
         self._add_fields()
         self._bind_fields(deformation)
         self._add_buttons(deformation)
+        self._add_marks(deformation)
         numbers = [self.x, self.y, self.angle, self.scale, self.depth]
         order = ipywidgets.HBox([self.back, self.front])
         self._of_a_pin: list[Any] = [self.name, *numbers, self.back, self.front, self.weight]
-        self._of_a_pin.append(self.release)
+        self._of_a_pin += [self.lock, self.hide]
+        # What would move a pin that is locked.
+        self._moving = [*numbers[:-1], self.weight, self.release]
         buttons = ipywidgets.HBox([self.release, self.mirror, self.reset])
-        controls = [self.list, self.name, *numbers, order, self.weight, buttons]
+        marks = ipywidgets.HBox([self.lock, self.hide, self.group, self.ungroup])
+        marks.add_class("glid-wide")
+        controls = [self.list, marks, self.name, *numbers, order, self.weight, buttons]
         super().__init__(deformation, [ipywidgets.GridBox(controls)], **kwargs)
         self.children[0].add_class("glid-pin")
         self.name.add_class("glid-wide")
@@ -71,7 +78,7 @@ class PinBar(EditControls):
 
     def _bind_fields(self, model: Deformation) -> None:
         def set_pins(**numbers: Any) -> None:
-            model.set_pins(model.selection, **numbers)
+            model.set_pins(self._unlocked(), **numbers)
 
         def move(axis: int, text: str) -> None:
             [target] = model.pose.targets[[model.selection[-1]]].tolist()
@@ -106,17 +113,38 @@ class PinBar(EditControls):
         self.release = acting(
             "unlink",
             "Remove selected pins and keep the shape until the next change",
-            lambda: model.remove_handles(*model.selection, keep_shape=True),
+            lambda: model.remove_handles(*self._unlocked(), keep_shape=True),
         )
         self.reset = acting("home", "The undeformed shape (0)", model.reset)
         self.mirror = acting("exchange", "Swap left and right of the pose (M)", model.mirror_pose)
+
+    def _add_marks(self, model: Deformation) -> None:
+        """The buttons that lock, hide and group the selected pins."""
+        look: Any = {"width": "auto"}
+        self.lock = toggle("", "lock", "Lock selected pins: the hand cannot move them (L)", look)
+        self.hide = toggle("", "eye-slash", "Hide selected pins; they still hold (H)", look)
+        self._bind(self.lock, lambda on: model.mark_pins(model.selection, locked=on))
+        self._bind(self.hide, lambda on: model.mark_pins(model.selection, hidden=on))
+
+        def acting(icon: str, tooltip: str, act: Any) -> ipywidgets.Button:
+            return button("", icon, tooltip, lambda: self._act(lambda: act(model.selection)))
+
+        tip = "Group selected pins: they are selected and moved together (G)"
+        self.group = acting("object-group", tip, model.group_pins)
+        tip = "Dissolve the groups of selected pins (Shift+G)"
+        self.ungroup = acting("object-ungroup", tip, model.ungroup_pins)
+
+    def _unlocked(self) -> list[int]:
+        model = self.deformation
+        return [i for i in model.selection if not model.state.marks[i].locked]
 
     def _on_model(self, what: str) -> None:
         super()._on_model("state" if what == "selection" else what)
 
     def _show(self) -> None:
         pose, selection = self.deformation.pose, self.deformation.selection
-        pins = (f"{i} {name}" if name else f"Pin {i}" for i, name in enumerate(pose.names, 1))
+        marks = self.deformation.state.marks
+        pins = map(_title, range(1, 1 + len(pose)), pose.names.tolist(), marks)
         several = ((f"{len(selection)} pins", _SEVERAL),) if len(selection) > 1 else ()
         names = (("No pin", _NO_PIN), *several, *((pin, i) for i, pin in enumerate(pins)))
         if self.list.options != names:
@@ -124,7 +152,22 @@ class PinBar(EditControls):
         self.list.value = _SEVERAL if several else next(iter(selection), _NO_PIN)
         for control in self._of_a_pin:
             control.disabled = not selection
+        chosen = [marks[i] for i in selection]
+        self._show_marks(chosen)
         self.mirror.disabled = not len(pose)
+        self._show_numbers(pose, selection)
+
+    def _show_marks(self, chosen: Sequence[PinMark]) -> None:
+        """Show which marks all chosen pins have, and what can be done with them."""
+        self.lock.value = bool(chosen) and all(mark.locked for mark in chosen)
+        self.hide.value = bool(chosen) and all(mark.hidden for mark in chosen)
+        self.group.disabled = len(chosen) < 2
+        self.ungroup.disabled = not any(mark.group for mark in chosen)
+        if chosen and chosen[-1].locked:
+            for control in self._moving:
+                control.disabled = True
+
+    def _show_numbers(self, pose: Pose, selection: Sequence[int]) -> None:
         shown = pose.only([selection[-1]]) if selection else _NOTHING
         places = (*shown.targets[0], *shown.depths)
         self.x.value, self.y.value, self.depth.value = (f"{v.round(3) + 0.0:.8g}" for v in places)
@@ -132,6 +175,14 @@ class PinBar(EditControls):
         self.angle.value = _free_or(np.degrees(shown.angles[0]))
         self.scale.value = _free_or(shown.scales[0])
         self.weight.value = float(shown.weights[0])
+
+
+def _title(number: int, name: str, mark: PinMark) -> str:
+    """What the list says of a pin."""
+    title = f"{number} {name}" if name else f"Pin {number}"
+    said = ["locked"] * mark.locked + ["hidden"] * mark.hidden
+    said += [f"group {mark.group}"] * (mark.group > 0)
+    return " · ".join([title, *said])
 
 
 def _free_or(number: float) -> str:

@@ -49,8 +49,9 @@ class TimelinePanel(Pad):
     rate = traitlets.Float(25.0).tag(sync=True)
     """Frames in a second of an export, which the ruler counts."""
     shown = traitlets.Dict({}).tag(sync=True)
-    """``keyframes`` (``name``, ``time``, ``easing``, ``thumbnail``), the index ``active``, the
-    timeline's ``repeat`` and ``back``, and the states of the switches."""
+    """``keyframes`` (``name``, ``time``, ``easing`` to the next, ``thumbnail``), the index
+    ``active``, the timeline's ``repeat`` and ``back``, its ``range`` (the times between which it
+    plays, None for all), and the states of the switches."""
     motion = traitlets.Dict({"spans": []}).tag(sync=True)
     """``spans`` from keyframe to keyframe: ``start``, ``end``, ``status``, ``reason``. For the
     proved part, which ends at ``until``: ``times`` of the knots, ``floats`` (their coefficients),
@@ -67,6 +68,7 @@ class TimelinePanel(Pad):
         self, canvas: DeformCanvas, on_export: Callable[[], None] | None = None, **kwargs: Any
     ) -> None:
         self.canvas, self.on_export = canvas, on_export
+        self.on_play: Callable[[], None] = lambda: None  # called when the page plays, once a page
         self.animation = Animation(canvas.deformation)  # proves the motion between the poses
         self._pictures = weakref.WeakKeyDictionary[HarmonicMap, tuple[str, str]]()
         self._latest: dict[str, tuple[str, str]] = {}  # by the poses' names
@@ -83,12 +85,14 @@ class TimelinePanel(Pad):
         actions = {
             "keep": asked(self.animation.keep, "time"),
             "record": asked(self.animation.record, "on"),
+            "played": lambda _: self.on_play(),
             "onion": lambda event: canvas.set_trait("show_onion", event["on"]),
             "frame": asked(self._show_between, "time"),
             "rename_pose": asked(model.rename_pose, "index", "name"),
             "move_pose": asked(model.move_pose, "index", "time"),
             "set_easing": asked(model.set_easing, "index", "easing"),
             "set_repeat": asked(model.set_repeat, "repeat"),
+            "set_loop_range": asked(model.set_loop_range, "range"),
         }
         actions |= {k: asked(getattr(model, k), "index") for k in _OF_A_POSE}
         actions |= {"undo": asked(model.undo), "redo": asked(model.redo)}
@@ -213,6 +217,7 @@ class TimelinePanel(Pad):
             "active": state.active,
             "repeat": timeline.repeat,
             "back": timeline.back,
+            "range": timeline.played_range,
             "recording": self.animation.recording,
             "onion": self.canvas.show_onion,
             "kernel": any(s.evaluated_in == "kernel" for s in self._scenes),

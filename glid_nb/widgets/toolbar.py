@@ -41,6 +41,7 @@ class Toolbar(ClosingWidget, anywidget.AnyWidget):
     """Names, labels and descriptions of what else can be shown."""
     shows = traitlets.Dict({}).tag(sync=True)
     """For each name of the checks, whether it is shown."""
+    referenced = traitlets.Bool(False).tag(sync=True)  # whether there is a reference picture
     can_undo = traitlets.Bool(False).tag(sync=True)  # whether there is something to undo
     can_redo = traitlets.Bool(False).tag(sync=True)  # whether there is something to redo
 
@@ -52,6 +53,8 @@ class Toolbar(ClosingWidget, anywidget.AnyWidget):
         super().__init__(**kwargs)
         answer_during_cells(self)  # in the pad's thread: before the stroke that follows
         ipywidgets.link((canvas, "overlay"), (self, "overlay"))
+        stage = canvas.pane.stage
+        ipywidgets.dlink((stage, "reference"), (self, "referenced"), bool)
         ipywidgets.link((canvas.brush, "tool"), (self, "tool"))
         for one, name in self._shown.values():
             one.observe(self._show_checks, [name])

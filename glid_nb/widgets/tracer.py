@@ -129,6 +129,7 @@ class CageTracer(Pad):
         with self.tracing_model.locked(), self.hold_sync():
             if self.tracing_model.image is not self._pushed_image:
                 self._pushed_image = self.tracing_model.image
+                self.gestures.begin()
                 self.picture = displayed(self._pushed_image)
             self.shown = described(self.gestures) | {"keeps": self._on_pieces is not None}
 
@@ -177,6 +178,7 @@ def _of_hand(gestures: TraceGestures) -> dict[str, Any]:
         "corners": [list(corner) for corner in gestures.corners],
         "inside": gestures.inside,
         "cut": _cut(gestures.cut),
+        "knife_width": gestures.knife_width,
         "selected": [list(vertex) for vertex in gestures.selected],
     }
 

@@ -63,9 +63,10 @@ class TraceGestures(Gestures):
 
     def __init__(self, model: TracingModel) -> None:
         own = (*OF_A_HAND, "tool", "upload", "undo")
-        plain = ("clear_scribbles", "discard_edits", "redo", "draw")
+        plain = ("accept_guess", "clear_scribbles", "discard_edits", "redo", "draw")
         actions = {kind: getattr(self, f"_{kind}") for kind in own}
         actions |= {kind: asked(getattr(model, kind)) for kind in plain}
+        actions["knife"] = asked(self._set_knife, "width")
         actions["drawn_as"] = self._drawn_as
         actions["keep_piece"] = asked(self._keep_piece, "number")
         actions["toggle_hole"] = asked(model.toggle_hole, "number")
@@ -76,6 +77,8 @@ class TraceGestures(Gestures):
         self.corners: tuple[tuple[float, float], ...] = ()  # of an unfinished polygon
         self.inside: list[Any] = []
         """An outline that was drawn inside the shape; the page asks what it should be."""
+        self.knife_width: float | None = None
+        """Of the knife's slit, in pixels; None: as `TracingModel.cut` chooses."""
         self._cut: Cut | None = None
         self._selected: tuple[Vertex, ...] = ()
         self._press: _TracerPress | None = None
@@ -87,13 +90,19 @@ class TraceGestures(Gestures):
     @property
     def selected(self) -> tuple[Vertex, ...]:
         """The vertices that keys act on."""
-        sizes = [len(loop) for loop in self.model.outcome.loops]
+        sizes = [len(loop) for loop in self.model.loops]
         return tuple((i, j) for i, j in self._selected if i < len(sizes) and j < sizes[i])
 
     @property
     def cut(self) -> Cut | None:
         """What the knife did last, if nothing else has happened since."""
         return self._cut if self._cut and self._cut.state is self.model.state else None
+
+    def begin(self) -> None:
+        """Choose the tool for a picture that was just opened: its shape is painted if the outline
+        is only a guess."""
+        self.tool = "foreground" if self.model.doubt else "edit"
+        self.corners, self.inside = (), []
 
     def find(self, point: Array, reach: float) -> Found:
         """The objects at a point."""
@@ -197,7 +206,7 @@ class TraceGestures(Gestures):
     def _slit(self, line: Sequence[Any]) -> None:
         """Cut along a line. If the shape falls apart, the page offers the other pieces."""
         gesture, before = object(), len(self.model.outcome.loops)
-        pieces = self.model.cut(line, gesture=gesture)
+        pieces = self.model.cut(line, self.knife_width, gesture)
         in_middle = len(pieces) == 1 and len(pieces[0].loops) > before
         self._cut = Cut(pieces, 0, in_middle, self.model.state, gesture)
 
@@ -206,6 +215,11 @@ class TraceGestures(Gestures):
         cut = self.cut
         others = [] if cut is None else [p for i, p in enumerate(cut.pieces) if i != cut.kept]
         return self.model.pieces(others)
+
+    def _set_knife(self, width: float | None) -> None:
+        if width is not None and not 0 < width < np.inf:
+            raise TraceError(f"the knife's width must be above 0 pixels, not {width:g}")
+        self.knife_width = width
 
     def _keep_piece(self, number: int) -> None:
         """Keep another piece of the last cut."""

@@ -124,6 +124,21 @@ def test_formats_of_one_shape_have_files_for_each_part(model: EditorModel, tmp_p
     )
 
 
+def test_a_gltf_file_has_a_node_for_each_part(model: EditorModel, tmp_path: Path) -> None:
+    trimesh = pytest.importorskip("trimesh")
+    (path,) = exporting.export(model, tmp_path / "a.glb")
+    assert exporting.written_names(model, path, moving=False) == ("a.glb",)
+    scene = trimesh.load(path)
+    assert set(scene.graph.nodes_geometry) == {"red", "blue"}
+    heights = {name: scene.geometry[name].vertices[:, 2] for name in ("red", "blue")}
+    assert heights["red"].max() < heights["blue"].min()
+    for name, color in (("red", RED), ("blue", BLUE)):
+        texture = np.asarray(scene.geometry[name].visual.material.baseColorTexture)
+        assert tuple(texture[45, 30 if name == "red" else 85][:3]) == color
+    x = {name: scene.geometry[name].vertices[:, 0].mean() for name in ("red", "blue")}
+    assert x["red"] < x["blue"]
+
+
 def test_a_session_with_parts_is_animated_from_the_command_line(
     model: EditorModel, tmp_path: Path
 ) -> None:

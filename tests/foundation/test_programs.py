@@ -59,6 +59,15 @@ def test_a_program_is_compiled_once_for_each_kind_of_arguments() -> None:
     assert stages(program, ONES[:2], ONES[:2]) == ["trace", "lower", "compile"]
 
 
+def test_compiling_is_logged(caplog: pytest.LogCaptureFixture) -> None:
+    caplog.set_level("INFO", "glid_nb")
+    program = made()
+    program(ONES, ONES)
+    assert [line.split()[0] for line in caplog.messages] == ["compiling", "compiled"]
+    program(TWOS, ONES)
+    assert len(caplog.messages) == 2
+
+
 def test_another_process_finds_it_without_tracing() -> None:
     made()(ONES, ONES)
     assert stages(made(), TWOS, ONES) == ["load"]

@@ -21,6 +21,7 @@ from glid_nb.harmonic import HarmonicMap
 from glid_nb.io import load_pose
 from glid_nb.motion import MotionError, bounded, curve
 from glid_nb.motion.boundary import boundary_of
+from glid_nb.motion.easing import Easing, Handles, eased, sample_times
 
 from ..support.domains import MANY_HOLES, NAMES, circle, dense_check, domain, random_map, turned
 from .test_pieces import check
@@ -332,6 +333,53 @@ def test_easing_changes_when_and_not_what() -> None:
         assert eased(0.5).distance(plain(s)) < 3 * eased.tolerance * 6
 
 
+def test_a_curve_eases_as_its_handles_say() -> None:
+    """CSS's "ease" is (0.25, 0.1, 0.25, 1): after half the time 80.24 % of the way is done."""
+    css = 0.25, 0.1, 0.25, 1.0
+    assert eased(css, 0.5) == pytest.approx(0.8024, abs=1e-4)
+    shares = np.linspace(0, 1, 41).tolist()
+    same = {"in": (1 / 3, 0, 2 / 3, 1 / 3), "out": (1 / 3, 2 / 3, 2 / 3, 1)}
+    same |= {"in-out": (1 / 3, 0, 2 / 3, 1), "linear": (0.2, 0.2, 0.9, 0.9)}
+    for name, handles in same.items():
+        on_curve = [eased(handles, share) for share in shares]
+        np.testing.assert_allclose(on_curve, [eased(name, s) for s in shares], atol=1e-12)
+    maps = poses("ell", 0, 1.0)
+    curved, plain = Motion(maps, easing=css), Motion(maps)
+    assert curved.certificate.certified
+    assert curved(0.5).distance(plain(0.8024)) < 3 * curved.tolerance * 6
+
+
+@given(st.tuples(*[st.floats(0, 1)] * 4))
+def test_every_easing_goes_forward_from_start_to_end(handles: Handles) -> None:
+    for easing in (handles, "in-out", "hold"):
+        ways = [eased(easing, share) for share in np.linspace(0, 1, 101)]
+        assert (ways[0], ways[-1]) == (0, 1)
+        assert min(np.diff(ways)) >= -1e-12
+        times = sample_times(easing, 2.0, 5.0, 24)
+        assert times[-1] == 5
+        assert min(np.diff(times)) > 0
+
+
+def test_hold_stays_until_the_end_and_is_proved_on_its_way() -> None:
+    maps = poses("ell", 0, 1.0)
+    held = Motion(maps, easing="hold")
+    assert same(held(0.96), maps[0])  # the last frame of 25 in a second
+    assert same(held(1), maps[1])
+    assert held(0.995).distance(Motion(maps)(0.5)) < 3 * held.tolerance * 6
+    assert held.certificate.certified
+
+
+@pytest.mark.parametrize("easing", [(0, 1, 0, 1), (1, 0, 1, 0), (0, 1, 1, 0), (1, 0, 0, 1), "hold"])
+def test_pieces_follow_the_steepest_easing(easing: Easing) -> None:
+    motion = Motion(poses("twin", 0, 1.5), easing=easing)
+    curve, times = motion.curve, np.unique([np.linspace(0, 1, 53), np.geomspace(1e-6, 1, 53)])
+    times = np.unique([*times, *(1 - times)])
+    off = max(motion(t).distance(curve.map(float(t)), 100) for t in times)
+    assert off <= 1.5 * motion.tolerance * motion.domain.cage.longer_side
+    assert len(motion.pieces) < 100
+    assert motion.certificate.certified
+
+
 def test_pieces_follow_the_curve_within_the_tolerance() -> None:
     maps = poses("twin", 0, 1.5, 0.3)
     for tolerance in (0.01, 0.001):
@@ -340,6 +388,24 @@ def test_pieces_follow_the_curve_within_the_tolerance() -> None:
         times = np.linspace(0, 2, 23)
         off = max(motion(t).distance(curve.map(float(t)), 100) for t in times)
         assert off <= 1.5 * tolerance * size
+
+
+@pytest.mark.parametrize("repeat", ["once", "loop", "ping-pong"])
+def test_a_part_moves_as_the_whole_does_and_is_proved(repeat: Any, tmp_path: Path) -> None:
+    motion = Motion(poses("twin", 0, 1.0, 0.2), [0, 1, 2], easing="in-out", repeat=repeat)
+    end = motion.times[-1]
+    for start, stop in ((0.3, 1.6), (1.0, end), (0.2, 0.4)):
+        part = motion.part(start, stop)
+        assert part.repeat == "once"
+        assert part.times == (start, *(t for t in motion.times if start < t < stop), stop)
+        assert part.certificate.certified
+        for time in np.linspace(start, stop, 9)[:-1]:
+            assert part(time).distance(motion(time)) < 1e-12
+        part.save(tmp_path / "part")
+        assert Motion.load(tmp_path / "part")(stop).distance(part(stop)) == 0
+    for start, stop in ((-0.1, 1), (1, end + 0.1), (0.5, 0.5), (1, 0)):
+        with pytest.raises(MotionError, match="there is no motion from"):
+            motion.part(start, stop)
 
 
 def test_resampling_gives_even_times() -> None:
@@ -408,6 +474,8 @@ def test_keyframes_that_turn_otherwise_are_refused() -> None:
         ({"times": [0, np.nan]}, r"times\[1\] is nan; it must be a finite number"),
         ({"easing": "bounce"}, r"easing\[0\] is 'bounce'; it must be one of linear, in, out"),
         ({"easing": ["in", "out"]}, "easing has 2 values for 1 intervals; give 1"),
+        ({"easing": [0.3, 0, 0.7]}, r"easing\[0\] is .*; it must be four numbers from 0 to 1"),
+        ({"easing": [(0.3, 0, 0.7, 1.2)]}, r"easing\[0\] is .*; it must be four numbers"),
         ({"repeat": "forever"}, "repeat is 'forever'; it must be one of once, loop, ping-pong"),
         ({"between": "cubic"}, "between is 'cubic'"),
         ({"tolerance": 0}, "tolerance is 0; it must be a finite number greater than 0"),
@@ -446,6 +514,18 @@ def test_a_saved_motion_reads_back_bit_for_bit_and_is_proved_anew(tmp_path: Path
         assert (a.start, a.end) == (b.start, b.end)
         assert same(a.start_map, b.start_map)
         assert same(a.end_map, b.end_map)
+
+
+def test_a_file_names_the_oldest_version_that_reads_it(tmp_path: Path) -> None:
+    path, proof = tmp_path / "walk.motion", tmp_path / "proof"
+    for easing, version in (("in", 1), ("hold", 2), ((0.2, 0.0, 0.4, 1.0), 2)):
+        motion = Motion(poses("ell", 0, 0.3), easing=easing)  # type: ignore[arg-type]
+        motion.save(path, proof)
+        assert json.loads(path.read_text())["version"] == version
+        assert json.loads(proof.read_text())["version"] == 1
+        back = Motion.load(path)
+        assert back.easing == motion.easing
+        assert [p.start for p in back.pieces] == [p.start for p in motion.pieces]
 
 
 def test_saving_loses_nothing(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -38,10 +38,11 @@ test("Latin keyboards of any arrangement say themselves what they type", () => {
 /**
  * The menu's labels, and the keys that its rows press.
  *
- * @param {{ pinned: number } | null} pin
+ * @param {number | null} pins
  * @param {boolean} covered
+ * @param {boolean} [hides]
  */
-function menu(pin, covered) {
+function menu(pins, covered, hides = false) {
   /** @type {string[]} */
   const pressed = [];
   const nothing = () => {};
@@ -56,19 +57,24 @@ function menu(pin, covered) {
     fullScreen: nothing,
     showKeys: nothing,
   };
-  const rows = menuRows(does, pin, covered).filter((row) => row !== null);
+  const rows = menuRows(does, pins, covered, hides).filter((row) => row !== null);
   for (const [, , act] of rows) act();
   return { labels: rows.map(([label]) => label), pressed };
 }
 
 test("the menu of several pins removes all of them", () => {
-  const { labels, pressed } = menu({ pinned: 3 }, false);
+  const { labels, pressed } = menu(3, false);
   assert.ok(labels.includes("Remove 3 pins"));
+  assert.ok(labels.includes("Group"));
   assert.ok(pressed.includes("Shift+Delete"));
-  assert.ok(menu({ pinned: 1 }, false).labels.includes("Remove"));
+  const { labels: one } = menu(1, false);
+  assert.ok(one.includes("Remove") && one.includes("Hide") && !one.includes("Group"));
 });
 
 test("a pin is offered only where the shape is", () => {
   assert.equal(menu(null, true).labels[0], "Add a pin here");
   assert.equal(menu(null, false).labels[0], "Copy the pose");
+  const { labels, pressed } = menu(null, false, true);
+  assert.equal(labels[0], "Show hidden pins");
+  assert.equal(pressed[0], "Shift+h");
 });

@@ -82,6 +82,25 @@ test("where one of several shapes is proved less far, all stay there", () => {
   ]);
 });
 
+test("a loop range plays over and over, whatever the motion does at its end", async () => {
+  const { player, ended } = playing("once");
+  player.range = [0.5, 1.5];
+  player.play(); // from 0, before the range
+  await frame(0);
+  assert.equal(player.place, 0.5);
+  await frame(900);
+  assert.ok(Math.abs(player.place - 1.4) < 1e-9);
+  await frame(1300);
+  assert.ok(Math.abs(player.place - 0.8) < 1e-9);
+  assert.ok(player.playing);
+  player.scrub(1.8); // a hand goes anywhere
+  assert.equal(player.place, 1.8);
+  player.play();
+  await frame(2000);
+  assert.equal(player.place, 0.5);
+  assert.equal(ended.mock.callCount(), 0);
+});
+
 test("a motion that plays once ends at its end, and then begins anew", async () => {
   const { player, ended } = playing("once");
   player.play();

@@ -32,6 +32,7 @@ function shown(changes) {
     active: 0,
     repeat: "once",
     back: 0.5,
+    range: null,
     recording: false,
     onion: false,
     exports: true,

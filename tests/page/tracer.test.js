@@ -43,6 +43,7 @@ function shown(changes = {}) {
     corners: [],
     inside: [],
     cut: null,
+    knife_width: null,
     selected: [],
     keeps: false,
     ...changes,
@@ -66,11 +67,11 @@ test("a refusal comes before all else, then that an answer is overdue", () => {
   assert.equal(statusOf(shown({ size: null }), null, false).kind, "idle");
 });
 
-test("a guess says why it is one, an invalid cage is bad", () => {
-  assert.match(
-    statusOf(shown({ doubt: "it is faint" }), null, false).text,
-    /^A guess, as it is faint/,
-  );
+test("without a clear outline the status says why and what to do; an invalid cage is bad", () => {
+  assert.deepEqual(statusOf(shown({ doubt: "it is faint", loops: [] }), null, false), {
+    kind: "guess",
+    text: "No outline yet, as it is faint · paint over the shape",
+  });
   const problems = [{ message: "edges cross", point: null }];
   assert.equal(statusOf(shown({ problems }), null, false).kind, "bad");
 });

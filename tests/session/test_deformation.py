@@ -54,7 +54,7 @@ def test_a_drag_is_solved_to_its_end(ring: Deformation) -> None:
 def test_the_solver_can_be_told_when_to_begin(threads: NewThreads) -> None:
     with Deformation(domain("ring"), begin=False) as deformation:
         assert threads.named(SOLVER) is None
-        assert "Click the shape" in deformation.status.text
+        assert "No pins" in deformation.status.text
         deformation.begin()
         assert threads.named(SOLVER) is not None
         assert deformation.solve(TIMEOUT)

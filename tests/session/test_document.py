@@ -79,7 +79,7 @@ PINS = Pose(
     weights=[1 / 3, 1],
     names=["head", ""],
 )
-TIMELINE = Timeline((1 / 3, 2.0), ("in", "in-out"), "loop", 0.7)
+TIMELINE = Timeline((1 / 3, 2.0), ((0.3, 0.0, 1 / 3, 1.0), "hold"), "loop", 0.7, (0.5, 1 / 0.6))
 
 
 def assert_same(a: Document, b: Document) -> None:
@@ -309,7 +309,7 @@ def test_a_document_of_version_2_opens_without_depths(
     tmp_path: Path, valid: dict[str, bytes]
 ) -> None:
     data = json.loads(valid["document.json"])
-    assert (data["version"], data.pop("timeline")["back"]) == (6, 0.7)
+    assert (data["version"], data.pop("timeline")["back"]) == (7, 0.7)
     old = [
         {k: v for k, v in pose.items() if k not in ("depths", *NEW_PINS)} for pose in data["poses"]
     ]

@@ -281,14 +281,14 @@ def test_one_shape_is_saved_as_before_and_parts_of_one_picture_share_it(tmp_path
     model = EditorModel(ISLANDS)
     try:
         data, members = written(model)
-        assert (data["version"], "parts" in data) == (6, False)
+        assert (data["version"], "parts" in data) == (7, False)
         assert sorted(members) == ["document.json", "image.png"]
         model.keep_pieces(model.tracing.pieces())
         data, members = written(model)
         assert data["version"] == 7
         assert sorted(members) == ["document.json", "image.png"]
         model.deformation.remove_part(1)
-        assert written(model)[0]["version"] == 6
+        assert written(model)[0]["version"] == 7
     finally:
         model.close()
 

@@ -194,7 +194,7 @@ def test_what_cannot_be_written_is_refused(model: TracingModel) -> None:
 def test_all_poses_are_made(solved: Document, picture: str) -> None:
     wave = solved.poses[0]
     rest = replace(wave, name="at\nrest", map=HarmonicMap.identity(solved.domain))
-    timeline = Timeline((0.5, 1.0, 3.0), ("in", "out", "linear"), "loop", 0.25)
+    timeline = Timeline((0.5, 1.0, 3.0), ("in", (0.1, 0, 0.2, 1), "hold"), "loop", 0.25)
     document = replace(solved, poses=(wave, rest, wave), active=1, timeline=timeline)
     scope = run(python_code(document, picture, exact=True))
     gaps = [made.distance(p.map) for made, p in zip(scope["maps"], document.poses, strict=True)]

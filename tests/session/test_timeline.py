@@ -13,7 +13,7 @@ from hypothesis import given, settings
 from scipy.interpolate import CubicSpline
 
 from glid_nb.harmonic import HarmonicMap
-from glid_nb.motion.settings import MotionError
+from glid_nb.motion import MotionError
 from glid_nb.pose import Pose
 from glid_nb.session import actions
 from glid_nb.session.edit_state import EditError, EditState
@@ -24,13 +24,17 @@ from ..support.domains import domain
 
 index = st.integers(-1, 6)
 time = st.floats(-2, 12)
-easing = st.sampled_from(["linear", "in", "out", "in-out"])
+easing = st.one_of(
+    st.sampled_from(["linear", "in", "out", "in-out", "hold"]),
+    st.tuples(*[st.floats(0, 1)] * 4),
+)
 steps = st.one_of(
     st.tuples(st.just("save_pose")),
     st.tuples(st.sampled_from(["duplicate_pose", "delete_pose", "go_to_pose"]), index),
     st.tuples(st.just("move_pose"), index, time),
     st.tuples(st.just("set_easing"), index, easing),
     st.tuples(st.just("set_repeat"), st.sampled_from(["once", "loop", "ping-pong"])),
+    st.tuples(st.just("set_loop_range"), st.none() | st.tuples(st.floats(0, 4), st.floats(5, 9))),
     st.tuples(st.just("keep_between"), time),
     st.tuples(st.just("keep_after"), time),
     st.tuples(st.just("record"), st.lists(st.floats(0.01, 2), min_size=1, max_size=4)),
@@ -113,6 +117,18 @@ def test_a_loop_returns_after_its_last_pose() -> None:
         actions.move_pose(state_of(2), 2, 4.5)
 
 
+def test_a_loop_range_is_played_as_far_as_the_motion_reaches() -> None:
+    state = actions.set_loop_range(state_of(3), (0.5, 3))
+    assert state.timeline.played_range == (0.5, 2)
+    assert actions.set_loop_range(state, (0.5, 3)) is state
+    assert actions.move_pose(state, 2, 8).timeline.played_range == (0.5, 3)
+    assert state.timeline.lasting(4).played_range == (1, 4)
+    assert actions.set_repeat(state, "loop").timeline.played_range == (0.5, 3)
+    for whole in (None, (0.0, 9.0), (5.0, 6.0)):
+        assert actions.set_loop_range(state, whole).timeline.played_range is None
+    assert actions.set_loop_range(state_of(1), (0.0, 1.0)).timeline.played_range is None
+
+
 def test_what_lies_between_can_be_kept() -> None:
     two = state_of(2)
     new = actions.keep_between(two, 0.25, two.map)
@@ -142,7 +158,12 @@ def test_settings_that_are_not_valid_are_refused() -> None:
         {"times": (-1.0,)},
         {"times": (0.0, 0.0), "easing": ("in", "in")},
         {"easing": ("up",)},
+        {"easing": ((0.5, 0, 0.5),)},
+        {"easing": ((0.5, -0.1, 0.5, 1),)},
         {"repeat": "twice"},
+        {"loop_range": (1.0, 1.0)},
+        {"loop_range": (-0.5, 1.0)},
+        {"loop_range": (1.0,)},
         {"back": 0.0},
         {"repeat": "loop", "back": 1e-12},
         {"times": (0.0, 1.0, 1 + 1e-12), "easing": ("in",) * 3},

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import skimage.data
 from hypothesis import settings
 from hypothesis import strategies as st
 from hypothesis.stateful import RuleBasedStateMachine, initialize, invariant, rule
@@ -49,6 +50,45 @@ def test_a_picture_is_traced_at_once(model: TracingModel) -> None:
     assert not model.can_undo
     assert not model.can_redo
     assert not model.edited
+
+
+def test_a_guess_is_no_outline_until_somebody_accepts_it() -> None:
+    model = TracingModel(skimage.data.cat())
+    assert model.doubt
+    assert (model.loops, model.holes) == ((), ())
+    guess = cage_of(model)  # what code deforms
+    with pytest.raises(GeometryError, match="no outline yet"):
+        model.cut([(-10, 100), (500, 100)])
+
+    model.accept_guess()
+    assert model.doubt == ""
+    assert len(model.loops) == 1 + guess.n_holes
+    assert len(model.holes) >= guess.n_holes
+    assert cage_of(model).equals(guess)
+    model.accept_guess()  # accepted already: no other step
+    model.undo()
+    assert model.loops == ()
+    assert not model.can_undo
+
+    # Whoever chooses options wants to see what they do.
+    model.set_options(smoothing=3.0)
+    assert model.doubt == ""
+    assert model.loops
+    model.open(skimage.data.coffee())
+    assert model.doubt
+    assert model.loops == ()
+
+
+def test_the_outline_of_a_session_is_no_guess(tmp_path: Path) -> None:
+    guessed = TracingModel(skimage.data.cat())
+    cage, domain, image = cage_of(guessed), guessed.domain, guessed.image
+    assert domain is not None
+    assert image is not None
+    document = Document(image, cage, domain, guessed.options, None, (), 0)
+    save_document(document, tmp_path / "cat.glid")
+    opened = TracingModel.from_document(load_document(tmp_path / "cat.glid"))
+    assert (opened.doubt, opened.edited) == ("", False)
+    assert len(opened.loops) == 1 + cage.n_holes
 
 
 def test_without_a_picture_there_is_nothing_and_no_error() -> None:

@@ -159,7 +159,7 @@ def test_a_pose_that_was_left_half_way_is_known_in_a_file(
     with zipfile.ZipFile(path) as archive:
         data = json.loads(archive.read("document.json"))
         others = {name: archive.read(name) for name in archive.namelist()}
-    assert data["version"] == 6
+    assert data["version"] == 7
     document = load_document(path)
     assert [pose.name for pose in document.unsolved] == ["a 1"]
     assert miss(document.poses[1]) > 1

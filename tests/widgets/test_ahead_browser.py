@@ -102,3 +102,34 @@ def test_a_drag_goes_on_while_nothing_comes_from_the_kernel(open_notebook: OpenN
     jump = np.linalg.norm(kernels - maps[-1](boundary), axis=1).max() / unit
     assert jump < 2.0
     assert hand.certified()
+
+
+def test_the_drag_of_a_new_pin_goes_on_while_nothing_comes_from_the_kernel(
+    open_notebook: OpenNotebook,
+) -> None:
+    hand = _pinned(open_notebook)
+    domain = glid.Domain.from_dict(hand.book.value("domain.to_dict()"))
+    places = hand.places(line([3.0, 0.0], [3.0, 1.5], 12))
+    mouse, maps = hand.page.mouse, "window.glid.maps.length"
+    known = hand.page.evaluate(maps)
+    mouse.move(*places[0])
+    mouse.down()
+    for place in places[1:4]:
+        mouse.move(*place)
+    # The kernel has made the pin, and the page follows it from there.
+    hand.book.wait_for("len(model.pose) == 4")
+    mouse.move(*places[4])
+    hand.page.wait_for_function(f"{maps} > {known}")
+    hand.page.evaluate("window.glid.held = []")
+    for place in places[5:]:
+        mouse.move(*place)
+    mouse.up()
+    hand.page.wait_for_function("window.glid.maps.at(-1)?.settled")
+    shown = _maps(hand, domain)[-1]
+    hand.page.evaluate("window.glid.release()")
+    hand.wait_for_target(3, [3.0, 1.5])
+    handle = hand.book.value("model.pose.handles[3].tolist()")
+    assert np.allclose(shown([handle]), [[3.0, 1.5]], atol=0.1)
+    assert glid.certify(shown).certified
+    hand.wait_until_drawn()
+    assert hand.certified()

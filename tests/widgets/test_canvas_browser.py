@@ -211,7 +211,7 @@ def test_by_keyboard_alone(open_notebook: OpenNotebook) -> None:
     book = open_notebook([SETUP, EDITOR])
     hand = Hand(book)
     keys, shown = hand.page.keyboard, hand.pad.locator(".glid-help")
-    hand.pad.get_by_text("Click the shape to pin a point").wait_for()
+    assert hand.pad.get_by_text("Click the shape to pin a point").is_hidden()  # the footer says it
     hand.page.locator(".glid-tools").get_by_role("button", name="Keys and gestures").click()
     shown.get_by_text("Ctrl+Shift+Z").wait_for()
     shown.get_by_text("the shape follows, and never folds").wait_for()
@@ -315,7 +315,7 @@ def test_touch_drags_and_pinches(open_notebook: OpenNotebook) -> None:
 
 
 # The box for the numbers of pins.
-NUMBERS = "editor.inspector.children[0]"
+NUMBERS = "editor.inspector.children[0].children[-1]"
 PREPARED_AS_TOLD = """
 import threading
 from glid_nb._runtime import stage

@@ -13,6 +13,7 @@ import sys
 import threading
 from collections.abc import Callable, Iterator
 from contextlib import nullcontext
+from datetime import UTC, datetime
 from pathlib import Path
 from queue import Queue
 from types import SimpleNamespace
@@ -30,6 +31,7 @@ from glid_nb._runtime import stage
 from glid_nb.export import ExportError
 from glid_nb.figures.style import COLORS, distortion_colors, rgb
 from glid_nb.imaging import TraceError
+from glid_nb.imaging.read import png
 from glid_nb.session.autosave import flush
 from glid_nb.session.deformation import Deformation
 from glid_nb.session.document import DocumentError
@@ -413,8 +415,8 @@ def test_the_first_canvas_waits_for_no_more_than_it_needs(tmp_path: Path) -> Non
 
 def sections(editor: Editor) -> list[Any]:
     """The boxes of the inspector's sections: pin, motion, files, and the solver's in the proof."""
-    *boxes, proof = editor.inspector.children
-    return [*boxes, proof.children[-1]]
+    pin, *boxes, proof = editor.inspector.children
+    return [pin.children[-1], *boxes, proof.children[-1]]
 
 
 def numbers(editor: Editor) -> Any:
@@ -588,6 +590,43 @@ def test_a_closed_editor_leaves_no_widget_behind(tmp_path: Path) -> None:
     editor.close()
     left = [type(widget._instances[name]).__name__ for name in set(widget._instances) - before]
     assert left == []
+
+
+def test_parts_are_listed_and_closed_with_the_editor() -> None:
+    from ipywidgets.widgets import widget
+
+    before = set(widget._instances)
+    left, right = np.zeros((60, 90, 4), np.uint8), np.zeros((60, 90, 4), np.uint8)
+    left[10:50, 5:40], right[10:50, 50:85] = (220, 30, 30, 255), (30, 30, 220, 255)
+    editor = Editor(parts={"left": left, "right": right}, n_vertices=300)
+    canvas, panel = editor.canvas, editor.parts
+    assert canvas is not None
+    assert [row.name.description for row in panel.rows.children] == ["right", "left"]
+    assert [(s.name, s.above) for s in canvas.scenery] == [("right", True)]
+    panel.rows.children[0].name.click()
+    assert editor.deformation.state.part == 1
+    assert [(s.name, s.above) for s in canvas.scenery] == [("left", False)]
+    assert (canvas.image == right).all()
+    panel.rows.children[1].eye.value = False
+    assert canvas.scenery == ()
+    panel.rows.children[0].eye.value = False
+    assert "only visible part" in panel.refusal.value
+    panel.name.value = "front"
+    assert [row.name.description for row in panel.rows.children] == ["front", "left"]
+    panel.back.click()
+    assert [row.name.description for row in panel.rows.children] == ["left", "front"]
+    panel.remove.click()
+    assert [row.name.description for row in panel.rows.children] == ["left"]
+    assert (canvas.image == left).all()
+    editor.deformation.undo()
+    upload = {"name": "half.png", "content": memoryview(png(left[:, :45]))}
+    panel.add.value = (
+        {**upload, "type": "image/png", "size": 1, "last_modified": datetime.now(UTC)},
+    )
+    assert "same size" in panel.refusal.value
+    editor.close()
+    left_over = [type(widget._instances[n]).__name__ for n in set(widget._instances) - before]
+    assert left_over == []
 
 
 def test_a_closed_editor_makes_nothing_more() -> None:

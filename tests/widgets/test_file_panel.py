@@ -386,6 +386,18 @@ def test_the_motion_is_exported_in_the_background(model: EditorModel, tmp_path: 
     with Image.open(next(tmp_path.glob("*.gif"))) as picture:
         assert (picture.n_frames, max(picture.size)) == (5, 64)  # type: ignore[attr-defined]
     assert motion.progress.layout.display == "none"
+    # A loop range can be exported alone; its order of parts is that of its times.
+    assert motion.part.layout.display == "none"
+    deformation.bring_forward([moved], 1)
+    deformation.set_loop_range((0.25, 0.75))
+    assert motion.part.layout.display is None
+    motion.part.value = True
+    panel.export_button.click()
+    assert motion.worker.wait(60)
+    with Image.open(next(tmp_path.glob("*.gif"))) as picture:
+        assert picture.n_frames == 3  # type: ignore[attr-defined]
+        assert picture.info["loop"] == 0  # for ever
+    motion.part.value = False
     panel.format.value = "motion.sheet.png"
     panel.export_button.click()
     assert motion.worker.wait(60)

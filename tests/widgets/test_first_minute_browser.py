@@ -45,6 +45,43 @@ def test_pale_pins_invite_a_drag_until_there_is_a_pin(open_notebook: OpenNoteboo
     wait_for_groups(0)  # they are not shown again
 
 
+def test_the_footer_gives_one_hint_at_a_time(open_notebook: OpenNotebook) -> None:
+    """Each is gone once its step was made, also for the next editor of this session."""
+    fresh = "from glid_nb.session import first_minute\nfirst_minute.IN_THIS_SESSION._made.clear()\n"
+    book = open_notebook([SETUP + fresh, EDITOR])
+    hand, page = Hand(book), book.page
+    hint = page.locator(".glid-foot .glid-next")
+    page.locator(".glid-editor").scroll_into_view_if_needed()
+
+    def wait_for_hint(text: str, name: str) -> None:
+        hint.get_by_text(text).wait_for()
+        assert hint.count() == 1
+        for size in ((390, 844), (1366, 768)):
+            page.set_viewport_size({"width": size[0], "height": size[1]})
+            hint.scroll_into_view_if_needed()
+            hand.wait_until_still()
+            assert hint.is_visible()
+            book.screenshot(f"hint-{name}-{size[0]}")
+
+    wait_for_hint("Click the shape to pin a point", "pin")
+    assert hand.pad.locator(".glid-notice").is_hidden()
+    hand.click((-6.0, 0.0))
+    wait_for_hint("Drag the pin", "drag")
+    hand.drag([(-6.0, 0.0), (-6.0, 0.5), (-6.0, 1.0)])
+    hint.get_by_text("Drag around the pin").wait_for()
+    page.keyboard.press(">")
+    wait_for_hint("Keep this pose", "keep")
+    page.keyboard.press("k")
+    book.wait_for("len(editor.poses) == 2")
+    hint.get_by_text("play the motion").wait_for()
+    hand.click((6.0, 0.0))
+    book.wait_for("editor.timeline.animation.spans[0].status == 'proved'", 60)
+    page.get_by_role("button", name="Play").first.click()
+    hint.wait_for(state="detached")
+    book.value("None", setup="from IPython.display import display\nother = glid.Editor(picture)")
+    assert "glid-next" not in book.value("other.monitor.line.value", "other.monitor.refresh(20)")
+
+
 def test_the_inspector_gives_its_room_to_the_canvas(open_notebook: OpenNotebook) -> None:
     book = open_notebook([SETUP, EDITOR])
     hand, page = Hand(book), book.page

@@ -82,7 +82,8 @@ def test_keys_send_selected_handles_back_and_forward(hand: Hand) -> None:
 def test_a_brush_paints_and_erases_in_steps_for_undo(hand: Hand) -> None:
     brush, model = hand.gestures.brush, hand.model
     brush.radius, brush.strength = 0.5, 0.6
-    hand.key("b")
+    assert "no tool 'spray'" in hand.send("tool", name="spray")
+    hand.send("tool", name="stiff")
     assert brush.tool == "stiff"
     # Through the ring, its hole and the ring again: no pin, two lines, one step.
     path = [[-2.8, 0.0], [-1.0, 0.05], [2.8, 0.0]]
@@ -96,7 +97,7 @@ def test_a_brush_paints_and_erases_in_steps_for_undo(hand: Hand) -> None:
         0,
         0,
     ]
-    hand.key("E")
+    hand.send("tool", name="erase")
     hand.send("down", 2, 0)
     hand.send("up", 2, 0, path=[[2, 0]])
     assert model.pose.stiffness([[2, 0.4], [-2, 0.4]]).tolist() == [0, 0.6]
@@ -332,6 +333,83 @@ def test_the_right_button_selects_what_its_menu_is_about(hand: Hand) -> None:
     np.testing.assert_allclose(hand.model.pose.handles[3], [0, -2], atol=1e-9)
     assert hand.model.selection == (3,)
     assert "no shape here" in (hand.send("pin", 9, 9) or "")
+
+
+def three_pins(hand: Hand) -> Deformation:
+    for x, y in ((2, 0), (-2, 0), (0, 2)):
+        hand.click(x, y)
+    return hand.model
+
+
+def test_a_locked_pin_is_not_moved_by_the_hand(hand: Hand) -> None:
+    model = three_pins(hand)
+    before = model.pose.targets.copy()
+    hand.key("l")
+    assert [mark.locked for mark in model.state.marks] == [False, False, True]
+    assert hand.send("down", 0, 2) == ""
+    assert hand.send("move", 0, 2.5) == ""
+    assert hand.send("up", 0, 2.5) == "pin 3 is locked; unlock it first (L)"
+    assert model.selection == (2,)  # but it can be selected
+    for key in ("ArrowUp", ">", "x", "Delete"):
+        assert "locked" in hand.key(key)
+    assert hand.send("down", 0.8, 2, part="turn") == "pin 3 is locked; unlock it first (L)"
+    hand.send("up", 0.8, 2)
+    np.testing.assert_array_equal(model.pose.targets, before)
+
+    # Selected with others, it stays where it is and they move.
+    hand.key("a")
+    hand.drag((2, 0), (2.2, 0), (2.5, 0))
+    np.testing.assert_allclose(model.pose.targets - before, [[0.5, 0], [0.5, 0], [0, 0]], atol=1e-9)
+    hand.key("Delete")
+    np.testing.assert_allclose(model.pose.handles, [[0, 2]], atol=1e-9)
+    model.select([0])
+    hand.key("L")
+    hand.drag((0, 2), (0, 2.5))
+    np.testing.assert_allclose(model.pose.targets, [[0, 2.5]], atol=1e-9)
+
+
+def test_a_hidden_pin_is_neither_hit_nor_chosen(hand: Hand) -> None:
+    model = three_pins(hand)
+    hand.key("h")
+    hidden = [mark.hidden for mark in model.state.marks]
+    assert hidden == [False, False, True]
+    assert hand.gestures.hit(np.array([0.0, 2.0]), 0.26) is None
+    hand.key("a")
+    assert model.selection == (0, 1)
+    hand.key("Escape")
+    seen = []
+    for _ in range(3):
+        hand.key(".")
+        seen += model.selection
+    assert seen == [0, 1, 0]
+    hand.key("Escape")
+    box = [(-3, -3), (3, -3), (3, 3), (-3, 3)]
+    hand.send("up", path=box, encloses="box")
+    assert model.selection == (0, 1)
+    hand.key("h", shift=True)
+    assert hand.gestures.hit(np.array([0.0, 2.0]), 0.26) == 2
+
+
+def test_a_group_is_selected_and_moved_together(hand: Hand) -> None:
+    model = three_pins(hand)
+    model.select([0, 2])
+    hand.key("g")
+    hand.key("Escape")
+    before = model.pose.targets.copy()
+    hand.drag((2, 0), (2.2, 0.2), (2.5, 0.5))
+    assert model.selection == (2, 0)
+    moved = [[0.5, 0.5], [0, 0], [0.5, 0.5]]
+    np.testing.assert_allclose(model.pose.targets - before, moved, atol=1e-9)
+
+    # Shift and a click take the whole group out of the selection.
+    hand.key("a")
+    hand.click(2.5, 0.5, shift=True)
+    assert model.selection == (1,)
+    hand.click(2.5, 0.5)
+    hand.key("g", shift=True)
+    hand.key("Escape")
+    hand.click(0.5, 2.5)
+    assert model.selection == (2,)
 
 
 def test_removing_by_key(hand: Hand) -> None:

@@ -63,6 +63,23 @@ def test_nothing_is_told_during_a_drag_and_again_if_it_is_cancelled(canvas: Defo
     assert stage.rest["pose"] == before["pose"]
 
 
+def test_a_drag_that_makes_a_pin_is_told_once(canvas: DeformCanvas) -> None:
+    stage, model = canvas.pane.stage, canvas.deformation
+    number = stage.rest["number"]
+    with model.locked():  # as the events of one message are
+        made = model.add_handle((0.0, -0.6))
+        model.begin_drag([made])
+        model.drag_to(np.array([[0.1, -0.5]]))
+    assert stage.rest["number"] == number + 1
+    assert stage.rest["pose"]["targets"] == [*PINS, [0.1, -0.5]]
+    model.drag_to(np.array([[0.1, -0.4]]))
+    assert model.solve(60)
+    assert stage.rest["number"] == number + 1
+    model.end_drag()
+    assert model.solve(60)
+    assert stage.rest["pose"]["targets"] == [*PINS, [0.1, -0.4]]
+
+
 def test_a_page_that_has_drawn_nothing_is_told_nothing() -> None:
     canvas = DeformCanvas(PICTURE, domain("ell"), n_vertices=80)
     assert canvas.deformation.solve(60)

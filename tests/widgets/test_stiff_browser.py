@@ -30,6 +30,19 @@ CLICK_AND_PAINT = """([[x, y], [end, _]]) => {
   point('pointerup', end);
 }"""
 
+# Likewise, by a key and on a pin; the shape of the pointer while it moves.
+PRESS_AND_PAINT = """([key, [[x, y], [end, _]]]) => {
+  const pad = document.querySelector('.glid-pad');
+  const point = (type, clientX) => pad.dispatchEvent(new PointerEvent(type, {
+    bubbles: true, pointerId: 1, pointerType: 'mouse', clientX, clientY: y }));
+  pad.dispatchEvent(new KeyboardEvent('keydown', { key, bubbles: true, cancelable: true }));
+  point('pointerdown', x);
+  for (let at = x; at < end; at += 4) point('pointermove', at);
+  const { cursor } = pad.style;
+  point('pointerup', end);
+  return cursor;
+}"""
+
 PURPLE = """() => {
   const paper = document.querySelector('.glid-paper');
   const { data } = paper.getContext('2d').getImageData(0, 0, paper.width, paper.height);
@@ -58,6 +71,21 @@ def test_a_hand_paints_a_stiff_head_erases_undoes_and_clears(open_notebook: Open
     book.wait_for("len(model.pose.stiffness.strokes) == 1")
     assert book.value("model.pose.stiffness([[-0.9, 0.5], [0.9, 0.5]]).tolist()") == [1, 1]
     page.keyboard.press("Control+z")
+    book.wait_for("not model.pose.stiffness and canvas.brush.tool == 'stiff'")
+    # So does one after a key, also on a pin: the page does not drag it.
+    page.keyboard.press("Escape")
+    book.wait_for("canvas.brush.tool == ''")
+    page.get_by_text("Esc when done").wait_for(state="hidden")
+    on_a_pin = hand.places([[0.0, 0.0], [1.5, 0.0]])
+    assert page.evaluate(PRESS_AND_PAINT, ["b", on_a_pin]) == "crosshair"
+    book.wait_for("len(model.pose.stiffness.strokes) == 1 and canvas.brush.tool == 'stiff'")
+    assert page.evaluate(PRESS_AND_PAINT, ["e", on_a_pin]) == "crosshair"
+    book.wait_for("canvas.brush.tool == 'erase'")
+    book.wait_for("model.pose.stiffness([[0.1, 0.0]]).tolist() == [0]")
+    assert hand.targets == before
+    page.keyboard.press("Control+z")
+    page.keyboard.press("Control+z")
+    page.keyboard.press("b")
     book.wait_for("not model.pose.stiffness and canvas.brush.tool == 'stiff'")
     page.get_by_text("Esc when done").wait_for()
     book.value("canvas.brush.set_trait('radius', 2.2)")

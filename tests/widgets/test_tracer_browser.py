@@ -368,12 +368,20 @@ def test_on_a_photograph_the_outline_is_drawn_by_hand(open_notebook: OpenNoteboo
     hand = Hand(open_notebook((*cells, f"{editor}\neditor")))
     book, page = hand.book, hand.page
     box = hand.root.locator(".glid-by-hand.glid-guess")
-    box.get_by_text("This outline is a guess").wait_for()
-    assert hand.status.startswith("A guess")
+    box.get_by_text("The outline is not clear").wait_for()
+    assert hand.status.startswith("No outline yet")
+    paint = hand.root.locator(".glid-toolbar").get_by_role("button", name="Paint over the shape")
+    assert paint.get_attribute("aria-pressed") == "true"
+    assert hand.root.get_by_role("heading", name="in the cage").is_hidden()
+    book.screenshot("tracer-no-outline")
+    box.get_by_role("button", name="Use the guess").click()
     n_holes = book.value("tracer.cage.n_holes")
-    assert f"{n_holes} holes ·" in hand.status
     hand.root.get_by_role("heading", name=f"{n_holes} holes in the cage").wait_for()
+    assert f"{n_holes} holes ·" in hand.status
+    assert box.is_hidden()
     book.screenshot("tracer-guess")
+    hand.button("Undo").click()
+    box.wait_for()
     for name in ("Paint over it", "Rectangle", "Whole picture"):
         assert box.get_by_role("button", name=name).is_visible()
     box.get_by_role("button", name="Draw its outline").click()

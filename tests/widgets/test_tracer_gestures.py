@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 import shapely
+import skimage.data
 
 from glid_nb.session.tracing import TracingModel
 from glid_nb.widgets.tracer_gestures import TraceGestures
@@ -39,6 +40,26 @@ class Hand:
 @pytest.fixture
 def hand() -> Hand:
     return Hand(TracingModel(DRAWING))
+
+
+def test_a_photograph_begins_with_the_brush_and_its_guess_is_not_hit() -> None:
+    model = TracingModel(skimage.data.cat())
+    hand = Hand(model)
+    middle = np.array([200.0, 150.0])
+    hand.gestures.begin()
+    assert hand.gestures.tool == "foreground"
+    hand.key("Escape")
+    assert hand.gestures.tool == "edit"
+    found = hand.gestures.find(middle, 500.0)
+    assert (found.vertex, found.edge, found.hole) == (None, False, None)
+    hand.key("]")
+    assert hand.gestures.selected == ()
+    hand.send("accept_guess")
+    assert hand.gestures.find(middle, 500.0).vertex is not None
+
+    clear = Hand(TracingModel(DRAWING))
+    clear.gestures.begin()
+    assert clear.gestures.tool == "edit"
 
 
 def test_a_drag_takes_the_vertex_along_as_one_step(hand: Hand) -> None:
@@ -274,6 +295,27 @@ def test_the_knife_cuts_along_its_path_and_stays_in_the_hand(hand: Hand) -> None
     assert model.state is before
     hand.key("Escape")
     assert hand.gestures.tool == "edit"
+
+
+def test_the_knife_has_a_width(hand: Hand) -> None:
+    model = hand.model
+    hand.send("tool", name="knife")
+    line, lost = ((60, 5), (61, 50), (60, 100)), []
+    for width in (None, 2.0, 6.0):
+        assert hand.send("knife", width=width) is None
+        assert hand.gestures.knife_width == width
+        assert model.cage is not None
+        before = model.cage.area
+        assert cut(hand, *line) is None
+        by_hand = model.cage
+        lost.append(before - by_hand.area)
+        hand.key("undo")
+        assert model.cut(line, width)[0].equals(by_hand)
+        hand.key("undo")
+    assert 0 < lost[0] < lost[1] < lost[2]
+    for wrong in (0, -1, np.inf):
+        assert "above 0 pixels" in str(hand.send("knife", width=wrong))
+    assert hand.gestures.knife_width == 6.0
 
 
 def test_another_piece_of_the_cut_can_be_kept_in_the_same_step(hand: Hand) -> None:

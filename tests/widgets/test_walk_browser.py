@@ -148,7 +148,7 @@ def test_a_photograph(
     """Its outline is drawn by hand."""
     walk = Walk(open_notebook, "skimage.data.chelsea()", size, theme, tmp_path)
     book, page, shot = walk.book, walk.page, walk.shot
-    page.get_by_text("This outline is a guess").wait_for()
+    page.get_by_text("The outline is not clear").wait_for()
     shot("photograph")
     page.get_by_role("button", name="Draw its outline").click()
     tracer = Tracer(book)

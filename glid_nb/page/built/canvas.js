@@ -81,9 +81,9 @@ style.left=within(x,element.clientWidth-menu.offsetWidth);menu.style.top=within(
 menu.offsetHeight);const pressedElsewhere=e=>{const target=e.target;if(menu.contains(target))return;
 close();if(e.button===0&&element.contains(target))e.stopPropagation()};window.addEventListener("poin\
 terdown",pressedElsewhere,{capture:true,signal:ending2.signal});step(1)}function within(at,room){return`${Math.
-max(0,Math.min(at,room))}px`}var NEARLY_NOTHING="rgba(255, 255, 255, 0.004)";function painter(canvas,view,signal,draw){let due=0;
+max(0,Math.min(at,room))}px`}var NEARLY_NOTHING="rgba(255, 255, 255, 0.004)";function painter(canvas,view,signal,draw2){let due=0;
 signal.addEventListener("abort",()=>cancelAnimationFrame(due));return()=>{if(due)return;due=requestAnimationFrame(
-()=>{due=0;draw(clearedPen(canvas,view))})}}function clearedPen(canvas,{width,height}){const ratio=window.
+()=>{due=0;draw2(clearedPen(canvas,view))})}}function clearedPen(canvas,{width,height}){const ratio=window.
 devicePixelRatio||1;const wide=Math.round(width*ratio);const high=Math.round(height*ratio);if(canvas.
 width!==wide||canvas.height!==high){canvas.width=wide;canvas.height=high}const pen=penOf(canvas);pen.
 setTransform(ratio,0,0,ratio,0,0);pen.clearRect(0,0,width,height);pen.fillStyle=NEARLY_NOTHING;pen.fillRect(
@@ -206,31 +206,34 @@ options}=this.#model.get("solver");const outlined=this.#model.get("outline");if(
 outline)return;const{outline,...sizes}=outlined;this.#wire=new Wire(outline,sizes);this.#worker=this.#makeWorker(
 script);this.#solving=new Solving(this.#worker,map=>this.#take(map));await this.#solving.ask({type:"\
 shape",outline,options});this.#ready=turn===this.#turn}follow(held){if(!this.#ready||!this.#solving||
-!held.size)return;if(!this.#pose&&!this.#begin(this.#solving))return;const pose=this.#pose;const targets=pose.
+!held.size)return;if(!this.#pose&&!this.#begin(this.#solving,held))return;const pose=this.#pose;const targets=pose.
 targets.map((target,i)=>held.get(i)??target);if(targets.every((target,i)=>distance(target,pose.targets[i])===
-0))return;this.#pose={...pose,targets};this.#solving.drag(this.#pose)}#begin(solving){const{pose,coefficients}=this.#model.
-get("rest");const{targets}=this.#model.get("marks");if(pose?.targets.length!==targets.length)return false;
-if(pose.targets.some((one,i)=>distance(one,targets[i])>SAME))return false;this.#pose=pose;const floats=new Float64Array(
-coefficients.buffer.slice(coefficients.byteOffset,coefficients.byteOffset+coefficients.byteLength));
-this.#first=solving.place(pose,floats);return true}giveBack(){if(!this.#pose)return;this.#pose=null;
-this.#show(null)}close(){this.giveBack();this.#ready=false;this.#worker?.terminate?.();this.#worker=
-null;this.#solving=null}#take({id,coefficients,certificate,pins}){const pose=this.#pose;if(!pose||!this.#wire||
-id<this.#first||!certificate.certified)return;const at=(_,i)=>[pins.images[2*i],pins.images[2*i+1]];
-const images=pose.targets.map(at);const{targets}=pose;const floats=this.#wire.of(coefficients);this.#show(
-{floats,pins:{targets,images,samples:pins.samples}})}};function marksOf(marks,lead){const count=marks.
-targets.length;if(lead?.pins.targets.length!==count)return marks;const{targets,images,samples}=lead.
-pins;return{...marks,targets,images,ring:ringOf(marks,samples,count)}}function ringOf({ring,selected},samples,count){
-const last=selected.at(-1);if(ring.length===0||last===void 0)return ring;const[angle,scale,turned,scaled]=ring;
-const[x,y]=[samples[last],samples[count+last]];return[turned?angle:Math.atan2(y,x),scaled?scale:Math.
-hypot(x,y),turned,scaled]}function menuRows(does,pin,covered){return[...pin?pinRows(does,pin.pinned):shapeRows(does,covered),[
-"Copy the pose","Ctrl+C",does.press("copy")],["Paste a pose","Ctrl+V",does.paste],["Swap left and ri\
-ght","M",does.press("m")],["Select all pins","A",does.press("a")],["The undeformed shape","0",does.press(
-"0")],["See everything","F",does.press("f")],["Paint stiff areas","B",does.press("b")],["The picture\
- alone","P",does.alone],["Full screen","W",does.fullScreen],["All keys","?",does.showKeys]]}function pinRows({
-press},count){const pins=count>1?` ${count} pins`:"";return[[`Remove${pins}`,"Delete",press("Delete")],
-["Remove, keep the shape","Shift+Delete",press("Delete",true)],null,["Bring forward","Page Up",press(
-"PageUp")],["Send back","Page Down",press("PageDown")],["Leave angle and scale free","X",press("x")],
-null]}function shapeRows({pin},covered){return covered?[["Add a pin here","Click",pin],null]:[]}function nearest(things,reach){let best2=null;let least=Infinity;for(const thing of things){const far=thing.
+0))return;this.#pose={...pose,targets};this.#solving.drag(this.#pose)}#begin(solving,held){const{pose,
+coefficients}=this.#model.get("rest");const{targets}=this.#model.get("marks");if(pose?.targets.length!==
+targets.length)return false;const elsewhere=(one,i)=>!held.has(i)&&distance(one,targets[i])>SAME;if(pose.
+targets.some(elsewhere))return false;this.#pose=pose;const floats=new Float64Array(coefficients.buffer.
+slice(coefficients.byteOffset,coefficients.byteOffset+coefficients.byteLength));this.#first=solving.
+place(pose,floats);return true}giveBack(){if(!this.#pose)return;this.#pose=null;this.#show(null)}close(){
+this.giveBack();this.#ready=false;this.#worker?.terminate?.();this.#worker=null;this.#solving=null}#take({
+id,coefficients,certificate,pins}){const pose=this.#pose;if(!pose||!this.#wire||id<this.#first||!certificate.
+certified)return;const at=(_,i)=>[pins.images[2*i],pins.images[2*i+1]];const images=pose.targets.map(
+at);const{targets}=pose;const floats=this.#wire.of(coefficients);this.#show({floats,pins:{targets,images,
+samples:pins.samples}})}};function marksOf(marks,lead){const count=marks.targets.length;if(lead?.pins.
+targets.length!==count)return marks;const{targets,images,samples}=lead.pins;return{...marks,targets,
+images,ring:ringOf(marks,samples,count)}}function ringOf({ring,selected},samples,count){const last=selected.
+at(-1);if(ring.length===0||last===void 0)return ring;const[angle,scale,turned,scaled]=ring;const[x,y]=[
+samples[last],samples[count+last]];return[turned?angle:Math.atan2(y,x),scaled?scale:Math.hypot(x,y),
+turned,scaled]}function menuRows(does,pins,covered,hides){return[...pins===null?shapeRows(does,covered):pinRows(does,
+pins),...hides?[["Show hidden pins","Shift+H",does.press("h",true)]]:[],["Copy the pose","Ctrl+C",does.
+press("copy")],["Paste a pose","Ctrl+V",does.paste],["Swap left and right","M",does.press("m")],["Se\
+lect all pins","A",does.press("a")],["The undeformed shape","0",does.press("0")],["See everything","\
+F",does.press("f")],["Paint stiff areas","B",does.press("b")],["The picture alone","P",does.alone],[
+"Full screen","W",does.fullScreen],["All keys","?",does.showKeys]]}function pinRows({press},count){const pins=count>
+1?` ${count} pins`:"";return[[`Remove${pins}`,"Delete",press("Delete")],["Remove, keep the shape","S\
+hift+Delete",press("Delete",true)],null,["Bring forward","Page Up",press("PageUp")],["Send back","Pa\
+ge Down",press("PageDown")],["Leave angle and scale free","X",press("x")],["Lock or unlock","L",press(
+"l")],["Hide","H",press("h")],...count>1?[["Group","G",press("g")]]:[],null]}function shapeRows({pin},covered){
+return covered?[["Add a pin here","Click",pin],null]:[]}function nearest(things,reach){let best2=null;let least=Infinity;for(const thing of things){const far=thing.
 d+(thing.loss??0);if(thing.d>reach||far>=least)continue;best2=thing;least=far}return best2}function nearestEdge(loops,point,reach){const edges=loops.flatMap(loop=>loop.map((start,j)=>{const foot=footOn(
 start,loop[(j+1)%loop.length],point);return{foot,d:distance(foot,point)}}));return nearest(edges,reach)}
 function footOn(start,end,point){const along=[end[0]-start[0],end[1]-start[1]];const dot=(point[0]-start[0])*
@@ -315,21 +318,24 @@ the picture; Shift turns by 15°"],["Right-click, long touch, Shift+F10","a menu
 shape there"],["Delete","remove the selected pins; with Shift keep the shape"],["Ring around a pin; \
 Alt on the pin","turn the shape there; the ring's knob scales it too"],["< >, + -, X","turn, scale; \
 free both again"],["Page Down, Page Up, [ ]","send selected pins and their surroundings back, forwar\
-d"],["Arrow keys","nudge selected pins, with Shift farther; else move a cursor"],["Enter","show the \
-cursor; pin or select there"]]],["Selecting",[["Shift-click, A","select several pins, all pins"],["N\
-, Shift+N, click a part","edit another part, if there are several"],["Shift and drag, Ctrl and drag",
-"select the pins in a box, in a lasso"],[", .","select the pin before, the next pin, and bring it in\
-to view; so does a click on an arrow at the edge"],["Esc","cancel a drag; select nothing"]]],["Poses",
-[["Ctrl+Z, Ctrl+Shift+Z","undo, redo"],["Ctrl+C, Ctrl+V","copy the pose, put it on this or a similar\
- shape"],["M","swap left and right"],["0","back to the undeformed shape"]]],["Stiff areas",[["B, E",
-"paint stiff areas, erase them; Esc ends painting"]]],["View",[["Wheel, two fingers","zoom"],["Middl\
-e button, Space and drag","move the view"],["F","see everything"],["P","the picture alone, for lectu\
-res; Esc brings the rest back"],["W","the whole screen, without the inspector"],["I","hide the inspe\
-ctor, show it again"]]],["Timeline",[["K","make a keyframe of what is shown"],["Space","play the mot\
-ion through the poses, pause; on the canvas too"],["Arrow keys, Home, End","step a frame, with Shift\
- to the next pose; first, last pose"],["Ctrl and wheel","zoom the timeline; then the wheel alone mov\
-es along it"],["Double click a pose, F2","type its name"],["Alt and arrow keys","move the pose in ti\
-me; Delete removes it"]]]];var Legend=class{element=make("div",{className:"glid-legend"});show(model,moving){const bars=[model.
+d"],["L, H","lock the selected pins, hide them; Shift+H shows all again"],["G","make a group: it is \
+selected and moved together; with Shift dissolve it"],["Arrow keys","nudge selected pins, with Shift\
+ farther; else move a cursor"],["Enter","show the cursor; pin or select there"]]],["Selecting",[["Sh\
+ift-click, A","select several pins, all pins"],["N, Shift+N, click a part","edit another part, if th\
+ere are several"],["Shift and drag, Ctrl and drag","select the pins in a box, in a lasso"],[", .","s\
+elect the pin before, the next pin, and bring it into view; so does a click on an arrow at the edge"],
+["Esc","cancel a drag; select nothing"]]],["Poses",[["Ctrl+Z, Ctrl+Shift+Z","undo, redo"],["Ctrl+C, \
+Ctrl+V","copy the pose, put it on this or a similar shape"],["M","swap left and right"],["0","back t\
+o the undeformed shape"]]],["Stiff areas",[["B, E","paint stiff areas, erase them; Esc ends painting"]]],
+["View",[["Wheel, two fingers","zoom"],["Middle button, Space and drag","move the view"],["F","see e\
+verything"],["P","the picture alone, for lectures; Esc brings the rest back"],["W","the whole screen\
+, without the inspector"],["I","hide the inspector, show it again"]]],["Timeline",[["K","make a keyf\
+rame of what is shown"],["Space","play the motion through the poses, pause; on the canvas too"],["Ar\
+row keys, Home, End","step a frame, with Shift to the next pose; first, last pose"],["Click a curve \
+between poses, Enter","ease the motion there: drag its two handles, or arrow keys"],["Shift+Home, Sh\
+ift+End","play over and over from here, to here; so do the two marks on the ruler"],["Ctrl and wheel",
+"zoom the timeline; then the wheel alone moves along it"],["Double click a pose, F2","type its name"],
+["Alt and arrow keys","move the pose in time; Delete removes it"]]]];var Legend=class{element=make("div",{className:"glid-legend"});show(model,moving){const bars=[model.
 get("legend"),model.get("panel_legend")].filter(bar=>bar.title);this.element.replaceChildren(...bars.
 map(bar=>colorBar(bar,moving)));this.element.hidden=!bars.length;this.element.dataset.corner=model.get(
 "legend_corner")}};function colorBar({title,moving,colors,ticks,about},moves){const gradient=`backgr\
@@ -341,9 +347,9 @@ reas that should stay stiff · E erases · Esc when done";var Notices=class{noti
 glid-notice",role:"status"});prepared=make("div",{className:"glid-prepared",role:"progressbar","aria\
 -label":"Preparing the solver",hidden:true});tell(refusal,painting,first){const advice=painting?PAINT:
 first&&FIRST;const{notice}=this;notice.textContent=refusal||advice||"";notice.hidden=!notice.textContent;
-notice.classList.toggle("glid-first",!refusal)}prepare(share){const{prepared}=this;prepared.hidden=share>=
-1;prepared.setAttribute("aria-valuenow",String(Math.round(100*share)));prepared.style.setProperty("-\
--glid-share",String(share))}};var LONGER_SIDE=20;function constrained([x0,y0],[x,y],{axis,whole},size){const across=Math.abs(x-x0)>=
+notice.classList.toggle("glid-first",!refusal);notice.classList.toggle("glid-invites",!refusal&&!painting)}prepare(share){
+const{prepared}=this;prepared.hidden=share>=1;prepared.setAttribute("aria-valuenow",String(Math.round(
+100*share)));prepared.style.setProperty("--glid-share",String(share))}};var LONGER_SIDE=20;function constrained([x0,y0],[x,y],{axis,whole},size){const across=Math.abs(x-x0)>=
 Math.abs(y-y0);const[u,v]=whole?onPixel([x,y],size):[x,y];if(!axis)return[u,v];return across?[u,y0]:
 [x0,v]}function pixelAt([x,y],[width,height]){const unit=pixelOf([width,height]);return[x/unit+width/
 2,height/2-y/unit]}function onPixel(point,size){const[width,height]=size;if(!width||!height)return point;
@@ -365,31 +371,47 @@ const left=x+BESIDE+width<=view.width?x+BESIDE:x-BESIDE-width;const top=Math.min
 pen.fill();pen.fillStyle=INK2;pen.textBaseline="middle";words2.forEach((text,i)=>{pen.fillText(text,
 left+PADDING,top+PADDING/2+LINE*(i+.5))})}function drawAxis(pen,view,start,at){const[x,y]=view.toScreen(
 start);const across=start[1]===at[1];const line=across?[[0,y],[view.width,y]]:[[x,0],[x,view.height]];
-tracePath(pen,[line],false);strokePath(pen,[[1,GUIDE]],[4,4])}var REACH={mouse:13,pen:16,touch:26};var KEYS=/^(Arrow\w+|Page\w+|Delete|Backspace|Escape|Enter|[0fa,.[\]<>+=xmbne-])$/i;
+tracePath(pen,[line],false);strokePath(pen,[[1,GUIDE]],[4,4])}var BESIDE2=9;var WIDE=5;var HIGH=3.5;var PAPER="rgba(255,255,255,0.9)";var INK3="#2b2b2b";function withoutHidden(marks,{
+away},elsewhere){if(!away.length)return marks;const placed=points=>points.map((point,i)=>away.includes(
+i)?[elsewhere,elsewhere]:point);return{...marks,targets:placed(marks.targets),images:placed(marks.images)}}
+function movedWith(pressed,selected,{locked,groups}){if(locked.includes(pressed))return[];if(selected.
+includes(pressed))return selected.filter(i=>!locked.includes(i));const group=groups[pressed];if(!group)
+return[pressed];return[...groups.keys()].filter(i=>groups[i]===group&&!locked.includes(i))}function drawLocks(pen,view,{
+targets},{locked}){for(const i of locked)if(targets[i])drawLock(pen,view.toScreen(targets[i]))}function drawLock(pen,[
+x,y]){const[cx,cy]=[x+BESIDE2,y+BESIDE2];pen.beginPath();pen.arc(cx,cy-HIGH,WIDE-1.5,Math.PI,0);const shackle=[
+[4,PAPER],[1.8,INK3]];strokePath(pen,shackle);const body=rectangle([cx-WIDE,cy-HIGH],[cx+WIDE,cy+HIGH]);
+tracePath(pen,[body]);strokePath(pen,[[2.5,PAPER]]);fillPath(pen,[body],INK3)}var REACH={mouse:13,pen:16,touch:26};var KEYS=/^(Arrow\w+|Page\w+|Delete|Backspace|Escape|Enter|[0fa,.[\]<>+=xmbelhgn-])$/i;
 var TARGET_TIP="where it should be. Drag it; Alt turns it; a right click shows more; Shift-click sel\
-ects several";var IMAGE_TIP="where the shape is now. The cyan disk is where it should be";var COVERED="\
-. Another part of the shape covers it";var RING_TIPS={turn:"Drag around the pin to turn the shape th\
-ere; X frees it again",knob:"Drag around the pin to turn the shape there, away from it to scale it; \
-X frees it again"};var PinBehaviour=class{reach=REACH;keys=KEYS;pressed=null;constructor(canvas){this.
-canvas=canvas;this.actions={"?":canvas.help.toggle,contextmenu:()=>canvas.openMenu(),i:()=>canvas.room?.
-toggleInspector(),k:()=>void canvas.box.dispatchEvent(new CustomEvent("glid:key",{bubbles:true})),p:()=>canvas.
-room?.alone(),w:()=>canvas.room?.fullScreen()}}get painting(){return this.canvas.painting}changed(){
+ects several";var IMAGE_TIP="where the shape is now. The cyan disk is where it should be";var LOCKED_TIP="\
+locked where it is; L unlocks it when it is selected";var COVERED=". Another part of the shape cover\
+s it";var RING_TIPS={turn:"Drag around the pin to turn the shape there; X frees it again",knob:"Drag\
+ around the pin to turn the shape there, away from it to scale it; X frees it again"};var PinBehaviour=class{reach=REACH;keys=KEYS;pressed=null;constructor(canvas){
+this.canvas=canvas;this.actions={"?":canvas.help.toggle,b:()=>canvas.toggleTool("stiff"),e:()=>canvas.
+toggleTool("erase"),contextmenu:()=>canvas.openMenu(),i:()=>canvas.room?.toggleInspector(),k:()=>void canvas.
+box.dispatchEvent(new CustomEvent("glid:key",{bubbles:true})),p:()=>canvas.room?.alone(),reference:()=>canvas.
+reference.toggle(),w:()=>canvas.room?.fullScreen()}}get painting(){return this.canvas.painting}changed(){
 this.canvas.followHand();this.canvas.redraw()}menu(place,found){this.canvas.openMenu(place,found)}pressedAt(){
 return this.canvas.pressedAt()}tapped(){this.canvas.box.dispatchEvent(new CustomEvent("glid:play",{bubbles:true}))}find(point,reach){
-const{view,marks,shapes,painting}=this.canvas;if(shapes.motion||painting)return null;const mark=markAt(
-marks,point,reach);return mark??ringAt(view,marks,view.toScreen(point),reach/view.unit/2)}encloses(found,e){
-const start=this.canvas.pad.grip?.points.get(found?.mark??"");this.pressed={found,start,pins:this.canvas.
-marks.targets.length};if(found)return null;if(e.shiftKey)return"box";return e.ctrlKey||e.metaKey?"la\
-sso":null}held({mark}){const{selected,targets}=this.canvas.marks;const pressed=Number(mark);const moved=selected.
-includes(pressed)?selected:[pressed];return new Map(moved.map(i=>[i,targets[i]]))}constrain(point,e){
-const{model,pad}=this.canvas;const{pressed}=this;const[from]=pad.path;if(!pressed||!from||pressed.found?.
-part||pad.encloses||e.altKey)return point;pressed.keys={axis:e.shiftKey,whole:e.ctrlKey||e.metaKey};
-pressed.start??=from;const[x,y]=pressed.start;const free=[x+point[0]-from[0],y+point[1]-from[1]];const[
-u,v]=constrained([x,y],free,pressed.keys,model.get("picture_size"));return[u-x+from[0],v-y+from[1]]}cursor(found){
-this.canvas.box.title=this.#tip(found);return found?"grab":"crosshair"}#tip(found){if(!found)return"";
-if(found.part)return RING_TIPS[found.part];const{marks,model}=this.canvas;const mark=Number(found.mark);
-const name=["Pin",mark+1,model.get("names")[mark]].join(" ").trim();const tip=found.reached?IMAGE_TIP:
-TARGET_TIP;return`${name}: ${tip}${marks.hidden.includes(mark)?COVERED:""}`}};async function copied(text){try{await navigator.clipboard.writeText(text);return true}catch{return copiedBySelection(
+const{view,marks,reachable:reachable2,shapes,painting}=this.canvas;if(shapes.motion||painting)return null;
+const mark=markAt(reachable2,point,reach);return mark??ringAt(view,marks,view.toScreen(point),reach/
+view.unit/2)}encloses(found,e){const start=this.canvas.pad.grip?.points.get(found?.mark??"");this.pressed=
+{found,start,pins:this.canvas.marks.targets.length};if(found)return null;if(e.shiftKey)return"box";return e.
+ctrlKey||e.metaKey?"lasso":null}get constrains(){const{axis,whole}=this.pressed?.keys??{};return Boolean(
+axis||whole)}madePin(){const{pad,model}=this.canvas;const{pressed}=this;if(!pressed||pressed.found||
+this.painting||pad.mode!=="hand")return void 0;const count=model.get("rest").pose?.targets.length??0;
+return count===pressed.pins+1&&!pad.encloses?pressed.pins:void 0}held({mark}){const{selected,targets}=this.
+canvas.allMarks;const moved=movedWith(Number(mark),selected,this.canvas.model.get("pins"));return new Map(
+moved.map(i=>[i,targets[i]]))}constrain(point,e){const{model,pad}=this.canvas;const{pressed}=this;const[
+from]=pad.path;if(!pressed||!from||pressed.found?.part||pad.encloses||e.altKey)return point;pressed.
+keys={axis:e.shiftKey,whole:e.ctrlKey||e.metaKey};pressed.start??=from;const[x,y]=pressed.start;const free=[
+x+point[0]-from[0],y+point[1]-from[1]];const[u,v]=constrained([x,y],free,pressed.keys,model.get("pic\
+ture_size"));return[u-x+from[0],v-y+from[1]]}cursor(found){this.canvas.box.title=this.#tip(found);if(found?.
+mark!==void 0&&this.#locked(found))return"pointer";return found?"grab":"crosshair"}#locked({mark}){return this.
+canvas.model.get("pins").locked.includes(Number(mark))}#tip(found){if(!found)return"";if(found.part)
+return RING_TIPS[found.part];const{marks,model}=this.canvas;const mark=Number(found.mark);const name=[
+"Pin",mark+1,model.get("names")[mark]].join(" ").trim();if(this.#locked(found))return`${name}: ${LOCKED_TIP}`;
+const tip=found.reached?IMAGE_TIP:TARGET_TIP;return`${name}: ${tip}${marks.hidden.includes(mark)?COVERED:
+""}`}};async function copied(text){try{await navigator.clipboard.writeText(text);return true}catch{return copiedBySelection(
 text)}}function copiedBySelection(text){const focused=document.activeElement;const area=document.createElement(
 "textarea");area.value=text;area.setAttribute("readonly","");Object.assign(area.style,{position:"fix\
 ed",top:"0",left:"0",opacity:"0"});document.body.append(area);area.select();try{return document.execCommand(
@@ -399,7 +421,28 @@ this.canvas=canvas;const{model,box,pad}=canvas;model.on("msg:custom",async({copy
 focused)canvas.say(await copied(text)?COPIED:NOT_COPIED)});box.addEventListener("copy",e=>{if(!pad.focused)
 return;e.preventDefault();pad.press("copy")});box.addEventListener("paste",e=>{e.preventDefault();this.#put(
 e.clipboardData?.getData("text")??"")})}async paste(){try{this.#put(await navigator.clipboard.readText())}catch{
-this.canvas.say(NOT_COPIED)}}#put(text){this.canvas.link.put({type:"paste_pose",text})}};var LEAST_SIZE=240;function resizeGrip(model){let beyond=null;const side=length=>Math.max(LEAST_SIZE,
+this.canvas.say(NOT_COPIED)}}#put(text){this.canvas.link.put({type:"paste_pose",text})}};var LONGEST=1600;var QUALITY=.85;var WORLD=20;function placeOf([width,height],picture,view){const world=picture.
+map(side=>WORLD*side/Math.max(...picture));const scale=Math.min(world[0]/width,world[1]/height)/view.
+unit;const[x,y]=view.toScreen([0,0]);const[wide,high]=[scale*width,scale*height];return{left:x-wide/
+2,top:y-high/2,width:wide,height:high}}var Reference=class{#url="";#size=null;#turn=0;constructor(box,model,view){
+this.box=box;this.model=model;this.view=view}close(){this.#turn+=1;URL.revokeObjectURL(this.#url)}toggle(){
+if(this.model.get("reference").byteLength){save(this.model,{reference:new DataView(new ArrayBuffer(0))});
+return}const input=make("input",{type:"file",accept:"image/*"});input.addEventListener("change",()=>input.
+files?.[0]&&this.#take(input.files[0]));input.click()}async#take(file){try{save(this.model,{reference:new DataView(
+await shrunk(file)),notice:""})}catch{save(this.model,{notice:`${file.name} is not a picture that th\
+is browser can show`})}}async show(){this.#turn+=1;const turn=this.#turn;const bytes=this.model.get(
+"reference");const blob=new Blob([bytes]);const bitmap=bytes.byteLength?await createImageBitmap(blob):
+null;if(turn!==this.#turn)return;URL.revokeObjectURL(this.#url);this.#url=bitmap?URL.createObjectURL(
+blob):"";this.#size=bitmap&&[bitmap.width,bitmap.height];bitmap?.close();this.place()}place(){const pane=this.
+box.closest(".glid-pane");if(!pane)return;pane.classList.toggle("glid-referenced",this.#size!==null);
+if(!this.#size)return;const at=placeOf(this.#size,this.model.get("picture_size"),this.view);pane.style.
+setProperty("--glid-reference",`url("${this.#url}")`);pane.style.setProperty("--glid-reference-place",
+`${at.left}px ${at.top}px`);pane.style.setProperty("--glid-reference-size",`${at.width}px ${at.height}\
+px`)}};async function shrunk(file){const bitmap=await createImageBitmap(file);const scale=Math.min(1,
+LONGEST/Math.max(bitmap.width,bitmap.height));const width=Math.max(1,Math.round(scale*bitmap.width));
+const height=Math.max(1,Math.round(scale*bitmap.height));const canvas=make("canvas",{width,height});
+penOf(canvas).drawImage(bitmap,0,0,width,height);bitmap.close();const blob=await new Promise((done,fail)=>{
+canvas.toBlob(made=>made?done(made):fail(),"image/webp",QUALITY)});return blob.arrayBuffer()}var LEAST_SIZE=240;function resizeGrip(model){let beyond=null;const side=length=>Math.max(LEAST_SIZE,
 Math.round(length));const grip=make("div",{className:"glid-resize",title:"Drag to resize"});const place=({
 clientX,clientY})=>{const{across,down}=scaleOf(grip);return[clientX/across,clientY/down]};grip.addEventListener(
 "pointerdown",e=>{e.preventDefault();grip.setPointerCapture(e.pointerId);const[x,y]=place(e);beyond=
@@ -419,7 +462,7 @@ const own=control.getAttribute("title");if(own)return own;if(control.matches(".g
 ts *"))return"Plots of the solve";const widget=control.closest(".jupyter-widgets");const label=widget?.
 querySelector(".widget-label")?.textContent?.trim();return label||widget?.getAttribute("title")||labelBefore(
 widget??control)}function labelBefore(one){let before=one.previousElementSibling;while(before&&!before.
-matches(".widget-label"))before=before.previousElementSibling;return before?.textContent?.trim()??""}var PAGE=124;var PARTS=44+110+28+2;var LEAST=280;var BESIDE2=400;var PLOTS=477;var SLACK=20;var SETTLE=80;
+matches(".widget-label"))before=before.previousElementSibling;return before?.textContent?.trim()??""}var PAGE=124;var PARTS=44+110+28+2;var LEAST=280;var BESIDE3=400;var PLOTS=477;var SLACK=20;var SETTLE=80;
 var NARROW=600;var Room=class{#root=null;#last={width:0,height:0,alone:0};#decides=false;#told="";#room=null;#timer;constructor(pad,model,signal){
 this.pad=pad;this.model=model;this.signal=signal;this.observer=new ResizeObserver(()=>this.#measureSoon());
 this.observer.observe(pad);window.addEventListener("resize",()=>this.#measureSoon(),{signal});window.
@@ -457,9 +500,16 @@ width/widths.reduce((sum,width)=>sum+width,0);whole.style.zoom=share<1&&!this.#d
 page;if(root.classList.contains("glid-alone")){return{width:root.clientWidth,height:below,alone:1}}const narrow=root.
 classList.contains("glid-narrow");const side=shell.querySelector(".glid-side");const plots=shell.querySelector(
 ".glid-plots-box");const beside=shell.clientWidth-(narrow?0:side?.offsetWidth??0);const plotted=Boolean(
-plots?.offsetWidth)&&!narrow&&beside-PLOTS>=BESIDE2;shell.classList.toggle("glid-beside",plotted);const width=plotted?
+plots?.offsetWidth)&&!narrow&&beside-PLOTS>=BESIDE3;shell.classList.toggle("glid-beside",plotted);const width=plotted?
 beside-PLOTS:beside;const above=shell.getBoundingClientRect().top-root.getBoundingClientRect().top;return{
-width,height:Math.max(LEAST,below-above/scaleOf(root).down-PARTS),alone:0}}};var LN2_HIGH=.6931471803691238;var LN2_LOW=19082149292705877e-26;var TWO_TO_54=0x40000000000000;var L1=.6666666666666735;
+width,height:Math.max(LEAST,below-above/scaleOf(root).down-PARTS),alone:0}}};var FRAME=16;var SHARE=Math.SQRT1_2;var REST=200;var Detail=class{#views;#less=new Map;#timer;constructor(views){
+this.#views=views}moved(drawingTime2){if(drawingTime2<=FRAME)return;clearTimeout(this.#timer);this.#timer=
+setTimeout(()=>this.restore(),REST);for(const one of this.#views())void one.then(view=>this.#reduce(
+view))}restore(){clearTimeout(this.#timer);for(const[renderer,ratio]of this.#less)renderer.setPixelRatio(
+ratio);if(this.#less.size)for(const one of this.#views())void one.then(draw);this.#less.clear()}#reduce(view){
+const{renderer}=view;if(!renderer||this.#less.has(renderer))return;const ratio=renderer.getPixelRatio();
+this.#less.set(renderer,ratio);renderer.setPixelRatio(SHARE*ratio);draw(view)}};function draw(view){
+if(view.renderer&&!view.isFrozen)view.renderScene()}var LN2_HIGH=.6931471803691238;var LN2_LOW=19082149292705877e-26;var TWO_TO_54=0x40000000000000;var L1=.6666666666666735;
 var L2=.3999999999940942;var L3=.2857142874366239;var L4=.22222198432149784;var L5=.1818357216161805;
 var L6=.15313837699209373;var L7=.14798198605116586;var A0=.3333333333333293;var A1=-.19999999999876483;
 var A2=.14285714272503466;var A3=-.11111110405462356;var A4=.09090887133436507;var A5=-.0769187620504483;
@@ -467,14 +517,14 @@ var A6=.06661073137387531;var A7=-.058335701337905735;var A8=.049768779946159324
 var A10=.016285820115365782;var ATAN_HIGH=[.4636476090008061,.7853981633974483,.982793723247329,1.5707963267948966];
 var ATAN_LOW=[22698777452961687e-33,3061616997868383e-32,13903311031230998e-33,6123233995736766e-32];
 var TINY=1862645149230957e-24;var HUGE=7378697629483821e4;var PI_LOW=12246467991473532e-32;var number=new Float64Array(
-1);var words=new Int32Array(number.buffer);number[0]=1;var HIGH=words[1]===0?0:1;function modulus(x,y){
+1);var words=new Int32Array(number.buffer);number[0]=1;var HIGH2=words[1]===0?0:1;function modulus(x,y){
 return Math.sqrt(x*x+y*y)}function log(x){if(!(x>0)||x===Infinity){return logOfSpecial(x)}const subnormal=x<
-22250738585072014e-324;number[0]=subnormal?x*TWO_TO_54:x;const exponent=(words[HIGH]>>20)-1023-(subnormal?
-54:0);const fraction=words[HIGH]&1048575;const carry=fraction+614244&1048576;words[HIGH]=fraction|carry^
-1072693248;return logOfParts(exponent+(carry>>20),number[0]-1,fraction)}function logOfSpecial(x){if(x===
-0){return-Infinity}return x===Infinity?Infinity:NaN}function logOfParts(k,f,fraction){if((1048575&2+
-fraction)<3){const r2=f*f*(.5-.3333333333333333*f);return k*LN2_HIGH-(r2-k*LN2_LOW-f)}const s=f/(2+f);
-const z=s*s;const w=z*z;const even=w*(L2+w*(L4+w*L6));const odd=z*(L1+w*(L3+w*(L5+w*L7)));const r=odd+
+22250738585072014e-324;number[0]=subnormal?x*TWO_TO_54:x;const exponent=(words[HIGH2]>>20)-1023-(subnormal?
+54:0);const fraction=words[HIGH2]&1048575;const carry=fraction+614244&1048576;words[HIGH2]=fraction|
+carry^1072693248;return logOfParts(exponent+(carry>>20),number[0]-1,fraction)}function logOfSpecial(x){
+if(x===0){return-Infinity}return x===Infinity?Infinity:NaN}function logOfParts(k,f,fraction){if((1048575&
+2+fraction)<3){const r2=f*f*(.5-.3333333333333333*f);return k*LN2_HIGH-(r2-k*LN2_LOW-f)}const s=f/(2+
+f);const z=s*s;const w=z*z;const even=w*(L2+w*(L4+w*L6));const odd=z*(L1+w*(L3+w*(L5+w*L7)));const r=odd+
 even;if((fraction-398458|440401-fraction)>0){const half=.5*f*f;return k*LN2_HIGH-(half-(s*(half+r)+k*
 LN2_LOW)-f)}return k*LN2_HIGH-(s*(f-r)-k*LN2_LOW-f)}function atan2(y,x){if(!Number.isFinite(x)||!Number.
 isFinite(y)){return NaN}const angle=y===0?0:atan(Math.abs(y/x));if(x>=0){return y<0?-angle:angle}return y<
@@ -550,7 +600,7 @@ new Float64Array(buffer,first,length):new Float64Array(length);first+=array.byte
 function reachable(size){if(!compiled.module){return null}try{const memory=new WebAssembly.Memory({initial:Math.
 ceil(size/PAGE2)});const{exports}=new WebAssembly.Instance(compiled.module,{page:{memory}});kernels.
 set(memory.buffer,exports);return memory.buffer}catch{return null}}function kernelOf(...arrays){const[
-{buffer}]=arrays;return arrays.every(array=>array.buffer===buffer)?kernels.get(buffer):void 0}var UNIT_ROUNDOFF=11102230246251565e-32;var UPWARD=1+9313225746154785e-25;var CUT=64*UNIT_ROUNDOFF;var BESIDE3=64*
+{buffer}]=arrays;return arrays.every(array=>array.buffer===buffer)?kernels.get(buffer):void 0}var UNIT_ROUNDOFF=11102230246251565e-32;var UPWARD=1+9313225746154785e-25;var CUT=64*UNIT_ROUNDOFF;var BESIDE4=64*
 UNIT_ROUNDOFF;var LOGARITHM=16*UNIT_ROUNDOFF;var BERNSTEIN=16*UNIT_ROUNDOFF;var TAU=2*Math.PI;var LARGEST_NORM=1e20;var FEW=64;function emptyRows(count,columns){const width=evenly(
 columns);const lengths=[count*width,count*width,4*width,4*count];const[re,im,slopes,samples]=count<FEW?
 lengths.map(length=>new Float64Array(length)):arraysOf(...lengths);return{count,columns,re,im,slopes,
@@ -621,36 +671,38 @@ of(meshes)[0]?.geometry;if(!geometry)return;const{position}=geometry.attributes;
 userData;if(position.array!==kept.lifted)kept.resting=position.array;const{resting}=kept;if(heights?.
 length===position.count){kept.lifted=position.array===resting?resting.slice():position.array;heights.
 forEach((height,i)=>{kept.lifted[3*i+2]=height});if(position.array===resting)position.setArray(kept.
-lifted)}else{if(position.array===resting)return;position.setArray(resting)}renew(position)}};var NEAR=8;var LEAD="glid:lead";var N_TIMED=3;var MOST_FRAMES=100;var Shapes=class{motion=null;partMotions={};lead=null;led=()=>{};#edited=new MovedShape;#around=new Map;#camera=null;#renderer=null;#loading=0;#loaded="";constructor(model,view){
-this.model=model;this.view=view;const loaded="change:materials change:part_shapes change:camera chan\
-ge:renderer";model.on(loaded,()=>this.load())}async load(){this.#loading+=1;const turn=this.#loading;
-const{model}=this;const parts=model.get("part_shapes")??[];const[[camera,renderer],materials,...others]=await Promise.
-all([this.#models([model.get("camera"),model.get("renderer")]),this.#models(model.get("materials")),
-...parts.map(part=>this.#models(part.materials))]);if(turn!==this.#loading)return;this.#forget();this.#camera=
-camera;this.#renderer=renderer;this.#edited=shapeOf(model.get("outline"),materials);this.#around=new Map(
-parts.map((part,i)=>[part.key,shapeOf(part,others[i])]));this.#loaded=this.#references;for(const material of this.#materials)
+lifted)}else{if(position.array===resting)return;position.setArray(resting)}renew(position)}};var NEAR=8;var LEAD="glid:lead";var N_TIMED=3;var MOST_FRAMES=100;var Shapes=class{motion=null;partMotions={};lead=null;led=()=>{};#edited=new MovedShape;#around=new Map;#camera=null;#renderer=null;#loading=0;#loaded="";#detail=new Detail(
+()=>Object.values(this.#renderer?.views??{}));constructor(model,view){this.model=model;this.view=view;
+const loaded="change:materials change:part_shapes change:camera change:renderer";model.on(loaded,()=>this.
+load())}async load(){this.#loading+=1;const turn=this.#loading;const{model}=this;const parts=model.get(
+"part_shapes")??[];const[[camera,renderer],materials,...others]=await Promise.all([this.#models([model.
+get("camera"),model.get("renderer")]),this.#models(model.get("materials")),...parts.map(part=>this.#models(
+part.materials))]);if(turn!==this.#loading)return;this.#forget();this.#camera=camera;this.#renderer=
+renderer;this.#edited=shapeOf(model.get("outline"),materials);this.#around=new Map(parts.map((part,i)=>[
+part.key,shapeOf(part,others[i])]));this.#loaded=this.#references;for(const material of this.#materials)
 material.on("change",this.refresh,this);renderer.get("scene").off("beforeRender",keepLittle).on("bef\
 oreRender",keepLittle);for(const view of Object.values(renderer.views))view.then(drawNoMore);renderer.
 on(LEAD,this.#takeLead,this);this.refresh()}async#models(references){const{widget_manager:manager}=this.
 model;const models=await Promise.all(references.map(one=>manager.get_model(one.replace("IPY_MODEL_",
 ""))));await Promise.all(models.map(one=>one.initPromise));return models}get#materials(){return[this.#edited,
-...this.#around.values()].flatMap(({materials})=>materials)}#forget(){this.#renderer?.off(null,null,
-this);for(const material of this.#materials)material.off(null,null,this);this.#edited=new MovedShape;
-this.#around.clear();this.#loaded=""}get#references(){const parts=this.model.get("part_shapes")??[];
-return JSON.stringify([this.model.get("materials"),parts.map(({materials})=>materials)])}showLead(lead){
-this.#renderer?.trigger(LEAD,lead)}#takeLead(lead){this.lead=lead;this.refresh();this.led()}get movesVertices(){
-return this.#meshes.some(movedByPage)}get#meshes(){return this.#renderer?.get("scene").obj?.children??
-[]}refresh(){if(this.#loaded===this.#references)this.#move();this.see();this.redraw()}#move(){const{
-motion}=this;const moved=motion instanceof Float32Array&&motion.length?motion:null;const floats=moved??
-this.lead?.floats??toFloats(this.model.get("coefficients"));this.#edited.move(this.#meshes,floats,Boolean(
-motion));for(const[key,shape]of this.#around){const seen=motion instanceof Float32Array?this.partMotions[key]:
-void 0;if(seen)shape.move(this.#meshes,seen.floats,true);else shape.rest(this.#meshes,this.model.get(
-"part_maps")[key])}}lift(heights){this.#edited.lift(this.#meshes,heights);for(const[key,shape]of this.#around){
-shape.lift(this.#meshes,this.partMotions[key]?.heights??null)}}see(){const{x,y,unit,width,height}=this.
-view;const w=width/2*unit;const h=height/2*unit;for(const{obj}of this.#materials){if(obj?.uniforms?.
-pixel)obj.uniforms.pixel.value=unit}this.#camera?.set({left:x-w,right:x+w,top:y+h,bottom:y-h})}redraw(){
-this.#renderer?.trigger("rerender",this.#renderer,{})}close(){this.#loading+=1;this.#forget()}};function shapeOf(outlined,materials){
-const shape=new MovedShape(outlined);shape.materials=materials;return shape}var ending=new WeakSet;function keepLittle(_scene,renderer){
+...this.#around.values()].flatMap(({materials})=>materials)}#forget(){this.#detail.restore();this.#renderer?.
+off(null,null,this);for(const material of this.#materials)material.off(null,null,this);this.#edited=
+new MovedShape;this.#around.clear();this.#loaded=""}get#references(){const parts=this.model.get("par\
+t_shapes")??[];return JSON.stringify([this.model.get("materials"),parts.map(({materials})=>materials)])}showLead(lead){
+this.#renderer?.trigger(LEAD,lead)}#takeLead(lead){this.lead=lead;if(lead&&this.movesVertices)this.#detail.
+moved(this.model.get("drawing_time"));this.refresh();this.led()}get movesVertices(){return this.#meshes.
+some(movedByPage)}get#meshes(){return this.#renderer?.get("scene").obj?.children??[]}refresh(){if(this.#loaded===
+this.#references)this.#move();this.see();this.redraw()}#move(){const{motion}=this;const moved=motion instanceof
+Float32Array&&motion.length?motion:null;const floats=moved??this.lead?.floats??toFloats(this.model.get(
+"coefficients"));this.#edited.move(this.#meshes,floats,Boolean(motion));for(const[key,shape]of this.#around){
+const seen=motion instanceof Float32Array?this.partMotions[key]:void 0;if(seen)shape.move(this.#meshes,
+seen.floats,true);else shape.rest(this.#meshes,this.model.get("part_maps")[key])}}lift(heights){this.#edited.
+lift(this.#meshes,heights);for(const[key,shape]of this.#around){shape.lift(this.#meshes,this.partMotions[key]?.
+heights??null)}}see(){const{x,y,unit,width,height}=this.view;const w=width/2*unit;const h=height/2*unit;
+for(const{obj}of this.#materials){if(obj?.uniforms?.pixel)obj.uniforms.pixel.value=unit}this.#camera?.
+set({left:x-w,right:x+w,top:y+h,bottom:y-h})}redraw(){this.#renderer?.trigger("rerender",this.#renderer,
+{})}close(){this.#loading+=1;this.#forget()}};function shapeOf(outlined,materials){const shape=new MovedShape(
+outlined);shape.materials=materials;return shape}var ending=new WeakSet;function keepLittle(_scene,renderer){
 renderer.renderLists.dispose();if(ending.has(renderer))return;ending.add(renderer);const{dispose}=renderer;
 renderer.dispose=()=>{dispose.call(renderer);renderer.forceContextLoss()}}function drawNoMore(view){
 view.once("remove",()=>{view.renderScene=()=>{}})}function drawnBelow(pad){return pad.closest(".glid\
@@ -670,35 +722,44 @@ if(mayWait&&this.#timer!==void 0){this.#waits=event;return Promise.resolve(null)
 this.#pause();return this.#put(event)}close(){clearTimeout(this.#timer)}#pause(){this.#timer=setTimeout(
 ()=>{if(this.#flush())this.#pause()},PAUSE)}#flush(){clearTimeout(this.#timer);this.#timer=void 0;const event=this.#waits;
 this.#waits=null;if(event)void this.#put(event);return event!==null}};var SAVE_VIEW_AFTER=250;var STILL={release(){},pause:()=>void 0};var Canvas=class{legend=new Legend;notices=new Notices;help=help(
-HELP);ghosts=new Ghosts;#chosen;#saving;#playing=STILL;#painted=false;#presses=false;constructor({model,
-el,signal}){this.model=model;this.interactive=model.get("interactive");const paper=make("canvas",{className:"\
-glid-paper"});this.box=make("div",{className:"glid-pad",role:"application","aria-label":"Deformation\
- canvas: arrow keys move, Enter pins a point",inert:!this.interactive},paper,this.legend.element,this.
-notices.notice,this.notices.prepared);this.box.dataset.lmSuppressShortcuts="true";el.classList.add("\
-glid-host","glid-pad-host");el.append(this.box);this.view=new View(()=>this.#viewMoved(),{nearest:1e-4,
+HELP);ghosts=new Ghosts;#chosen;#saving;#playing=STILL;#tool;#painted=false;#presses=false;constructor({
+model,el,signal}){this.model=model;this.interactive=model.get("interactive");const paper=make("canva\
+s",{className:"glid-paper"});this.box=make("div",{className:"glid-pad",role:"application","aria-labe\
+l":"Deformation canvas: arrow keys move, Enter pins a point",inert:!this.interactive},paper,this.legend.
+element,this.notices.notice,this.notices.prepared);this.box.dataset.lmSuppressShortcuts="true";el.classList.
+add("glid-host","glid-pad-host");el.append(this.box);this.view=new View(()=>this.#viewMoved(),{nearest:1e-4,
 farthest:1});this.shapes=new Shapes(model,this.view);this.shapes.led=()=>this.redraw();this.ahead=new Ahead(
-model,lead=>this.shapes.showLead(lead));this.redraw=painter(paper,this.view,signal,pen=>this.#draw(pen));
-this.link=new Link(model,this.box,signal,()=>this.#report());this.room=this.interactive?new Room(this.
-box,model,signal):null;this.behaviour=new PinBehaviour(this);this.pad=new Pad(this.box,this.view,this.#listener(
-signal),this.behaviour);this.clipboard=new PoseClipboard(this);this.corner=this.#makeCorner();if(this.
-interactive){this.box.append(shield(this.corner),this.help.table,resizeGrip(model));keysAround(this.
-box,e=>this.pad.keydown(e),signal);this.box.addEventListener("glid:press",e=>this.#pressed(e))}this.#takeFirst()}close(){
-clearTimeout(this.#saving);this.ahead.close();this.shapes.close()}get marks(){return marksOf(this.model.
-get("marks"),this.shapes.lead)}prepareSolver(){if(this.interactive)void this.ahead.prepare()}rested(){
-if(!this.pad.grip)this.ahead.giveBack()}followHand(){if(this.pad.grip&&!this.shapes.motion)this.ahead.
-follow(this.pad.held)}#listener(signal){const put=event=>{const drags=event.type==="up"||this.pad.grip&&
-/^(down|move)$/.test(event.type);if(!drags)this.ahead.giveBack();const leads=this.ahead.leads&&this.
-shapes.movesVertices;return spacing.put(event,leads&&event.type==="move")};const spacing=new Spacing(
+model,lead=>this.shapes.showLead(lead));this.reference=new Reference(this.box,model,this.view);this.
+redraw=painter(paper,this.view,signal,pen=>this.#draw(pen));this.link=new Link(model,this.box,signal,
+()=>this.#report());this.room=this.interactive?new Room(this.box,model,signal):null;this.behaviour=new PinBehaviour(
+this);this.pad=new Pad(this.box,this.view,this.#listener(signal),this.behaviour);this.clipboard=new PoseClipboard(
+this);this.corner=this.#makeCorner();if(this.interactive){this.box.append(shield(this.corner),this.help.
+table,resizeGrip(model));keysAround(this.box,e=>this.pad.keydown(e),signal);this.box.addEventListener(
+"glid:press",e=>this.#pressed(e))}this.#takeFirst()}close(){clearTimeout(this.#saving);this.ahead.close();
+this.shapes.close();this.reference.close()}get allMarks(){return marksOf(this.model.get("marks"),this.
+shapes.lead)}get marks(){return withoutHidden(this.allMarks,this.model.get("pins"),Number.NaN)}get reachable(){
+return withoutHidden(this.allMarks,this.model.get("pins"),Infinity)}prepareSolver(){if(this.interactive)
+void this.ahead.prepare()}rested(){if(this.pad.grip)return;const made=this.behaviour.madePin();if(made===
+void 0)this.ahead.giveBack();else this.#hold(made)}#hold(made){const{pad,view,behaviour}=this;const[
+from]=pad.path;const[place]=pad.pointers.values();pad.grip={from,points:new Map([[made,from]])};if(!behaviour.
+constrains)pad.held.set(made,view.toWorld(place));this.followHand()}followHand(){if(this.pad.grip&&!this.
+shapes.motion)this.ahead.follow(this.pad.held)}#listener(signal){const put=event=>{const drags=event.
+type==="up"||this.pad.grip&&/^(down|move)$/.test(event.type);if(!drags)this.ahead.giveBack();const leads=this.
+ahead.leads&&this.shapes.movesVertices;return spacing.put(event,leads&&event.type==="move")};const spacing=new Spacing(
 event=>this.link.put(event));signal.addEventListener("abort",()=>spacing.close());return{put,signal}}get brush(){
-const brush=this.model.get("brush");return"radius"in brush?brush:null}get painting(){return this.brush!==
-null}say(notice){save(this.model,{notice})}openMenu(place,found={mark:this.marks.selected.at(-1)}){const{
-selected,targets}=this.marks;const mark=found?.mark===void 0?null:Number(found.mark);const centre=[this.
-view.x,this.view.y];const point=mark===null?this.model.get("cursor")??centre:targets[mark];const at=place??
-this.view.toScreen(point);const does={press:(key,shift=false)=>{return()=>this.pad.press(key,{shiftKey:shift})},
-pin:()=>void this.pad.send("pin",at),paste:()=>void this.clipboard.paste(),alone:()=>this.room?.alone(),
-fullScreen:()=>this.room?.fullScreen(),showKeys:this.help.toggle};const pinned=mark!==null&&selected.
-includes(mark)?selected.length:1;const covered=mark===null&&coveredNear(this.box,at);openMenu(this.box,
-at,menuRows(does,mark===null?null:{pinned},covered))}showMotion(motion=null,playing=STILL,heights=null,parts={}){
+const{radius,strength}=this.model.get("brush");const{tool}=this;return tool?{radius,strength:tool===
+"stiff"?strength:0}:null}get tool(){const told=this.model.get("brush").tool;return told===void 0?"":
+this.#tool??told}toggleTool(tool){const name=this.tool===tool?"":tool;this.pad.link.put({type:"tool",
+name});this.#showTool(name)}#showTool(tool){if(tool===this.#tool)return;this.#tool=tool;this.showNotice();
+this.pad.hover();this.redraw()}get painting(){return this.brush!==null}say(notice){save(this.model,{
+notice})}openMenu(place,found={mark:this.marks.selected.at(-1)}){const{selected,targets}=this.marks;
+const mark=found?.mark===void 0?null:Number(found.mark);const centre=[this.view.x,this.view.y];const pinned=mark!==
+null&&Number.isFinite(targets[mark]?.[0]);const point=pinned?targets[mark]:this.model.get("cursor")??
+centre;const at=place??this.view.toScreen(point);const does={press:(key,shift=false)=>{return()=>this.#press(
+key,shift)},pin:()=>void this.pad.send("pin",at),paste:()=>void this.clipboard.paste(),alone:()=>this.
+room?.alone(),fullScreen:()=>this.room?.fullScreen(),showKeys:this.help.toggle};const count=mark!==null&&
+selected.includes(mark)?selected.length:1;const covered=mark===null&&coveredNear(this.box,at);const hides=this.
+model.get("pins").away.length>0;openMenu(this.box,at,menuRows(does,mark===null?null:count,covered,hides))}showMotion(motion=null,playing=STILL,heights=null,parts={}){
 this.#playing=playing;this.shapes.motion=motion;this.shapes.partMotions=parts;this.shapes.lift(heights);
 this.showLegend();this.shapes.refresh();this.redraw()}showLegend(){this.legend.show(this.model,Boolean(
 this.shapes.motion))}takeFocus(){const{painting}=this;const chosen=painting&&!this.#painted;this.#painted=
@@ -709,23 +770,26 @@ model,view,box}=this;view.width=model.get("width");view.height=model.get("height
 unit]=model.get("view");box.style.width=`${view.width}px`;box.style.height=`${view.height}px`;this.room?.
 shrink();this.#see()}reveal(){const{selected,targets,images}=this.marks;const now=selected.length===
 1?selected[0]:void 0;if(now===this.#chosen)return;this.#chosen=now;if(now===void 0||this.pad.mode)return;
-if(inSight(this.view,targets[now])||inSight(this.view,images[now]))return;this.view.centreOn(targets[now])}pressedAt(){
-if(!this.shapes.motion)return void 0;this.#presses=true;return this.#playing.pause()}#pressed(e){const{
-detail}=e;const act=this.pad.behaviour.actions?.[detail];if(act)act();else this.pad.press(detail,{})}#takeFirst(){
+if(!Number.isFinite(targets[now]?.[0]))return;if(inSight(this.view,targets[now])||inSight(this.view,
+images[now]))return;this.view.centreOn(targets[now])}pressedAt(){if(!this.shapes.motion)return void 0;
+this.#presses=true;return this.#playing.pause()}#pressed(e){this.#press(e.detail)}#press(key,shift=false){
+const act=this.behaviour.actions[key];if(act)act();else this.pad.press(key,{shiftKey:shift})}#takeFirst(){
 const goBack=e=>{if(!this.shapes.motion)return;e.stopImmediatePropagation();e.preventDefault();this.#playing.
 release()};const capture=true;this.box.addEventListener("pointerdown",e=>e.button===2&&goBack(e),{capture});
 const ours=e=>!e.ctrlKey&&!e.metaKey&&KEYS.test(keyOf(e));this.box.addEventListener("keydown",e=>ours(
-e)&&goBack(e),{capture});const openedByKeys=e=>{if(e.key!=="F10"||!e.shiftKey)return;e.stopImmediatePropagation();
-e.preventDefault();this.openMenu()};this.box.addEventListener("keydown",openedByKeys,{capture});const followArrow=e=>{
-const target=arrowAt(this.view,this.marks,this.pad.place(e));if(!target||e.target!==this.box)return;
-this.view.centreOn(target);e.stopImmediatePropagation()};this.box.addEventListener("pointerdown",followArrow,
-{capture})}#makeCorner(){const look="glid-help-button";return make("div",{className:"glid-corner"},this.
-help.button,iconButton("screen","Full screen (W)",()=>this.room?.fullScreen(),look),iconButton("rect\
-angle","The picture alone (P)",()=>this.room?.alone(),look))}#report(){const{busy,refusal}=this.link;
-if(this.#presses&&this.link.idle&&this.pad.mode===null){this.#presses=false;this.#playing.release()}
-if(!busy&&refusal&&refusal!==this.model.get("notice"))this.say(refusal)}#viewMoved(){this.#see();clearTimeout(
-this.#saving);this.#saving=setTimeout(()=>{const{x,y,unit}=this.view;save(this.model,{view:[x,y,unit]})},
-SAVE_VIEW_AFTER)}#see(){this.shapes.see();this.redraw()}#drawNumbers(pen){const{model,view,pad,marks}=this;
+e)&&goBack(e),{capture});const putAway=e=>{if(keyOf(e)==="Escape"&&this.painting)this.#showTool("")};
+this.box.addEventListener("keydown",putAway,{capture});const openedByKeys=e=>{if(e.key!=="F10"||!e.shiftKey)
+return;e.stopImmediatePropagation();e.preventDefault();this.openMenu()};this.box.addEventListener("k\
+eydown",openedByKeys,{capture});const followArrow=e=>{const target=arrowAt(this.view,this.marks,this.
+pad.place(e));if(!target||e.target!==this.box)return;this.view.centreOn(target);e.stopImmediatePropagation()};
+this.box.addEventListener("pointerdown",followArrow,{capture})}#makeCorner(){const look="glid-help-b\
+utton";return make("div",{className:"glid-corner"},this.help.button,iconButton("screen","Full screen\
+ (W)",()=>this.room?.fullScreen(),look),iconButton("rectangle","The picture alone (P)",()=>this.room?.
+alone(),look))}#report(){const{busy,refusal}=this.link;if(this.link.idle)this.#showTool(void 0);if(this.#presses&&
+this.link.idle&&this.pad.mode===null){this.#presses=false;this.#playing.release()}if(!busy&&refusal&&
+refusal!==this.model.get("notice"))this.say(refusal)}#viewMoved(){this.#see();clearTimeout(this.#saving);
+this.#saving=setTimeout(()=>{const{x,y,unit}=this.view;save(this.model,{view:[x,y,unit]})},SAVE_VIEW_AFTER)}#see(){
+this.shapes.see();this.reference.place();this.redraw()}#drawNumbers(pen){const{model,view,pad,marks}=this;
 const{pressed}=this.behaviour;const drags=pad.mode==="hand"&&pad.path.length>1&&!pad.encloses;const moved=drags&&
 pressed&&movedPin(pressed,marks,pad.held,model.get("picture_size"));if(!moved)return;const{start,keys}=pressed;
 if(start&&keys?.axis)drawAxis(pen,view,start,moved.at);drawNumbers(pen,view,moved)}#draw(pen){const{
@@ -733,18 +797,19 @@ model,view,pad,marks,brush}=this;const{motion}=this.shapes;const through=!motion
 marks,pad.held);this.corner.classList.toggle("glid-through",through);if(motion)return;drawOnion(pen,
 view,model.get("onion"));drawStiff(pen,view,model.get("stiff"),this.painting);if(this.interactive&&!this.
 painting){this.ghosts.draw(pen,view,model.get("outline").outline,marks.targets.length>0)}const cursor=pad.
-focused?model.get("cursor"):null;drawMarks(pen,view,marks,{hovered:pad.found?.mark,held:pad.held,cursor});
-if(brush)drawBrush(pen,view,brush,pad);else this.#drawNumbers(pen);if(pad.encloses&&pad.path.length>
-2)drawLasso(pen,view,pad.path)}};function render(context){const{model,signal}=context;const canvas=new Canvas(context);follow(model,{
+focused?model.get("cursor"):null;const pins=model.get("pins");const held=new Map([...pad.held].filter(
+([mark])=>!pins.away.includes(Number(mark))));drawMarks(pen,view,marks,{hovered:pad.found?.mark,held,
+cursor});drawLocks(pen,view,marks,pins);if(brush)drawBrush(pen,view,brush,pad);else this.#drawNumbers(
+pen);if(pad.encloses&&pad.path.length>2)drawLasso(pen,view,pad.path)}};function render(context){const{model,signal}=context;const canvas=new Canvas(context);follow(model,{
 "change:width change:height change:view":()=>canvas.fit(),"change:coefficients":()=>canvas.shapes.lead||
 canvas.shapes.refresh(),"change:part_maps":()=>canvas.shapes.refresh(),"change:solver_script change:\
 solver change:outline":()=>canvas.prepareSolver(),"change:rest":()=>canvas.rested(),"change:drawing_\
 time":()=>model.get("drawn")&&!model.get("drawing_time")&&measure(canvas,signal),"change:marks chang\
-e:cursor change:onion change:stiff change:brush":()=>canvas.redraw(),"glid:motion":(...shown)=>canvas.
+e:cursor change:onion change:stiff change:brush change:pins":()=>canvas.redraw(),"glid:motion":(...shown)=>canvas.
 showMotion(...shown),"change:legend change:panel_legend change:legend_corner":()=>canvas.showLegend(),
 "change:notice change:marks change:brush":()=>canvas.showNotice(),"change:marks":()=>canvas.reveal(),
-"change:brush":()=>canvas.takeFocus(),"change:prepared":()=>canvas.notices.prepare(model.get("prepar\
-ed"))});measure(canvas,signal);if(model.get("uniform_vectors")===0){save(model,{uniform_vectors:uniformVectors()||
--1})}return()=>canvas.close()}async function measure({box,model,shapes},signal){await shapes.load();
-const time=await drawingTime(box,shapes);if(!signal.aborted)save(model,{drawn:true,drawing_time:time})}
-var main_default={render};export{main_default as default};
+"change:brush":()=>canvas.takeFocus(),"change:reference":()=>canvas.reference.show(),"change:prepare\
+d":()=>canvas.notices.prepare(model.get("prepared"))});measure(canvas,signal);if(model.get("uniform_\
+vectors")===0){save(model,{uniform_vectors:uniformVectors()||-1})}return()=>canvas.close()}async function measure({
+box,model,shapes},signal){await shapes.load();const time=await drawingTime(box,shapes);if(!signal.aborted)
+save(model,{drawn:true,drawing_time:time})}var main_default={render};export{main_default as default};

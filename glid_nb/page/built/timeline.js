@@ -61,7 +61,9 @@ return"Proving the motion between poses…";const last=spans.at(-1);if(!last)ret
  a second pose to see the motion between them.":"";const least=Math.min(...spans.flatMap(({sigma2})=>sigma2));
 const lasts=seconds(last.end-spans[0].start);return`Proved at every instant of ${lasts}: σ₂ ≥ ${least.
 toFixed(3)}.`}function scaleOf(element){const{width,height}=element.getBoundingClientRect();const across=width/element.
-offsetWidth||1;return{across,down:height/element.offsetHeight||across}}var WHEEL_LINE=33;var LINES=1;function turnOf(e){return e.deltaMode===LINES?e.deltaY*WHEEL_LINE:e.deltaY}var INSET=34;var STEP=1.5;var MOST=40;var WHEEL_SPEED=.004;var LEADS=.25;function scrolledTo(share,at,width){
+offsetWidth||1;return{across,down:height/element.offsetHeight||across}}function placeIn(element,{clientX,
+clientY}){const{left,top}=element.getBoundingClientRect();const{across,down}=scaleOf(element);return[
+(clientX-left)/across,(clientY-top)/down]}var WHEEL_LINE=33;var LINES=1;function turnOf(e){return e.deltaMode===LINES?e.deltaY*WHEEL_LINE:e.deltaY}var INSET=34;var STEP=1.5;var MOST=40;var WHEEL_SPEED=.004;var LEADS=.25;function scrolledTo(share,at,width){
 return Math.max(INSET+share*(width-2*INSET)-at,0)}var Zoom=class{factor=1;constructor(track,changed){
 this.track=track;this.changed=changed;this.box=make("div",{className:"glid-track-view"},track);this.
 box.addEventListener("wheel",e=>this.#wheel(e),{passive:false})}zoom(by,at=this.box.clientWidth/2){const{
@@ -74,30 +76,83 @@ box.getBoundingClientRect().left)/scaleOf(box).across;this.zoom(Math.exp(-step*W
 const before=box.scrollLeft;if(!e.deltaX)box.scrollLeft+=step;if(box.scrollLeft!==before)e.preventDefault()}};var REPEATS=[["once","Once"],["loop","Loop"],["ping-pong","Ping-pong"]];var ONION="Onion skin: outli\
 nes of the poses before (blue) and after (orange) the edited pose";var KEY="Key this pose and contin\
 ue with a copy (K); at another time, key the shape that is shown there";var LEGEND=[["proved","prove\
-d"],["computing","not yet"],["refused","not proved"]];var Bar=class{recording=false;onionOn=false;constructor({
-play,keep,act,edit,zoom}){this.play=iconButton("play","Play, pause (Space)",play);this.repeat=menu("\
-Play once, in a loop, or there and back",REPEATS,repeat=>act("set_repeat",{repeat}));this.clock=make(
+d"],["computing","not yet"],["refused","not proved"]];var EASE="M2.5 13.5C8 13.5 8 2.5 13.5 2.5";var Bar=class{recording=false;onionOn=false;constructor({
+play,keep,act,edit,zoom,ease}){this.play=iconButton("play","Play, pause (Space)",play);this.repeat=menu(
+"Play once, in a loop, or there and back",REPEATS,repeat=>act("set_repeat",{repeat}));this.clock=make(
 "span",{className:"glid-time",role:"timer"});this.record=iconButton("record","Record: keep the next \
 drag as keyframes",()=>act("record",{on:!this.recording}));this.onion=iconButton("onion",ONION,()=>act(
 "onion",{on:!this.onionOn}));this.keep=make("button",{className:"glid-keep",title:KEY,onclick:keep},
-"Key");const copy=iconButton("copy","Duplicate this pose",()=>edit("duplicate_pose"));this.remove=iconButton(
-"trash","Delete this pose (Delete)",()=>edit("delete_pose"));this.save=iconButton("export","Export t\
-he motion",()=>{this.save.dispatchEvent(new CustomEvent("glid:inspect",{bubbles:true}));act("export")});
-this.element=make("div",{className:"glid-bar",role:"toolbar","aria-label":"Motion"},...[this.play,this.
-repeat,this.clock,gap()],...[this.record,this.onion,gap()],...[this.keep,copy,this.remove,gap(),this.
-save],make("span",{className:"glid-zoom"},gap(),iconButton("minus","See more of the timeline (Ctrl a\
-nd wheel)",()=>zoom(1/STEP)),iconButton("plus","See less of the timeline, larger (Ctrl and wheel)",()=>zoom(
-STEP))))}update({keyframes,repeat,recording,onion,exports}){const alone=keyframes.length<2;this.repeat.
-value=repeat;this.remove.disabled=alone;for(const control of[this.play,this.save,this.repeat]){control.
-disabled=alone}this.save.hidden=!exports;this.recording=recording;this.onionOn=onion;this.record.ariaPressed=
-String(recording);this.onion.ariaPressed=String(onion)}showTime(place,end,playing){const does=playing?
-"pause":"play";if(this.play.dataset.does!==does)this.play.innerHTML=icon(does);this.play.dataset.does=
-does;this.clock.textContent=`${place.toFixed(2)} / ${seconds(end)}`}};function legend(){const parts=LEGEND.
-map(([kind,label])=>{return make("span",{},make("i",{className:"glid-swatch","data-kind":kind}),label)});
-return make("div",{className:"glid-proof-legend","aria-hidden":true},...parts)}function gap(){return make(
-"span",{className:"glid-gap"})}function menu(label,choices,act){const options=choices.map(([value,text])=>new Option(
-text,value));const select=make("select",{"aria-label":label,title:label},...options);select.addEventListener(
-"change",()=>act(select.value));return select}var Player=class{clock=null;time=0;seen=false;only=0;later=null;#intervals=[];#others=new Map;#frame=0;constructor(show,moved,ended=()=>{}){
+"Key");const copy=iconButton("copy","Duplicate this pose",()=>edit("duplicate_pose"));this.ease=drawnButton(
+EASE,"Easing of the motion that leaves this pose (Enter)",ease);this.ease.ariaHasPopup="dialog";this.
+remove=iconButton("trash","Delete this pose (Delete)",()=>edit("delete_pose"));this.save=iconButton(
+"export","Export the motion",()=>{this.save.dispatchEvent(new CustomEvent("glid:inspect",{bubbles:true}));
+act("export")});this.element=make("div",{className:"glid-bar",role:"toolbar","aria-label":"Motion"},
+...[this.play,this.repeat,this.clock,gap()],...[this.record,this.onion,gap()],...[this.keep,copy,this.
+remove,this.ease,gap(),this.save],make("span",{className:"glid-zoom"},gap(),iconButton("minus","See \
+more of the timeline (Ctrl and wheel)",()=>zoom(1/STEP)),iconButton("plus","See less of the timeline\
+, larger (Ctrl and wheel)",()=>zoom(STEP))))}update({keyframes,repeat,recording,onion,exports}){const alone=keyframes.
+length<2;this.repeat.value=repeat;this.remove.disabled=alone;for(const control of[this.play,this.save,
+this.repeat,this.ease]){control.disabled=alone}this.save.hidden=!exports;this.recording=recording;this.
+onionOn=onion;this.record.ariaPressed=String(recording);this.onion.ariaPressed=String(onion)}showTime(place,end,playing){
+const does=playing?"pause":"play";if(this.play.dataset.does!==does)this.play.innerHTML=icon(does);this.
+play.dataset.does=does;this.clock.textContent=`${place.toFixed(2)} / ${seconds(end)}`}};function legend(){
+const parts=LEGEND.map(([kind,label])=>{return make("span",{},make("i",{className:"glid-swatch","dat\
+a-kind":kind}),label)});return make("div",{className:"glid-proof-legend","aria-hidden":true},...parts)}
+function gap(){return make("span",{className:"glid-gap"})}function menu(label,choices,act){const options=choices.
+map(([value,text])=>new Option(text,value));const select=make("select",{"aria-label":label,title:label},
+...options);select.addEventListener("change",()=>act(select.value));return select}var HELD=.99;var THIRD=1/3;var NAMED={linear:{label:"Even",handles:[THIRD,THIRD,2*THIRD,2*THIRD]},in:{
+label:"Ease in",handles:[THIRD,0,2*THIRD,THIRD]},out:{label:"Ease out",handles:[THIRD,2*THIRD,2*THIRD,
+1]},"in-out":{label:"Ease in, out",handles:[THIRD,0,2*THIRD,1]}};var HOLD="hold";var PRESETS=[...Object.
+entries(NAMED).map(([name,{label}])=>[name,label]),[HOLD,"Hold"]];function handlesOf(easing){return typeof easing===
+"string"?NAMED[easing]?.handles??null:easing}function nameOf(easing){return PRESETS.find(([name])=>name===
+easing)?.[1]??"Curve"}function pathOf(easing,size){const at=(x,y)=>`${Number((x*size).toFixed(2))} ${Number(
+((1-y)*size).toFixed(2))}`;const handles=handlesOf(easing);if(!handles)return`M${at(0,0)} L${at(HELD,
+0)} L${at(1,1)}`;const[x1,y1,x2,y2]=handles;return`M${at(0,0)} C${at(x1,y1)} ${at(x2,y2)} ${at(1,1)}`}
+function withHandle(easing,which,place){const[x,y]=place.map(one=>Math.round(100*Math.min(Math.max(one,
+0),1))/100);const[x1,y1,x2,y2]=handlesOf(easing)??NAMED.linear.handles;return which===0?[x,y,x2,y2]:
+[x1,y1,x,y]}var SIZE=140;var MARGIN=14;var GAP=6;var STEP2=.02;var LONG_STEP=.1;var ARROWS={ArrowLeft:[-1,0],ArrowRight:[
+1,0],ArrowDown:[0,-1],ArrowUp:[0,1]};var EaseEditor=class{index=-1;#easing="linear";#held=null;constructor(set,closed){
+this.set=set;this.closed=closed;this.title=make("h4",{});this.curve=make("div",{className:"glid-ease\
+-curve"});this.drawing=make("div",{className:"glid-ease-drawing"});this.handles=[this.#handle(0),this.#handle(
+1)];this.presets=PRESETS.map(([easing,label])=>make("button",{title:label,onclick:()=>this.#choose(easing),
+innerHTML:curveIcon(easing)},make("span",{},label)));this.curve.append(this.drawing,...this.handles);
+this.element=make("div",{className:"glid-ease",role:"dialog",popover:"auto","aria-label":"Easing"},this.
+title,this.curve,make("div",{className:"glid-ease-presets",role:"group"},...this.presets));this.element.
+addEventListener("keydown",e=>this.#keydown(e));this.element.addEventListener("keyup",e=>e.stopPropagation());
+this.element.addEventListener("pointerdown",e=>e.stopPropagation());this.element.addEventListener("t\
+oggle",e=>this.#toggled(e))}open(index,title,easing,at){const{element}=this;this.element.hidePopover();
+this.index=index;this.show(title,easing);element.showPopover();const{left,width,top,bottom}=at.getBoundingClientRect();
+const room=element.getBoundingClientRect();const above=top-room.height-GAP;const x=Math.min(left+(width-
+room.width)/2,window.innerWidth-room.width-GAP);element.style.left=`${Math.max(x,GAP)}px`;element.style.
+top=`${above<0?bottom+GAP:above}px`;const pressed=this.presets.find(button=>button.ariaPressed==="tr\
+ue");(pressed??this.handles[0]).focus({preventScroll:true})}show(title,easing){if(this.#held!==null)
+return;this.title.textContent=title;this.#draw(easing)}close(){this.element.hidePopover()}#draw(easing){
+this.#easing=easing;const handles=handlesOf(easing);this.drawing.innerHTML=drawing(easing,handles);this.
+handles.forEach((handle,i)=>{handle.hidden=!handles;if(!handles)return;const[x,y]=handles.slice(2*i);
+handle.style.left=`${MARGIN+x*SIZE}px`;handle.style.top=`${MARGIN+(1-y)*SIZE}px`;handle.ariaValueNow=
+`${Math.round(100*x)}`;handle.ariaValueText=`time ${Math.round(100*x)} %, way ${Math.round(100*y)} %`});
+for(const[i,[name]]of PRESETS.entries()){this.presets[i].ariaPressed=String(name===easing)}this.drawing.
+title=nameOf(easing)}#choose(easing){this.#draw(easing);this.set(this.index,easing)}#handle(which){const name=which===
+0?"How it leaves":"How it arrives";const handle=make("button",{className:"glid-ease-handle",role:"sl\
+ider","aria-label":name,"aria-valuemin":0,"aria-valuemax":100,title:`${name}: drag it, or arrow keys`});
+handle.addEventListener("pointerdown",e=>{if(e.button!==0)return;e.preventDefault();handle.focus({preventScroll:true});
+handle.setPointerCapture(e.pointerId);this.#held=which});handle.addEventListener("pointermove",e=>{if(this.#held===
+which&&handle.hasPointerCapture(e.pointerId)){const[x,y]=placeIn(this.curve,e);this.#move(which,[(x-
+MARGIN)/SIZE,1-(y-MARGIN)/SIZE])}});handle.addEventListener("lostpointercapture",()=>this.#letGo());
+handle.addEventListener("keydown",e=>this.#nudge(e,which));handle.addEventListener("keyup",()=>this.#letGo());
+handle.addEventListener("blur",()=>this.#letGo());return handle}#move(which,place){this.#held=which;
+this.#draw(withHandle(this.#easing,which,place))}#letGo(){if(this.#held===null)return;this.#held=null;
+this.set(this.index,this.#easing)}#nudge(e,which){const arrow=ARROWS[e.key];const handles=handlesOf(
+this.#easing);if(!arrow||!handles||e.ctrlKey||e.metaKey||e.altKey)return;e.preventDefault();const step=e.
+shiftKey?LONG_STEP:STEP2;const[x,y]=handles.slice(2*which);this.#move(which,[x+step*arrow[0],y+step*
+arrow[1]])}#keydown(e){if(!e.ctrlKey&&!e.metaKey)e.stopPropagation()}#toggled({newState}){if(newState===
+"open"||this.element.matches(":popover-open"))return;const{index}=this;this.index=-1;this.closed(index)}};
+function curveIcon(easing){const path=pathOf(easing,12);return`<svg viewBox="-2 -2 16 16" aria-hidde\
+n="true"><path d="${path}"/></svg>`}function drawing(easing,handles){const up=y=>(1-y)*SIZE;const arms=handles&&
+[`M0 ${SIZE} L${handles[0]*SIZE} ${up(handles[1])}`,`M${SIZE} 0 L${handles[2]*SIZE} ${up(handles[3])}`];
+const box=[-MARGIN,-MARGIN,SIZE+2*MARGIN,SIZE+2*MARGIN].join(" ");return`<svg viewBox="${box}" aria-\
+hidden="true"><rect width="${SIZE}" height="${SIZE}"/><path class="glid-ease-arms" d="${arms?arms.join(
+" "):""}"/><path d="${pathOf(easing,SIZE)}"/></svg>`}var Player=class{clock=null;time=0;seen=false;only=0;range=null;later=null;#intervals=[];#others=new Map;#frame=0;constructor(show,moved,ended=()=>{}){
 this.show=show;this.moved=moved;this.ended=ended}set(intervals,repeat,others={}){this.#intervals=intervals.
 map(partOf);const entries=Object.entries(others);this.#others=new Map(entries.map(([key,theirs])=>[key,
 theirs.map(partOf)]));const first=intervals[0];const last=intervals.at(-1);const times=first&&last?[
@@ -107,12 +162,14 @@ return this.#frame!==0}get place(){if(this.later!==null)return this.later;const 
 Infinity;return this.time>last?2*last-this.time:this.time}scrub(time){this.pause();const{clock}=this;
 const last=clock?.last??this.only;if(time>last&&clock?.repeat!=="loop")this.#wait(time);else if(clock)
 this.#seek(Math.min(Math.max(time,clock.start),last));else this.release(last)}play(){const{clock}=this;
-if(this.playing||!clock){this.pause();return}this.later=null;const once=clock.repeat==="once";if(once&&
-this.time>=clock.end)this.time=clock.start;let last=null;const step=async now=>{const time=this.time+
-(last===null?0:(now-last)/1e3);last=now;await this.#seek(time);if(!this.playing)return;if(once&&time>=
-clock.end){this.pause();this.ended()}else this.#frame=requestAnimationFrame(step)};this.#frame=requestAnimationFrame(
-step);this.moved()}pause(){cancelAnimationFrame(this.#frame);this.#frame=0;this.moved()}release(time){
-this.pause();this.time=time;this.later=null;if(this.seen){this.seen=false;this.show(null)}this.moved()}#wait(time){
+if(this.playing||!clock){this.pause();return}this.later=null;const once=clock.repeat==="once"&&!this.
+range;if(once&&this.time>=clock.end)this.time=clock.start;let last=null;const step=async now=>{const time=this.#inRange(
+this.time+(last===null?0:(now-last)/1e3));last=now;await this.#seek(time);if(!this.playing)return;if(once&&
+time>=clock.end){this.pause();this.ended()}else this.#frame=requestAnimationFrame(step)};this.#frame=
+requestAnimationFrame(step);this.moved()}#inRange(time){if(!this.range)return time;const[start,end]=this.
+range;if(time>=start&&time<end)return time;return time<start||this.time>=end?start:start+(time-start)%
+(end-start)}pause(){cancelAnimationFrame(this.#frame);this.#frame=0;this.moved()}release(time){this.
+pause();this.time=time;this.later=null;if(this.seen){this.seen=false;this.show(null)}this.moved()}#wait(time){
 this.later=time;this.time=this.clock?.last??this.only;this.seen=true;this.#showAt(this.time,time);this.
 moved()}#seek(time){const{clock}=this;if(!clock){this.release(0);return}this.later=null;this.time=time===
 clock.end?time:clock.within(time);this.seen=true;const{place}=this;const shown=this.#showAt(place,place);
@@ -144,24 +201,59 @@ false;const typed=field.value.trim();field.remove();ended();if(keep&&typed&&type
 const field=make("input",{className:"glid-name-field",type:"text",value:name,"aria-label":"Name of t\
 he pose",style:`left: clamp(52px, ${left}, 100% - 52px)`,onpointerdown:e=>e.stopPropagation(),onblur:()=>end(
 true),onkeydown:e=>{e.stopPropagation();if(e.key==="Enter"||e.key==="Escape")end(e.key==="Enter")}});
-track.append(field);field.focus();field.select()}var DOUBLE_CLICK=400;var SNAP=6;var STILL=4;var SLIM=8;var WIDE=60;var LEAST_FRAME=6;var Track=class{span=1;rate=25;keys=make(
-"div",{className:"glid-keys"});head=make("div",{className:"glid-playhead"});ruler=make("div",{className:"\
-glid-ruler",tabIndex:0,role:"slider","aria-label":"Time","aria-valuemin":0});#last={index:-1,at:0};#drag=null;#scrubbing=null;#shown=null;constructor(hand){
+track.append(field);field.focus();field.select()}var SAME2=1e-6;function withEnd(range,whole,which,time,frame){const[start,end]=range;const least=Math.
+min(frame,whole[1]-whole[0]);const made=which===0?[Math.max(Math.min(time,end-least),whole[0]),end]:
+[start,Math.min(Math.max(time,start+least),whole[1])];return made.every((one,i)=>Math.abs(one-whole[i])<
+SAME2)?null:made}function keyedEnd(range,whole,which,time,frame){const from=range?[...range]:[...whole];
+if(range&&Math.abs(from[which]-time)<SAME2)return withEnd(from,whole,which,whole[which],frame);const other=which===
+0?1:0;if(which===0?time>=from[1]:time<=from[0])from[other]=whole[other];return withEnd(from,whole,which,
+time,frame)}var RangeMarks=class{band=make("i",{className:"glid-range"});#range=null;#whole=null;#dragged=void 0;constructor(ruler){
+this.ruler=ruler;this.marks=[this.#mark(0),this.#mark(1)];this.elements=[this.band,...this.marks]}show(range,whole){
+this.#range=range;this.#whole=whole;if(this.#dragged===void 0)this.#draw(range)}drop(){this.#dragged=
+void 0;this.#draw(this.#range)}key(which,time){if(this.#whole){this.#set(keyedEnd(this.#range,this.#whole,
+which,time,this.ruler.frame()))}}#draw(range){const ends=range??this.#whole;for(const element of this.
+elements){element.hidden=!ends;element.dataset.set=String(range!==null)}if(!ends||!this.#whole)return;
+const{at}=this.ruler;this.band.style.left=at(ends[0]);this.band.style.right=`calc(100% - ${at(ends[1])}\
+)`;for(const[i,mark]of this.marks.entries()){mark.style.left=at(ends[i]);mark.ariaValueMin=this.#whole[0].
+toFixed(2);mark.ariaValueMax=this.#whole[1].toFixed(2);mark.ariaValueNow=ends[i].toFixed(2);mark.ariaValueText=
+seconds(ends[i])}}#mark(which){const name=which===0?"Start of the loop range":"End of the loop range";
+const key=which===0?"Shift+Home":"Shift+End";const mark=make("button",{className:"glid-range-mark",role:"\
+slider","aria-label":name,title:`${name}: drag it, or ${key} at the playhead; Delete plays all`});mark.
+dataset.end=which===0?"start":"end";mark.addEventListener("pointerdown",e=>{if(e.button!==0)return;e.
+preventDefault();e.stopPropagation();mark.focus({preventScroll:true});mark.setPointerCapture(e.pointerId);
+this.#dragged=this.#range});mark.addEventListener("pointermove",e=>{if(this.#dragged!==void 0&&mark.
+hasPointerCapture(e.pointerId))this.#drag(which,e)});mark.addEventListener("lostpointercapture",()=>this.#letGo());
+mark.addEventListener("dblclick",()=>this.#set(null));mark.addEventListener("keydown",e=>this.#keydown(
+e,which));return mark}#drag(which,e){if(!this.#whole)return;const{ruler}=this;const from=this.#range??
+this.#whole;this.#dragged=withEnd(from,this.#whole,which,ruler.timeOf(e),ruler.frame());this.#draw(this.#dragged);
+const[start,end]=this.#dragged??this.#whole;ruler.hover(this.#dragged?`Plays from ${seconds(start)} \
+to ${seconds(end)}`:"Plays all")}#letGo(){const dragged=this.#dragged;if(dragged===void 0)return;this.#dragged=
+void 0;this.ruler.hover("");const same=JSON.stringify(dragged)===JSON.stringify(this.#range);if(!same)
+this.#set(dragged)}#set(range){this.#range=range;this.#draw(range);this.ruler.set(range)}#keydown(e,which){
+if(e.ctrlKey||e.metaKey||e.altKey||e.shiftKey||!this.#whole)return;const step={ArrowLeft:-1,ArrowRight:1}[e.
+key];const clears=e.key==="Delete"||e.key==="Backspace";if(!step&&!clears)return;e.preventDefault();
+e.stopPropagation();const{ruler}=this;const from=this.#range??this.#whole;const time=from[which]+(step??
+0)*ruler.frame();this.#set(clears?null:withEnd(from,this.#whole,which,time,ruler.frame()))}};var DOUBLE_CLICK=400;var SNAP=6;var STILL=4;var SLIM=8;var WIDE=60;var EASE2=34;var LEAST_FRAME=6;var Track=class{span=1;rate=25;keys=make(
+"div",{className:"glid-keys"});eases=make("div",{className:"glid-eases"});head=make("div",{className:"\
+glid-playhead"});ruler=make("div",{className:"glid-ruler",tabIndex:0,role:"slider","aria-label":"Tim\
+e","aria-valuemin":0});#last={index:-1,at:0};#drag=null;#scrubbing=null;#shown=null;constructor(hand){
 this.hand=hand;this.strip=make("div",{className:"glid-strip",role:"img",onpointerleave:()=>hand.hover(
-"")});const parts=[this.ruler,this.keys,this.strip,this.head];this.element=make("div",{className:"gl\
-id-track"},...parts);this.zoom=new Zoom(this.element,()=>this.#label());new ResizeObserver(()=>this.#label()).
+"")});this.range=new RangeMarks({at:time=>this.#at(time),timeOf:e=>this.#timeNear(e,true),frame:()=>1/
+this.rate,set:range=>hand.range(range),hover:text=>hand.hover(text)});const{elements}=this.range;const parts=[
+this.ruler,this.keys,this.eases,this.strip,...elements,this.head];this.element=make("div",{className:"\
+glid-track"},...parts);this.zoom=new Zoom(this.element,()=>this.#label());new ResizeObserver(()=>this.#label()).
 observe(this.ruler);this.element.addEventListener("pointerdown",e=>this.#down(e));this.element.addEventListener(
 "pointermove",e=>this.#scrub(e));this.element.addEventListener("lostpointercapture",e=>this.#up(e))}rename(index=this.#focused()){
 const key=this.#shown?.keyframes[index];if(!key)return;const rename=name=>this.hand.rename(index,name);
-nameField(this.element,this.#at(key.time),key.name,rename,()=>this.focus())}#focused(){const root=this.
-keys.getRootNode();const active=root.activeElement;return[...this.keys.children].indexOf(active)}showRate(rate){
+nameField(this.element,this.#at(key.time),key.name,rename,()=>this.focus())}#focused(row=this.keys){
+const root=row.getRootNode();const active=root.activeElement;return[...row.children].indexOf(active)}showRate(rate){
 this.rate=rate;this.#label()}focus(){this.ruler.focus({preventScroll:true})}drop(){this.#drag=null;this.#scrubbing=
-null;this.hand.hover("");this.hand.dropped()}landing(index,time){const least=SLIM/this.#inside().width*
-this.span;return landing(this.#shown?.keyframes??[],index,time,least)}showHead(place,seen){this.head.
-style.left=this.#at(place);this.head.classList.toggle("glid-seen",seen);this.head.dataset.label=place.
-toFixed(2);this.element.dataset.time=String(place);this.element.dataset.span=String(this.span);this.
-ruler.setAttribute("aria-valuenow",place.toFixed(2));this.ruler.setAttribute("aria-valuetext",seconds(
-place));if(seen&&this.#scrubbing===null)this.zoom.reveal(this.head.offsetLeft)}showKeys(shown,thumbnails){
+null;this.range.drop();this.hand.hover("");this.hand.dropped()}landing(index,time){const least=SLIM/
+this.#inside().width*this.span;return landing(this.#shown?.keyframes??[],index,time,least)}showHead(place,seen){
+this.head.style.left=this.#at(place);this.head.classList.toggle("glid-seen",seen);this.head.dataset.
+label=place.toFixed(2);this.element.dataset.time=String(place);this.element.dataset.span=String(this.
+span);this.ruler.setAttribute("aria-valuenow",place.toFixed(2));this.ruler.setAttribute("aria-valuet\
+ext",seconds(place));if(seen&&this.#scrubbing===null)this.zoom.reveal(this.head.offsetLeft)}showKeys(shown,thumbnails){
 this.#shown=shown;if(this.#drag||this.#scrubbing!==null)return;const all=withReturn(shown);this.span=
 spanOf(all);this.ruler.setAttribute("aria-valuemax",this.span.toFixed(2));const focused=this.#focused();
 this.keys.replaceChildren(...all.map(({name,time,thumbnail},i)=>{const title=`${name} at ${seconds(time)}`;
@@ -171,96 +263,122 @@ turn",title:`${title}; drag it to another time`,"aria-label":title,"aria-pressed
 left: ${this.#at(time)}; width: clamp(${SLIM}px, ${width}, ${WIDE}px)`,onpointerdown:e=>this.#grab(e,
 i,time),onclick:e=>{if(!e.detail)this.hand.select(i%shown.keyframes.length)}},...picture?[make("img",
 {src:picture,alt:"",draggable:false})]:[])}));const key=this.keys.children[focused];if(key instanceof
-HTMLElement)key.focus()}showSpans(spans,label){this.strip.replaceChildren(...spans.flatMap(span=>this.#pieces(
-span)));this.strip.setAttribute("aria-label",label);this.#label()}#label(){const{ruler,span,rate}=this;
-const width=Math.max(ruler.clientWidth-2*INSET,0);const labels=labelledTimes(span,width,this.zoom.factor).
-map(time=>{const frame2=frameAt(time,rate);const number=frame2===null?[]:[make("small",{},`${frame2}`)];
-const text=`${Number(time.toFixed(2))}`;return make("span",{style:`left: ${this.#at(time)}`},text,...number)});
-const frame=width/(span*rate);const ticks=make("i",{className:"glid-frames",hidden:frame<LEAST_FRAME});
-ticks.style.setProperty("--glid-frame",`${frame}px`);ruler.replaceChildren(ticks,...labels)}#pieces({
-start,end,status,reason,times,sigma2}){const proved=sigma2.map((bound,i)=>{const when=`from ${seconds(
-times[i])} to ${seconds(times[i+1])}`;const height=heightOf(bound);const text2=`σ₂ ≥ ${bound.toFixed(
-3)} ${when}`;return this.#piece(times[i],times[i+1],"proved",text2,height)});if(status==="proved")return proved;
-const from=status==="fails"?times.at(-1)??start:start;const text=reason||`Not proved yet from ${seconds(
-start)} to ${seconds(end)}`;return[...proved,this.#piece(from,end,status,text,1)]}#piece(start,end,kind,text,height){
-const width=`calc(${this.#wide(end-start)})`;return make("div",{className:`glid-piece glid-${kind}`,
-title:text,onpointerenter:()=>this.hand.hover(text),style:`left: ${this.#at(start)}; width: ${width}\
-; --glid-height: ${height}`})}#wide(time){return`${time/this.span} * (100% - 2 * var(--glid-inset))`}#at(time){
-return`calc(var(--glid-inset) + ${this.#wide(time)})`}#inside(){const{left,width}=this.element.getBoundingClientRect();
-const length=getComputedStyle(this.element).getPropertyValue("--glid-inset");const inset=Number.parseFloat(
-length)*scaleOf(this.element).across;return{left:left+inset,width:width-2*inset}}#grab(e,index,time){
-if(e.button!==0)return;e.stopPropagation();const button=e.currentTarget;this.#drag={index,from:time,
-x:e.clientX,time:null};button.setPointerCapture(e.pointerId);button.focus({preventScroll:true});button.
-onpointermove=move=>this.#dragged(move,button);button.onlostpointercapture=()=>this.#letGo()}#dragged(e,button){
-const drag=this.#drag;if(!drag)return;const moved=e.clientX-drag.x;if(drag.time===null&&Math.abs(moved)<=
-STILL)return;const time=drag.from+moved/this.#inside().width*this.span;drag.time=this.landing(drag.index,
-time);button.style.left=this.#at(drag.time);this.head.style.left=this.#at(drag.time);this.hand.hover(
-`to ${seconds(drag.time)}`)}#letGo(){if(!this.#drag)return;const{index,time}=this.#drag;this.drop();
-if(time!==null){this.focus();this.hand.move(index,time)}else if(index<(this.#shown?.keyframes.length??
-0)){this.#clicked(index)}}#clicked(index){const now=performance.now();const last=this.#last;this.#last=
-{index,at:now};if(last.index===index&&now-last.at<DOUBLE_CLICK)this.rename(index);else this.hand.select(
-index)}#down(e){if(e.button!==0)return;this.#scrubbing=e.pointerId;this.element.setPointerCapture(e.
-pointerId);this.#scrub(e)}#scrub(e){if(this.#scrubbing!==e.pointerId)return;const{left,width}=this.#inside();
+HTMLElement)key.focus();this.#showEases(all);const{time:end}=all[all.length-1];this.range.show(shown.
+range,all.length>1?[all[0].time,end]:null)}#showEases(all){const focused=this.#focused(this.eases);this.
+eases.replaceChildren(...all.slice(1).map(({name,time},i)=>{const start=all[i];const title=`From ${start.
+name} to ${name}: ${nameOf(start.easing)}`;const button2=make("button",{className:"glid-segment-ease",
+title,"aria-label":title,"aria-haspopup":"dialog",innerHTML:curveIcon(start.easing),style:`left: ${this.#at(
+(start.time+time)/2)}`,onpointerdown:e=>{e.stopPropagation();this.hand.easePressed()},onclick:()=>this.
+hand.ease(i,button2)});button2.dataset.seconds=`${time-start.time}`;button2.dataset.even=String(start.
+easing==="linear");return button2}));this.#hideNarrow();const button=this.eases.children[focused];if(button instanceof
+HTMLElement)button.focus()}#hideNarrow(){const perSecond=Math.max(this.ruler.clientWidth-2*INSET,0)/
+this.span;for(const button of this.eases.children){button.hidden=Number(button.dataset.seconds)*perSecond<
+WIDE+EASE2}}showSpans(spans,label){this.strip.replaceChildren(...spans.flatMap(span=>this.#pieces(span)));
+this.strip.setAttribute("aria-label",label);this.#label()}#label(){const{ruler,span,rate}=this;const width=Math.
+max(ruler.clientWidth-2*INSET,0);const labels=labelledTimes(span,width,this.zoom.factor).map(time=>{
+const frame2=frameAt(time,rate);const number=frame2===null?[]:[make("small",{},`${frame2}`)];const text=`${Number(
+time.toFixed(2))}`;return make("span",{style:`left: ${this.#at(time)}`},text,...number)});const frame=width/
+(span*rate);const ticks=make("i",{className:"glid-frames",hidden:frame<LEAST_FRAME});ticks.style.setProperty(
+"--glid-frame",`${frame}px`);ruler.replaceChildren(ticks,...labels);this.#hideNarrow()}#pieces({start,
+end,status,reason,times,sigma2}){const proved=sigma2.map((bound,i)=>{const when=`from ${seconds(times[i])}\
+ to ${seconds(times[i+1])}`;const height=heightOf(bound);const text2=`σ₂ ≥ ${bound.toFixed(3)} ${when}`;
+return this.#piece(times[i],times[i+1],"proved",text2,height)});if(status==="proved")return proved;const from=status===
+"fails"?times.at(-1)??start:start;const text=reason||`Not proved yet from ${seconds(start)} to ${seconds(
+end)}`;return[...proved,this.#piece(from,end,status,text,1)]}#piece(start,end,kind,text,height){const width=`\
+calc(${this.#wide(end-start)})`;return make("div",{className:`glid-piece glid-${kind}`,title:text,onpointerenter:()=>this.
+hand.hover(text),style:`left: ${this.#at(start)}; width: ${width}; --glid-height: ${height}`})}#wide(time){
+return`${time/this.span} * (100% - 2 * var(--glid-inset))`}#at(time){return`calc(var(--glid-inset) +\
+ ${this.#wide(time)})`}#inside(){const{left,width}=this.element.getBoundingClientRect();const length=getComputedStyle(
+this.element).getPropertyValue("--glid-inset");const inset=Number.parseFloat(length)*scaleOf(this.element).
+across;return{left:left+inset,width:width-2*inset}}#grab(e,index,time){if(e.button!==0)return;e.stopPropagation();
+const button=e.currentTarget;this.#drag={index,from:time,x:e.clientX,time:null};button.setPointerCapture(
+e.pointerId);button.focus({preventScroll:true});button.onpointermove=move=>this.#dragged(move,button);
+button.onlostpointercapture=()=>this.#letGo()}#dragged(e,button){const drag=this.#drag;if(!drag)return;
+const moved=e.clientX-drag.x;if(drag.time===null&&Math.abs(moved)<=STILL)return;const time=drag.from+
+moved/this.#inside().width*this.span;drag.time=this.landing(drag.index,time);button.style.left=this.#at(
+drag.time);this.head.style.left=this.#at(drag.time);this.hand.hover(`to ${seconds(drag.time)}`)}#letGo(){
+if(!this.#drag)return;const{index,time}=this.#drag;this.drop();if(time!==null){this.focus();this.hand.
+move(index,time)}else if(index<(this.#shown?.keyframes.length??0)){this.#clicked(index)}}#clicked(index){
+const now=performance.now();const last=this.#last;this.#last={index,at:now};if(last.index===index&&now-
+last.at<DOUBLE_CLICK)this.rename(index);else this.hand.select(index)}#down(e){if(e.button!==0)return;
+this.#scrubbing=e.pointerId;this.element.setPointerCapture(e.pointerId);this.#scrub(e)}#scrub(e){if(this.#scrubbing===
+e.pointerId)this.hand.scrub(this.#timeNear(e))}#timeNear(e,framed=false){const{left,width}=this.#inside();
 const time=(e.clientX-left)/width*this.span;const near=SNAP/width*this.span;const key=this.#shown?.keyframes.
-find(one=>Math.abs(one.time-time)<near);this.hand.scrub(key?.time??time)}#up(e){if(this.#scrubbing!==
-e.pointerId)return;this.drop();this.hand.scrubbed()}};var NUDGE=.1;var Timeline=class{note=make("div",{className:"glid-timeline-note",role:"status","aria-\
-live":"polite"});stage=null;#layers=null;#otherLayers={};#hovered="";#playing={release:()=>this.release(),
-pause:()=>{this.player.pause();return this.player.place}};constructor({model,el,signal}){this.model=
-model;this.root=make("div",{className:"glid-skin glid-timeline",role:"group","aria-label":"Timeline"});
-this.root.dataset.lmSuppressShortcuts="true";this.link=new Link(model,this.root,signal,()=>this.tell());
-this.player=new Player((floats,time,others)=>this.#show(floats,time,others),()=>this.showHead(),()=>this.#selectHere());
-this.bar=new Bar({play:()=>this.player.play(),keep:()=>this.keep(),act:(type,content)=>void this.act(
-type,content),edit:(type,content)=>void this.edit(type,content),zoom:by=>this.track.zoom.zoom(by)});
-this.track=new Track({scrub:time=>this.#scrub(time),scrubbed:()=>this.#selectHere(),select:index=>this.
+find(one=>Math.abs(one.time-time)<near);return key?.time??(framed?Math.round(time*this.rate)/this.rate:
+time)}#up(e){if(this.#scrubbing!==e.pointerId)return;this.drop();this.hand.scrubbed()}};var NUDGE=.1;var Timeline=class{note=make("div",{className:"glid-timeline-note",role:"status","aria-\
+live":"polite"});stage=null;#layers=null;#otherLayers={};#easeBefore=-1;#played=false;#hovered="";#playing={
+release:()=>this.release(),pause:()=>{this.player.pause();return this.player.place}};constructor({model,
+el,signal}){this.model=model;this.root=make("div",{className:"glid-skin glid-timeline",role:"group",
+"aria-label":"Timeline"});this.root.dataset.lmSuppressShortcuts="true";this.link=new Link(model,this.
+root,signal,()=>this.tell());this.player=new Player((floats,time,others)=>this.#show(floats,time,others),
+()=>this.showHead(),()=>this.#selectHere());this.bar=new Bar({play:()=>this.play(),keep:()=>this.keep(),
+act:(type,content)=>void this.act(type,content),edit:(type,content)=>void this.edit(type,content),zoom:by=>this.
+track.zoom.zoom(by),ease:()=>this.#ease()});this.bar.ease.addEventListener("pointerdown",()=>this.#easePressed());
+this.ease=new EaseEditor((index,easing)=>void this.act("set_easing",{index,easing}),index=>this.#easeClosed(
+index));this.track=new Track({scrub:time=>this.#scrub(time),scrubbed:()=>this.#selectHere(),select:index=>this.
 select(index),move:(index,time)=>void this.act("move_pose",{index,time}),rename:(index,name)=>void this.
-act("rename_pose",{index,name}),hover:text=>{this.#hovered=text;this.tell()},dropped:()=>{this.showKeys();
-this.showHead()}});const parts=[this.bar.element,this.note,legend(),this.track.zoom.box];this.root.append(
-make("div",{className:"glid-timeline-parts"},...parts));this.root.addEventListener("keydown",e=>this.#keydown(
-e));this.root.addEventListener("keyup",e=>{if(e.key===" "&&!this.#typing(e))e.preventDefault()});this.
-bar.element.addEventListener("click",e=>{const target=e.target;if(e.detail&&target.closest("button"))
-this.track.focus()});el.classList.add("glid-host");el.append(this.root)}get shown(){return this.model.
-get("shown")}get spans(){return this.model.get("motion").spans}get active(){return this.shown.keyframes[this.
-shown.active]}act(type,content={}){return this.link.put({type,...content})}edit(type,content={}){return this.
-act(type,{index:this.shown.active,...content})}release=()=>{this.player.release(this.active.time)};select(index){
-if(index===this.shown.active)this.release();else this.act("go_to_pose",{index})}tell(){const{refusal}=this.
-link;const bad=this.spans.some(({reason})=>reason);const text=refusal||this.#hovered||noteOn(this.shown,
-this.spans);this.note.textContent=text;this.note.title=text;this.note.dataset.tone=refusal||bad&&!this.#hovered?
-"bad":""}showHead(){const{keyframes}=this.shown;if(!keyframes)return;const{place,seen,playing}=this.
-player;const end=this.spans.at(-1)?.end??keyframes[keyframes.length-1].time;this.track.showHead(place,
-seen);this.bar.showTime(place,end,playing)}showRate(){this.track.showRate(this.model.get("rate"))}showKeys(){
-this.track.showKeys(this.shown,this.model.get("thumbnails"))}showState(){const{keyframes,active}=this.
-shown;const now=`${active}/${keyframes.length}`;const moved=this.root.dataset.active!==now;this.root.
-dataset.active=now;this.bar.update(this.shown);this.showKeys();this.showMotion();if(moved||!this.player.
-seen)this.release()}showMotion(){const{player,shown,spans}=this;player.only=shown.keyframes?.[0].time??
-0;player.set(intervalsOf(spans),shown.repeat,this.#others);const computing=spans.some(({status})=>status===
-"computing");if(shown.kernel&&!player.playing&&player.seen&&computing)this.release();this.tell();this.
-track.showSpans(spans,this.note.textContent??"");this.showHead()}get#others(){const motions=this.model.
-get("part_motions");return Object.fromEntries(motions.map(({key,spans})=>[key,intervalsOf(spans)]))}showOthers(){
-const layers=this.model.get("part_motions").map(one=>[one.key,layersOf(one.heights)]);this.#otherLayers=
-Object.fromEntries(layers);this.showMotion()}showHeights(){this.#layers=layersOf(this.model.get("hei\
-ghts"))}#show(floats,time,others={}){const{stage}=this;if(!stage)return;const moving=time!==void 0;const heights=moving?
-this.#layers?.at(time)??null:null;const parts=Object.entries(others).map(([key,theirs])=>{return[key,
-{floats:theirs,heights:this.#otherLayers[key]?.at(time??0)??null}]});const seen=moving?floats??true:
-null;stage.trigger("glid:motion",seen,this.#playing,heights,Object.fromEntries(parts));if(this.shown.
-kernel)return this.act("frame",{time:time??null,replaces:"frame"})}keep(){const{player}=this;this.act(
-"keep",{time:player.seen?player.place:this.active.time})}#scrub(time){this.player.scrub(Math.min(time,
-this.track.span))}#selectHere(){const index=keyAt(this.shown.keyframes,this.player.place);if(index>=
-0)this.select(index)}#typing(e){return this.bar.element.contains(e.target)}#keydown(e){const history=undoOrRedo(
-e);if(!history&&(e.ctrlKey||e.metaKey))return;e.stopPropagation();const does=this.#typing(e)?null:this.#keyDoes(
-e);if(!history&&!does)return;e.preventDefault();if(history)this.act(history);else does?.()}#keyDoes(e){
-const{keyframes}=this.shown;switch(e.key){case" ":return()=>void(e.repeat||this.player.play());case"\
-ArrowLeft":return()=>this.#step(e,-1);case"ArrowRight":return()=>this.#step(e,1);case"F2":return()=>this.
-track.rename();case"Delete":case"Backspace":return()=>void this.edit("delete_pose");case"Home":return()=>this.
-select(0);case"End":return()=>this.select(keyframes.length-1);case"Escape":return()=>{this.track.drop();
-this.release()};default:return null}}#step(e,sign){const{player,track}=this;const{keyframes,active}=this.
-shown;if(e.altKey){const time=track.landing(active,this.active.time+sign*NUDGE);this.edit("move_pose",
-{time})}else if(e.shiftKey){this.select(nextKey(keyframes,player.place,sign)??active)}else{this.#scrub(
-player.place+sign/track.rate)}}};function intervalsOf(spans){return spans.map(span=>({...span,floats:toFloats(
-span.floats)}))}function layersOf({times,floats}){return times.length?new Motion({times,repeat:"once"},
-toFloats(floats)):null}function render(context){const{model,el,signal}=context;const timeline=new Timeline(context);const{player}=timeline;
+act("rename_pose",{index,name}),range:range=>void this.act("set_loop_range",{range}),ease:(index,button)=>this.#openEase(
+index,button),easePressed:()=>this.#easePressed(),hover:text=>{this.#hovered=text;this.tell()},dropped:()=>{
+this.showKeys();this.showHead()}});const parts=[this.bar.element,this.note,legend(),this.track.zoom.
+box];this.root.append(make("div",{className:"glid-timeline-parts"},...parts),this.ease.element);this.
+root.addEventListener("keydown",e=>this.#keydown(e));this.root.addEventListener("keyup",e=>{if(e.key===
+" "&&!this.#typing(e))e.preventDefault()});this.bar.element.addEventListener("click",e=>{const target=e.
+target;if(e.detail&&target.closest("button"))this.track.focus()});el.classList.add("glid-host");el.append(
+this.root)}get shown(){return this.model.get("shown")}get spans(){return this.model.get("motion").spans}get active(){
+return this.shown.keyframes[this.shown.active]}act(type,content={}){return this.link.put({type,...content})}edit(type,content={}){
+return this.act(type,{index:this.shown.active,...content})}release=()=>{this.player.release(this.active.
+time)};select(index){if(index===this.shown.active)this.release();else this.act("go_to_pose",{index})}tell(){
+const{refusal}=this.link;const bad=this.spans.some(({reason})=>reason);const text=refusal||this.#hovered||
+noteOn(this.shown,this.spans);this.note.textContent=text;this.note.title=text;this.note.dataset.tone=
+refusal||bad&&!this.#hovered?"bad":""}showHead(){const{keyframes}=this.shown;if(!keyframes)return;const{
+place,seen,playing}=this.player;const end=this.spans.at(-1)?.end??keyframes[keyframes.length-1].time;
+this.track.showHead(place,seen);this.bar.showTime(place,end,playing)}showRate(){this.track.showRate(
+this.model.get("rate"))}showKeys(){this.track.showKeys(this.shown,this.model.get("thumbnails"));const segment=this.#segment(
+this.ease.index);if(segment)this.ease.show(segment.title,segment.easing);else this.ease.close()}showState(){
+const{keyframes,active}=this.shown;const now=`${active}/${keyframes.length}`;const moved=this.root.dataset.
+active!==now;this.root.dataset.active=now;this.bar.update(this.shown);this.showKeys();this.showMotion();
+if(moved||!this.player.seen)this.release()}showMotion(){const{player,shown,spans}=this;player.only=shown.
+keyframes?.[0].time??0;player.range=shown.range??null;player.set(intervalsOf(spans),shown.repeat,this.#others);
+const computing=spans.some(({status})=>status==="computing");if(shown.kernel&&!player.playing&&player.
+seen&&computing)this.release();this.tell();this.track.showSpans(spans,this.note.textContent??"");this.
+showHead()}get#others(){const motions=this.model.get("part_motions");return Object.fromEntries(motions.
+map(({key,spans})=>[key,intervalsOf(spans)]))}showOthers(){const layers=this.model.get("part_motions").
+map(one=>[one.key,layersOf(one.heights)]);this.#otherLayers=Object.fromEntries(layers);this.showMotion()}showHeights(){
+this.#layers=layersOf(this.model.get("heights"))}#show(floats,time,others={}){const{stage}=this;if(!stage)
+return;const moving=time!==void 0;const heights=moving?this.#layers?.at(time)??null:null;const parts=Object.
+entries(others).map(([key,theirs])=>{return[key,{floats:theirs,heights:this.#otherLayers[key]?.at(time??
+0)??null}]});const seen=moving?floats??true:null;stage.trigger("glid:motion",seen,this.#playing,heights,
+Object.fromEntries(parts));if(this.shown.kernel)return this.act("frame",{time:time??null,replaces:"f\
+rame"})}play(){this.player.play();if(!this.player.playing||this.#played)return;this.#played=true;void this.
+act("played")}keep(){const{player}=this;this.act("keep",{time:player.seen?player.place:this.active.time})}#segment(index){
+const[start,end]=withReturn(this.shown).slice(index,index+2);return index>=0&&end?{title:`${start.name}\
+ → ${end.name}`,easing:start.easing}:null}#ease(){const{active,keyframes}=this.shown;const last=withReturn(
+this.shown).length-2;const{bar,track}=this;const index=Math.min(active,last);const own=track.eases.children[index];
+if(keyframes.length>1)this.#openEase(index,own&&!own.hidden?own:bar.ease)}#easePressed(){this.#easeBefore=
+this.ease.index}#openEase(index,at){const segment=this.#segment(index);if(segment&&this.#easeBefore!==
+index){this.ease.open(index,segment.title,segment.easing,at)}this.#easeBefore=-1}#easeClosed(index){
+const{activeElement}=document;const lost=!activeElement||activeElement===document.body;if(!lost&&!this.
+ease.element.contains(activeElement))return;const button=this.track.eases.children[index];if(button instanceof
+HTMLElement&&!button.hidden)button.focus({preventScroll:true});else this.track.focus()}#scrub(time){
+this.player.scrub(Math.min(time,this.track.span))}#selectHere(){const index=keyAt(this.shown.keyframes,
+this.player.place);if(index>=0)this.select(index)}#typing(e){return this.bar.element.contains(e.target)}#keydown(e){
+const history=undoOrRedo(e);if(!history&&(e.ctrlKey||e.metaKey))return;e.stopPropagation();const does=this.#typing(
+e)?null:this.#keyDoes(e);if(!history&&!does)return;e.preventDefault();if(history)this.act(history);else
+does?.()}#rangeEnd(which){const{player}=this;this.track.range.key(which,player.seen?player.place:this.
+active.time)}#keyDoes(e){const{keyframes}=this.shown;switch(e.key){case" ":return()=>void(e.repeat||
+this.play());case"ArrowLeft":return()=>this.#step(e,-1);case"ArrowRight":return()=>this.#step(e,1);case"\
+Enter":return e.target===this.track.ruler?()=>this.#ease():null;case"F2":return()=>this.track.rename();case"\
+Delete":case"Backspace":return()=>void this.edit("delete_pose");case"Home":return()=>e.shiftKey?this.#rangeEnd(
+0):this.select(0);case"End":return()=>e.shiftKey?this.#rangeEnd(1):this.select(keyframes.length-1);case"\
+Escape":return()=>{this.track.drop();this.release()};default:return null}}#step(e,sign){const{player,
+track}=this;const{keyframes,active}=this.shown;if(e.altKey){const time=track.landing(active,this.active.
+time+sign*NUDGE);this.edit("move_pose",{time})}else if(e.shiftKey){this.select(nextKey(keyframes,player.
+place,sign)??active)}else{this.#scrub(player.place+sign/track.rate)}}};function intervalsOf(spans){return spans.
+map(span=>({...span,floats:toFloats(span.floats)}))}function layersOf({times,floats}){return times.length?
+new Motion({times,repeat:"once"},toFloats(floats)):null}function render(context){const{model,el,signal}=context;const timeline=new Timeline(context);const{player}=timeline;
 const tapped=e=>{const target=e.target;if(target.closest(".glid-editor")===el.closest(".glid-editor"))
-player.play()};window.addEventListener("glid:play",tapped,{signal});const keyed=e=>{const target=e.target;
-if(target.closest(".glid-editor")===el.closest(".glid-editor"))timeline.keep()};window.addEventListener(
+timeline.play()};window.addEventListener("glid:play",tapped,{signal});const keyed=e=>{const target=e.
+target;if(target.closest(".glid-editor")===el.closest(".glid-editor"))timeline.keep()};window.addEventListener(
 "glid:key",keyed,{signal});follow(model,{"change:shown":()=>timeline.showState(),"change:rate":()=>timeline.
 showRate(),"change:motion":()=>timeline.showMotion(),"change:heights":()=>timeline.showHeights(),"ch\
 ange:part_motions":()=>timeline.showOthers(),"change:thumbnails":()=>timeline.showKeys()});const edited=()=>{

@@ -16,30 +16,34 @@ export:"M8 2v8 M4.8 6.8L8 10l3.2-3.2 M3 13.5h10",trash:"M3 4.5h10 M6.5 4.5v-2h3v
 .6-9"};function icon(name){return drawn(PATHS[name])}function drawn(path){return`<svg viewBox="0 0 1\
 6 16" aria-hidden="true"><path d="${path}"/></svg>`}function iconButton(name,title,onclick,className="\
 glid-icon"){return drawnButton(PATHS[name],title,onclick,className)}function drawnButton(path,title,onclick,className="\
-glid-icon"){return make("button",{title,"aria-label":title,className,onclick,innerHTML:drawn(path)})}var BELOW=4;var ViewMenu=class{constructor(model,alone){this.model=model;this.overlays=model.get("ov\
+glid-icon"){return make("button",{title,"aria-label":title,className,onclick,innerHTML:drawn(path)})}var BELOW=4;var ViewMenu=class{constructor(model,press){this.model=model;this.overlays=model.get("ov\
 erlays").map(([name,label])=>{const item=row("menuitemradio",label,()=>save(model,{overlay:name}));item.
 dataset.value=name;return item});this.checks=model.get("checks").map(([name,label,title])=>{const item=row(
 "menuitemcheckbox",label,()=>{const shows=model.get("shows");save(model,{shows:{...shows,[name]:!shows[name]}})});
-item.dataset.value=name;item.title=title;return item});const picture=row("menuitem","The picture alo\
-ne",()=>{this.menu.hidePopover();alone()});picture.append(make("kbd",{},"P"));this.menu=make("div",{
-className:"glid-menu glid-view-menu",role:"menu","aria-label":"What the canvas shows",popover:"auto"},
-...[...this.overlays,make("hr"),...this.checks,make("hr"),picture]);this.label=make("span",{className:"\
-glid-view-label"});this.button=make("button",{className:"glid-view-button",title:"What the shape sho\
-ws","aria-haspopup":"menu",popoverTargetElement:this.menu,innerHTML:icon("eye")});this.button.append(
-this.label,make("span",{className:"glid-chevron"}));this.menu.addEventListener("beforetoggle",()=>this.#place());
+item.dataset.value=name;item.title=title;return item});const closing=(label,action)=>row("menuitem",
+label,()=>{this.menu.hidePopover();press(action)});const picture=closing("The picture alone","p");this.
+reference=closing("","reference");this.reference.title="A picture behind the shape, to draw poses af\
+ter; no export has it";picture.append(make("kbd",{},"P"));this.menu=make("div",{className:"glid-menu\
+ glid-view-menu",role:"menu","aria-label":"What the canvas shows",popover:"auto"},...[...this.overlays,
+make("hr"),...this.checks,make("hr"),this.reference,picture]);this.label=make("span",{className:"gli\
+d-view-label"});this.button=make("button",{className:"glid-view-button",title:"What the shape shows",
+"aria-haspopup":"menu",popoverTargetElement:this.menu,innerHTML:icon("eye")});this.button.append(this.
+label,make("span",{className:"glid-chevron"}));this.menu.addEventListener("beforetoggle",()=>this.#place());
 this.menu.addEventListener("toggle",e=>this.#opened(e));this.menu.addEventListener("keydown",e=>this.#step(
 e))}show(){const overlay=this.model.get("overlay");const shows=this.model.get("shows");for(const item of this.
 overlays){const chosen=item.dataset.value===overlay;item.ariaChecked=String(chosen);if(chosen)this.label.
-textContent=item.textContent}for(const item of this.checks)item.ariaChecked=String(shows[item.dataset.
-value??""])}#place(){const{left,bottom}=this.button.getBoundingClientRect();this.menu.style.left=`${left}\
-px`;this.menu.style.top=`${bottom+BELOW}px`}#opened({newState}){this.button.ariaExpanded=String(newState===
-"open");if(newState!=="open")return;this.overlays.find(item=>item.ariaChecked==="true")?.focus({preventScroll:true})}#step(e){
-const by={ArrowDown:1,ArrowUp:-1}[e.key];if(!by)return;e.preventDefault();e.stopPropagation();const items=[
-...this.menu.querySelectorAll("button")];const focused=items.indexOf(document.activeElement);items.at(
-(focused+by)%items.length)?.focus()}};function row(role,label,onclick){return make("button",{role,onclick},
-make("span",{},label))}var TOOLS=[["","edit","Select and drag pins (Esc)"],["stiff","brush","Paint what should stay stiff (\
+textContent=item.textContent}const{firstElementChild:label}=this.reference;const has=this.model.get(
+"referenced");if(label)label.textContent=has?"Remove the reference":"Reference picture…";for(const item of this.
+checks)item.ariaChecked=String(shows[item.dataset.value??""])}#place(){const{left,bottom}=this.button.
+getBoundingClientRect();const lowest=window.innerHeight-this.menu.offsetHeight-BELOW;this.menu.style.
+left=`${left}px`;this.menu.style.top=`${Math.max(BELOW,Math.min(bottom+BELOW,lowest))}px`}#opened({newState}){
+this.button.ariaExpanded=String(newState==="open");if(newState!=="open")return;this.#place();this.overlays.
+find(item=>item.ariaChecked==="true")?.focus({preventScroll:true})}#step(e){const by={ArrowDown:1,ArrowUp:-1}[e.
+key];if(!by)return;e.preventDefault();e.stopPropagation();const items=[...this.menu.querySelectorAll(
+"button")];const focused=items.indexOf(document.activeElement);items.at((focused+by)%items.length)?.
+focus()}};function row(role,label,onclick){return make("button",{role,onclick},make("span",{},label))}var TOOLS=[["","edit","Select and drag pins (Esc)"],["stiff","brush","Paint what should stay stiff (\
 B)"],["erase","eraser","Erase stiff areas (E)"]];var INSPECTOR="M2 3h12v10H2z M10 3v10";var Toolbar=class{constructor(model){
-this.model=model;this.view=new ViewMenu(model,()=>this.#press("p"));this.tools=TOOLS.map(([tool,icon2,
+this.model=model;this.view=new ViewMenu(model,name=>this.#press(name));this.tools=TOOLS.map(([tool,icon2,
 title])=>{const button=iconButton(icon2,title,()=>save(model,{tool}));button.dataset.tool=tool||"sel\
 ect";return button});this.undo=iconButton("undo","Undo (Ctrl+Z)",()=>model.send({type:"undo"}));this.
 redo=iconButton("redo","Redo (Ctrl+Shift+Z)",()=>model.send({type:"redo"}));this.element=make("div",
@@ -57,4 +61,5 @@ this.#find(".glid-pad:not([inert])")?.dispatchEvent(event)}#help(){const title="
 button.addEventListener("pointerenter",aim);button.addEventListener("focus",aim);return button}};function gap(){
 return make("span",{className:"glid-gap"})}function render({model,el}){const toolbar=new Toolbar(model);el.classList.add("glid-host");el.append(
 toolbar.element);follow(model,{"change:tool":()=>toolbar.showTool(),"change:can_undo change:can_redo":()=>toolbar.
-showHistory(),"change:overlay change:shows":()=>toolbar.view.show()})}var main_default={render};export{main_default as default};
+showHistory(),"change:overlay change:shows change:referenced":()=>toolbar.view.show()})}var main_default={
+render};export{main_default as default};

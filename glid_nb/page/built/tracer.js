@@ -93,71 +93,79 @@ power,digits}){return Number((most*share**power).toFixed(digits))}function share
 return Math.min(Math.max(value/most,0),1)**(1/power)}function statusOf(shown,refusal,busy){if(refusal)return{kind:"bad",text:refusal};if(busy)return{kind:"\
 busy",text:"Working…"};if(!shown.size)return{kind:"idle",text:"No picture yet"};if(shown.problems.
 length){const kept="This is not a valid cage; the last valid cage is kept";return{kind:"bad",text:shown.
-loops.length?kept:"There is no cage yet"}}const text=cutOf(shown)+cageOf(shown)+moreOn(shown);const{
-doubt}=shown;return doubt?{kind:"guess",text:`A guess, as ${doubt} · ${text}`}:{kind:"ok",text}}function cutOf({
-cut}){if(!cut)return"";const{shares,kept,in_middle:inMiddle}=cut;if(shares.length>1){const percent=Math.
-round(100*shares[kept]);const rest=shares.length>2?"the others are left out":"the other one is left \
-out";return`Cut into ${shares.length} pieces: ${percent} % of the shape is kept, ${rest} · `}return inMiddle?
-"Cut inside the shape, as a thin hole · ":"Cut open along the line · "}function cageOf({loops}){return`\
-Cage with ${loops.flat().length} vertices and ${holesIn(loops.length-1)}`}function moreOn({discarded,
-component,n_components:count}){if(discarded)return" · your edits were lost with the old outline; Und\
-o brings them back";if(count<2)return"";const which=component?`component ${component+1}`:"the larges\
-t";return` · ${which} of ${count} components`}function holesIn(count){if(count<1)return"no holes";return count===
-1?"1 hole":`${count} holes`}var METHODS=[["auto","Auto","Chosen for the picture"],["alpha","Alpha","Pixels that are not transpar\
+loops.length?kept:"There is no cage yet"}}const{doubt}=shown;if(doubt)return{kind:"guess",text:`No o\
+utline yet, as ${doubt} · paint over the shape`};return{kind:"ok",text:cutOf(shown)+cageOf(shown)+moreOn(
+shown)}}function cutOf({cut}){if(!cut)return"";const{shares,kept,in_middle:inMiddle}=cut;if(shares.length>
+1){const percent=Math.round(100*shares[kept]);const rest=shares.length>2?"the others are left out":"\
+the other one is left out";return`Cut into ${shares.length} pieces: ${percent} % of the shape is kep\
+t, ${rest} · `}return inMiddle?"Cut inside the shape, as a thin hole · ":"Cut open along the line \
+· "}function cageOf({loops}){return`Cage with ${loops.flat().length} vertices and ${holesIn(loops.length-
+1)}`}function moreOn({discarded,component,n_components:count}){if(discarded)return" · your edits wer\
+e lost with the old outline; Undo brings them back";if(count<2)return"";const which=component?`compo\
+nent ${component+1}`:"the largest";return` · ${which} of ${count} components`}function holesIn(count){
+if(count<1)return"no holes";return count===1?"1 hole":`${count} holes`}var METHODS=[["auto","Auto","Chosen for the picture"],["alpha","Alpha","Pixels that are not transpar\
 ent"],["threshold","Brightness","Pixels darker, or brighter, than a threshold"],["color","Colour","P\
 ixels that differ from the background's colour"],["scribbles","Scribbles","Pixels like those under p\
 ainted strokes"]];var OUTLINES=[["foreground","Paint over it","A few strokes over the shape, then ov\
 er the background"],["polygon","Draw its outline","Click the corners in turn, or draw around the sha\
 pe"],["rectangle","Rectangle","Drag a rectangle"]];var MOST_LISTED=50;var LARGE=1e4;var Panel=class{constructor(act,stage){
 this.act=act;this.stage=stage;this.numbers=NUMBERS.map(option=>{return new NumberControl(option,(changes,gesture)=>this.#choose(
-changes,gesture))});this.methods=METHODS.map(([method,label,title])=>{const onclick=()=>this.#choose(
-{method});return make("button",{title,role:"radio","data-value":method,onclick},label)});this.invert=
-make("input",{type:"checkbox",onchange:()=>this.#choose({invert:this.invert.checked})});this.inverts=
-make("label",{className:"glid-row"},this.invert,"Swap foreground and background");this.pickColor=make(
-"button",{"data-tool":"color"},"Pick the background's colour");this.scribbles=row2(brush("foreground",
-"Shape"),brush("background","Background"),make("button",{onclick:()=>act("clear_scribbles")},"Clear"));
-this.component=make("select",{"aria-label":"Component",onchange:()=>this.#choose({component:Number(this.
-component.value),component_at:null})});this.components=row2(make("span",{className:"glid-grow"},"Com\
-ponent"),this.component,make("button",{"data-tool":"component"},"Pick"));this.keep=row2(make("button",
-{onclick:()=>act("keep_pieces")},"Keep all as parts"));this.doubt=make("p");this.byHand=make("div",{
-className:"glid-by-hand"},this.doubt,...this.#outlines());this.holesTitle=make("h4");this.holes=make(
-"div",{className:"glid-holes"});this.notes=make("ul");this.notesBox=make("details",{className:"glid-\
-notes"},make("summary",{},"Notes"),this.notes);this.element=this.#laidOut()}#laidOut(){const group={
-className:"glid-methods",role:"radiogroup","aria-label":"Method"};const[threshold,smoothing,offset,simplify,
-leastHole]=this.numbers.map(({element})=>element);return make("div",{className:"glid-panel"},make("h\
-4",{},"By hand"),this.byHand,make("h4",{},"Foreground"),make("div",group,...this.methods),...[this.scribbles,
-this.pickColor,threshold,this.inverts,smoothing,this.components],this.keep,make("h4",{},"Outline"),...[
-offset,simplify,this.holesTitle,leastHole,this.holes,this.notesBox])}#outlines(){const buttons=OUTLINES.
-map(([tool,label,title2])=>{return make("button",{title:title2,"data-tool":tool},label)});const title="\
-Everything, the background too";const whole=make("button",{title,onclick:()=>this.act("draw")},"Whol\
-e picture");return[...buttons,whole]}#choose(changes,gesture){this.act("set_options",{changes,gesture,
-replaces:gesture})}update(shown){this.element.hidden=!shown.size;if(!shown.size)return;for(const control of this.
-numbers)control.update(shown);this.#showMethod(shown);this.#showDoubt(shown);this.#showComponents(shown);
-this.#showHoles(shown);this.notesBox.hidden=!shown.notes.length;this.notes.replaceChildren(...shown.
-notes.map(note=>make("li",{},note)))}#showMethod({options,automatic}){const{method,invert}=options;const used=method===
-"auto"?automatic?.method:method;for(const button of this.methods){button.ariaChecked=String(button.dataset.
-value===method);button.classList.toggle("glid-used",button.dataset.value===used)}this.scribbles.hidden=
-used!=="scribbles";this.pickColor.hidden=used!=="color";this.inverts.hidden=used!=="color"&&used!=="\
-threshold";this.invert.checked=invert===true;this.invert.indeterminate=invert===null&&used==="thresh\
-old"}#showDoubt({doubt,loops}){const guess=Boolean(doubt)||!loops.length;this.byHand.classList.toggle(
-"glid-guess",guess);this.doubt.hidden=!guess;const why=doubt?`This outline is a guess: ${doubt}. `:"";
-this.doubt.textContent=`${why}Show it the shape:`}#showComponents({component,n_components:count,keeps}){
-this.components.hidden=count<2;this.keep.hidden=count<2||!keeps;const listed=Math.min(count,MOST_LISTED);
-if(this.component.length!==listed){const options=Array.from({length:listed},(_,i)=>{return new Option(
-i?`${i+1}.`:"Largest",String(i))});this.component.replaceChildren(...options)}this.component.value=String(
-component)}#showHoles({holes:listed,n_holes:count,n_filled:filled,loops}){const small=filled?`, ${filled}\
- small filled`:"";this.holesTitle.textContent=`${holesIn(loops.length-1)} in the cage${small}`;const rows=listed.
-map((hole,i)=>this.#holeRow(hole,i));const left=count-listed.length;const root=this.holes.getRootNode();
-const focused=[...this.holes.children].findIndex(one=>one.contains(root.activeElement));this.holes.replaceChildren(
-...rows);if(left){this.holes.append(make("div",{className:"glid-unit"},`and ${left} smaller ones`))}
-rows[focused]?.querySelector("input")?.focus()}#holeRow(hole,i){const size=hole.area>=LARGE?`${(hole.
-area/1e3).toFixed(0)}k px²`:`${hole.area.toFixed(0)} px²`;const made=hole.by_offset?" (made by the\
- offset)":"";return make("label",{className:"glid-hole",onpointerenter:()=>this.stage.highlightHole(
-i),onpointerleave:()=>this.stage.highlightHole(null)},make("input",{type:"checkbox",checked:hole.kept,
-onchange:()=>this.act("toggle_hole",{number:i})}),make("span",{className:"glid-grow"},`Hole ${i+1}${made}`),
-make("span",{className:"glid-unit"},size))}};function row2(...parts){return make("div",{className:"g\
-lid-row"},...parts)}function brush(tool,label){return make("button",{className:`glid-brush glid-${tool}`,
-"data-tool":tool},label)}var WHEEL_SPEED=.0015;var WHEEL_LINE=33;var LINES=1;var PINCH=5;function distance([x,y],[u,v]){return Math.
+changes,gesture))});this.methods=METHODS.map(([method,label,title2])=>{const onclick=()=>this.#choose(
+{method});return make("button",{title:title2,role:"radio","data-value":method,onclick},label)});this.
+invert=make("input",{type:"checkbox",onchange:()=>this.#choose({invert:this.invert.checked})});this.
+inverts=make("label",{className:"glid-row"},this.invert,"Swap foreground and background");this.pickColor=
+make("button",{"data-tool":"color"},"Pick the background's colour");this.scribbles=row2(brush("foreg\
+round","Shape"),brush("background","Background"),make("button",{onclick:()=>act("clear_scribbles")},
+"Clear"));this.knife=make("input",{type:"number",className:"glid-number",min:0,step:"any",placeholder:"\
+auto","aria-label":"Width of the knife (px)",onchange:()=>{const{value}=this.knife;act("knife",{width:value===
+""?null:Number(value)})}});this.knives=row2(make("span",{className:"glid-grow"},"Width of the knife"),
+this.knife,make("span",{className:"glid-unit"},"px"));this.knives.classList.add("glid-knife");this.knives.
+title="How wide the slit is; empty: as narrow as is good";this.component=make("select",{"aria-label":"\
+Component",onchange:()=>this.#choose({component:Number(this.component.value),component_at:null})});this.
+components=row2(make("span",{className:"glid-grow"},"Component"),this.component,make("button",{"data\
+-tool":"component"},"Pick"));this.keep=row2(make("button",{onclick:()=>act("keep_pieces")},"Keep all\
+ as parts"));this.doubt=make("p");const title="Show the outline as it was found, and use it";this.guess=
+make("button",{title,onclick:()=>act("accept_guess")},"Use the guess");const byHand=[this.doubt,...this.#outlines(),
+this.guess];this.byHand=make("div",{className:"glid-by-hand"},...byHand);this.holesTitle=make("h4");
+this.holes=make("div",{className:"glid-holes"});this.notes=make("ul");this.notesBox=make("details",{
+className:"glid-notes"},make("summary",{},"Notes"),this.notes);this.element=this.#laidOut()}#laidOut(){
+const group={className:"glid-methods",role:"radiogroup","aria-label":"Method"};const[threshold,smoothing,
+offset,simplify,leastHole]=this.numbers.map(({element})=>element);return make("div",{className:"glid\
+-panel"},make("h4",{},"By hand"),this.byHand,this.knives,make("h4",{},"Foreground"),make("div",group,
+...this.methods),...[this.scribbles,this.pickColor,threshold,this.inverts,smoothing,this.components],
+this.keep,make("h4",{},"Outline"),...[offset,simplify,this.holesTitle,leastHole,this.holes,this.notesBox])}#outlines(){
+const buttons=OUTLINES.map(([tool,label,title2])=>{return make("button",{title:title2,"data-tool":tool},
+label)});const title="Everything, the background too";const whole=make("button",{title,onclick:()=>this.
+act("draw")},"Whole picture");return[...buttons,whole]}#choose(changes,gesture){this.act("set_option\
+s",{changes,gesture,replaces:gesture})}update(shown){this.element.hidden=!shown.size;if(!shown.size)
+return;for(const control of this.numbers)control.update(shown);this.#showMethod(shown);this.#showDoubt(
+shown);this.#showComponents(shown);this.#showHoles(shown);this.knives.hidden=shown.tool!=="knife";this.
+knife.value=shown.knife_width===null?"":String(shown.knife_width);this.notesBox.hidden=!shown.notes.
+length;this.notes.replaceChildren(...shown.notes.map(note=>make("li",{},note)))}#showMethod({options,
+automatic}){const{method,invert}=options;const used=method==="auto"?automatic?.method:method;for(const button of this.
+methods){button.ariaChecked=String(button.dataset.value===method);button.classList.toggle("glid-used",
+button.dataset.value===used)}this.scribbles.hidden=used!=="scribbles";this.pickColor.hidden=used!=="\
+color";this.inverts.hidden=used!=="color"&&used!=="threshold";this.invert.checked=invert===true;this.
+invert.indeterminate=invert===null&&used==="threshold"}#showDoubt({doubt,loops}){const guess=Boolean(
+doubt)||!loops.length;this.byHand.classList.toggle("glid-guess",guess);this.doubt.hidden=!guess;this.
+guess.hidden=!doubt;const why=doubt?`The outline is not clear: ${doubt}. `:"";this.doubt.textContent=
+`${why}Show it the shape:`}#showComponents({component,n_components:count,keeps}){this.components.hidden=
+count<2;this.keep.hidden=count<2||!keeps;const listed=Math.min(count,MOST_LISTED);if(this.component.
+length!==listed){const options=Array.from({length:listed},(_,i)=>{return new Option(i?`${i+1}.`:"Lar\
+gest",String(i))});this.component.replaceChildren(...options)}this.component.value=String(component)}#showHoles({
+holes:listed,n_holes:count,n_filled:filled,loops,doubt}){const small=filled?`, ${filled} small fille\
+d`:"";this.holesTitle.textContent=`${holesIn(loops.length-1)} in the cage${small}`;this.holesTitle.hidden=
+Boolean(doubt);const rows=listed.map((hole,i)=>this.#holeRow(hole,i));const left=count-listed.length;
+const root=this.holes.getRootNode();const focused=[...this.holes.children].findIndex(one=>one.contains(
+root.activeElement));this.holes.replaceChildren(...rows);if(left){this.holes.append(make("div",{className:"\
+glid-unit"},`and ${left} smaller ones`))}rows[focused]?.querySelector("input")?.focus()}#holeRow(hole,i){
+const size=hole.area>=LARGE?`${(hole.area/1e3).toFixed(0)}k px²`:`${hole.area.toFixed(0)} px²`;const made=hole.
+by_offset?" (made by the offset)":"";return make("label",{className:"glid-hole",onpointerenter:()=>this.
+stage.highlightHole(i),onpointerleave:()=>this.stage.highlightHole(null)},make("input",{type:"checkb\
+ox",checked:hole.kept,onchange:()=>this.act("toggle_hole",{number:i})}),make("span",{className:"glid\
+-grow"},`Hole ${i+1}${made}`),make("span",{className:"glid-unit"},size))}};function row2(...parts){return make(
+"div",{className:"glid-row"},...parts)}function brush(tool,label){return make("button",{className:`g\
+lid-brush glid-${tool}`,"data-tool":tool},label)}var WHEEL_SPEED=.0015;var WHEEL_LINE=33;var LINES=1;var PINCH=5;function distance([x,y],[u,v]){return Math.
 hypot(x-u,y-v)}var View=class{x=0;y=0;unit=1;width=0;height=0;constructor(changed,{up=1,nearest:nearest2,
 farthest}){this.changed=changed;this.up=up;this.nearest=nearest2;this.farthest=farthest}toWorld([px,
 py]){const x=this.x+(px-this.width/2)*this.unit;const y=this.y-this.up*(py-this.height/2)*this.unit;
@@ -262,39 +270,38 @@ const{shown,colors,loops}=scene;const{view}=stage;const[width,height]=shown.size
 toScreen([0,0]);drawPicture(pen,stage,colors,corner,[width/view.unit,height/view.unit]);if(loops.length&&
 !stage.painting){const frame=rectangle(corner,view.toScreen([width,height]));fillPath(pen,[...loops,
 frame],colors.veil)}drawHoles(pen,stage,scene,hover);if(stage.brushing||shown.options.method==="scri\
-bbles")drawStrokes(pen,stage,scene);if(loops.length&&!(stage.drawing&&shown.doubt))drawCage(pen,stage,
-scene,hover);if(stage.drawing||shown.inside.length)drawOutline(pen,stage,scene);if(stage.cutting)drawKnife(
-pen,stage,scene);for(const{point}of shown.problems){if(!point)continue;circle(pen,view.toScreen(point),
-13,[[5,HALO],[2.25,colors.warn]])}}function drawPicture(pen,{bitmap,view},colors,corner,extent){pen.
-fillStyle=checks(pen,colors);pen.fillRect(...corner,...extent);if(!bitmap)return;pen.imageSmoothingEnabled=
-6*view.unit>1;pen.imageSmoothingQuality="high";pen.drawImage(bitmap,...corner,...extent)}function checks(pen,colors){
-const tile=make("canvas",{width:2*CHECK,height:2*CHECK});const ink=penOf(tile);ink.fillStyle=colors["\
-check-light"];ink.fillRect(0,0,tile.width,tile.height);ink.fillStyle=colors["check-dark"];for(const at of[
-0,CHECK])ink.fillRect(at,at,CHECK,CHECK);return pen.createPattern(tile,"repeat")??colors["check-ligh\
-t"]}function strokeLoops(pen,loops,style,width,dash){pen.lineJoin="round";tracePath(pen,loops);strokePath(
-pen,[[width+2.25,HALO]]);strokePath(pen,[[width,style]],dash)}function drawHoles(pen,{view},{shown,colors},hover){
-shown.holes.forEach((hole,i)=>{const loop=view.line(hole.loop);const hovered=hover?.hole===i;if(hovered)
-fillPath(pen,[loop],colors[hole.kept?"warn-soft":"accent-soft"]);const visible=Math.sqrt(hole.area)>
-SPECK*view.unit;if(hovered||!hole.kept&&visible)strokeLoops(pen,[loop],colors.faint,1.25,[4,3])})}function drawStrokes(pen,{
-view,brushing,tool,pad:{path}},{shown,colors}){const painted=[[shown.strokes.background,colors.background],
-[shown.strokes.foreground,colors.foreground]];if(brushing&&path.length)painted.push([[path],colors[tool]]);
-pen.lineCap="round";pen.lineJoin="round";for(const[lines,color]of painted){for(const line of lines){
-tracePath(pen,[view.line([...line,line[line.length-1]])],false);strokePath(pen,[[8,HALO],[5,color]])}}}
-function drawOutline(pen,stage,{shown,colors}){const{view}=stage;const color=colors.foreground;tracePath(
-pen,[view.line(stage.drawn())],false);strokePath(pen,[[4.5,HALO],[2,color]]);for(const corner of shown.
-corners)disk(pen,view.toScreen(corner),4,"white",color,2)}function drawKnife(pen,{view,pad:{path}},{
-colors}){if(!path.length)return;pen.lineCap="butt";pen.lineJoin="round";tracePath(pen,[view.line(path)],
-false);strokePath(pen,[[5,HALO]]);strokePath(pen,[[2.25,colors.warn]],[7,4])}function drawCage(pen,{
-view,painting},{shown,colors,loops},hover){const color=shown.problems.length?colors.warn:colors.accent;
-strokeLoops(pen,loops,color,1.75);if(painting)return;const radius=vertexRadius(loops);const strong=new Set(
-[hover?.mark,...shown.selected.map(vertex=>vertex.join(":"))]);loops.forEach((loop,i)=>{loop.forEach(
-(vertex,j)=>{const seen=strong.has(`${i}:${j}`);const r=seen?radius+1.75:radius;disk(pen,vertex,r+1,
-HALO);disk(pen,vertex,r,seen?color:"white",color,1.5)})});if(hover?.edge)drawPlus(pen,view.toScreen(
-hover.edge.foot),color)}function vertexRadius(loops){let total=0;let count=0;for(const loop of loops){
-loop.forEach(([x,y],i)=>{const[u,v]=loop[(i+1)%loop.length];total+=Math.hypot(u-x,v-y)});count+=loop.
-length}return Math.min(4,Math.max(1.75,total/Math.max(count,1)*.16))}function drawPlus(pen,[x,y],color){
-disk(pen,[x,y],7,"white",color,1.5);const across=[[x-3.5,y],[x+3.5,y]];const upright=[[x,y-3.5],[x,y+
-3.5]];tracePath(pen,[across,upright],false);pen.stroke()}var TOOLS={edit:{key:"v",icon:PATHS.edit,label:"Edit vertices and holes (V)",hint:"Drag a vertex · d\
+bbles")drawStrokes(pen,stage,scene);if(loops.length)drawCage(pen,stage,scene,hover);if(stage.drawing||
+shown.inside.length)drawOutline(pen,stage,scene);if(stage.cutting)drawKnife(pen,stage,scene);for(const{
+point}of shown.problems){if(!point)continue;circle(pen,view.toScreen(point),13,[[5,HALO],[2.25,colors.
+warn]])}}function drawPicture(pen,{bitmap,view},colors,corner,extent){pen.fillStyle=checks(pen,colors);
+pen.fillRect(...corner,...extent);if(!bitmap)return;pen.imageSmoothingEnabled=6*view.unit>1;pen.imageSmoothingQuality=
+"high";pen.drawImage(bitmap,...corner,...extent)}function checks(pen,colors){const tile=make("canvas",
+{width:2*CHECK,height:2*CHECK});const ink=penOf(tile);ink.fillStyle=colors["check-light"];ink.fillRect(
+0,0,tile.width,tile.height);ink.fillStyle=colors["check-dark"];for(const at of[0,CHECK])ink.fillRect(
+at,at,CHECK,CHECK);return pen.createPattern(tile,"repeat")??colors["check-light"]}function strokeLoops(pen,loops,style,width,dash){
+pen.lineJoin="round";tracePath(pen,loops);strokePath(pen,[[width+2.25,HALO]]);strokePath(pen,[[width,
+style]],dash)}function drawHoles(pen,{view},{shown,colors},hover){shown.holes.forEach((hole,i)=>{const loop=view.
+line(hole.loop);const hovered=hover?.hole===i;if(hovered)fillPath(pen,[loop],colors[hole.kept?"warn-\
+soft":"accent-soft"]);const visible=Math.sqrt(hole.area)>SPECK*view.unit;if(hovered||!hole.kept&&visible)
+strokeLoops(pen,[loop],colors.faint,1.25,[4,3])})}function drawStrokes(pen,{view,brushing,tool,pad:{
+path}},{shown,colors}){const painted=[[shown.strokes.background,colors.background],[shown.strokes.foreground,
+colors.foreground]];if(brushing&&path.length)painted.push([[path],colors[tool]]);pen.lineCap="round";
+pen.lineJoin="round";for(const[lines,color]of painted){for(const line of lines){tracePath(pen,[view.
+line([...line,line[line.length-1]])],false);strokePath(pen,[[8,HALO],[5,color]])}}}function drawOutline(pen,stage,{
+shown,colors}){const{view}=stage;const color=colors.foreground;tracePath(pen,[view.line(stage.drawn())],
+false);strokePath(pen,[[4.5,HALO],[2,color]]);for(const corner of shown.corners)disk(pen,view.toScreen(
+corner),4,"white",color,2)}function drawKnife(pen,{view,pad:{path}},{colors}){if(!path.length)return;
+pen.lineCap="butt";pen.lineJoin="round";tracePath(pen,[view.line(path)],false);strokePath(pen,[[5,HALO]]);
+strokePath(pen,[[2.25,colors.warn]],[7,4])}function drawCage(pen,{view,painting},{shown,colors,loops},hover){
+const color=shown.problems.length?colors.warn:colors.accent;strokeLoops(pen,loops,color,1.75);if(painting)
+return;const radius=vertexRadius(loops);const strong=new Set([hover?.mark,...shown.selected.map(vertex=>vertex.
+join(":"))]);loops.forEach((loop,i)=>{loop.forEach((vertex,j)=>{const seen=strong.has(`${i}:${j}`);const r=seen?
+radius+1.75:radius;disk(pen,vertex,r+1,HALO);disk(pen,vertex,r,seen?color:"white",color,1.5)})});if(hover?.
+edge)drawPlus(pen,view.toScreen(hover.edge.foot),color)}function vertexRadius(loops){let total=0;let count=0;
+for(const loop of loops){loop.forEach(([x,y],i)=>{const[u,v]=loop[(i+1)%loop.length];total+=Math.hypot(
+u-x,v-y)});count+=loop.length}return Math.min(4,Math.max(1.75,total/Math.max(count,1)*.16))}function drawPlus(pen,[
+x,y],color){disk(pen,[x,y],7,"white",color,1.5);const across=[[x-3.5,y],[x+3.5,y]];const upright=[[x,
+y-3.5],[x,y+3.5]];tracePath(pen,[across,upright],false);pen.stroke()}var TOOLS={edit:{key:"v",icon:PATHS.edit,label:"Edit vertices and holes (V)",hint:"Drag a vertex · d\
 ouble-click an edge to add one · right-click a vertex to delete it · click a hole to drop it"},foreground:{
 key:"b",icon:"M13.5 2.5l-6 6 M6.7 9.2c-1.6-.5-3 .6-3.1 2.1-.1 1-.7 1.7-1.6 2 2.2.9 5.6.4 5.9-2.2 .1-\
 .8-.4-1.6-1.2-1.9z M9.5 12.5h5 M12 10v5",label:"Paint over the shape (B)",hint:"Paint over the shape"},
@@ -315,9 +322,10 @@ kground","color","component","polygon","rectangle","knife"];var HELP=[["Outline"
 remove a vertex"],["[ ]","select the vertex before, the next vertex"],["Arrow keys","nudge the selec\
 ted vertex, with Shift farther"],["Ctrl+Z, Ctrl+Shift+Z","undo, redo"]]],["By hand",[["B, N","paint \
 over the shape, over the background"],["I, C","pick the background's colour, the component"],["K","k\
-nife: draw a line along which the shape is cut; Esc while drawing discards it"],["P, R","draw the ou\
-tline or a hole in it, a rectangle; Enter closes it, Esc discards it"]]],["View",[["Wheel, + -, F","\
-zoom after a click on the picture, fit the picture"],["Drag beside the outline","move the view"]]]];var REACH={mouse:9,pen:12,touch:18};var ZOOM=1.25;var MARGIN=24;var HINT=8;var CALLOUT=24;var EDGE=8;
+nife: draw a line along which the shape is cut; Esc while drawing discards it; its width is in the p\
+anel"],["P, R","draw the outline or a hole in it, a rectangle; Enter closes it, Esc discards it"]]],
+["View",[["Wheel, + -, F","zoom after a click on the picture, fit the picture"],["Drag beside the ou\
+tline","move the view"]]]];var REACH={mouse:9,pen:12,touch:18};var ZOOM=1.25;var MARGIN=24;var HINT=8;var CALLOUT=24;var EDGE=8;
 var MOST_ZOOM=40;var FARTHEST=1e3;var COLORS=["accent","accent-soft","warn","warn-soft","faint","vei\
 l","foreground","background","check-light","check-dark"];var KEYS=/^(Arrow\w+|Delete|Backspace|Escape|Enter|[[\]])$/;
 var Stage=class{canvas=make("canvas",{className:"glid-canvas",role:"application","aria-label":"Pictu\

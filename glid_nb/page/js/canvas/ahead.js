@@ -79,7 +79,7 @@ export class Ahead {
    */
   follow(held) {
     if (!this.#ready || !this.#solving || !held.size) return;
-    if (!this.#pose && !this.#begin(this.#solving)) return;
+    if (!this.#pose && !this.#begin(this.#solving, held)) return;
     const pose = /** @type {Pose} */ (this.#pose);
     const targets = pose.targets.map((target, i) => held.get(i) ?? target);
     if (targets.every((target, i) => distance(target, pose.targets[i]) === 0)) return;
@@ -88,15 +88,19 @@ export class Ahead {
   }
 
   /**
-   * Goes on from the kernel's map. False if the kernel has another pose by now.
+   * Goes on from the kernel's map. False if the kernel has another pose by now; it may have moved the
+   * pins that are held.
    *
    * @param {Solving} solving
+   * @param {Map<Mark, Point>} held
    */
-  #begin(solving) {
+  #begin(solving, held) {
     const { pose, coefficients } = this.#model.get("rest");
     const { targets } = this.#model.get("marks");
     if (pose?.targets.length !== targets.length) return false;
-    if (pose.targets.some((one, i) => distance(one, targets[i]) > SAME)) return false;
+    const elsewhere = (/** @type {Point} */ one, /** @type {number} */ i) =>
+      !held.has(i) && distance(one, targets[i]) > SAME;
+    if (pose.targets.some(elsewhere)) return false;
     this.#pose = pose;
     const floats = new Float64Array(
       coefficients.buffer.slice(

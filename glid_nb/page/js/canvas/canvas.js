@@ -19,7 +19,9 @@ import { arrowAt, inSight, knobInCorner } from "./marks.js";
 import { Notices } from "./notices.js";
 import { drawAxis, drawNumbers, movedPin } from "./numbers.js";
 import { KEYS, PinBehaviour } from "./pin_behaviour.js";
+import { drawLocks, withoutHidden } from "./pin_marks.js";
 import { PoseClipboard } from "./pose_clipboard.js";
+import { Reference } from "./reference.js";
 import { resizeGrip } from "./resize_grip.js";
 import { Room } from "./room.js";
 import { coveredNear, Shapes } from "./shapes.js";
@@ -29,7 +31,7 @@ import { Spacing } from "./spacing.js";
 /** @import { Pen } from "../pad/pen.js" */
 /** @import { PartSeen } from "./moved_shape.js" */
 /** @import { Seen } from "./shapes.js" */
-/** @import { Brush, CanvasTraits } from "./traits.js" */
+/** @import { Brush, CanvasTraits, Tool } from "./traits.js" */
 
 /**
  * The motion that the timeline shows.
@@ -55,6 +57,8 @@ export class Canvas {
   #saving;
   /** @type {Playing} */
   #playing = STILL;
+  /** @type {Tool | undefined} that a key chose, until the kernel has answered */
+  #tool;
   #painted = false; // whether there was a brush when it changed last
   #presses = false; // a press into a motion is on its way to the kernel
 
@@ -84,6 +88,7 @@ export class Canvas {
     this.shapes = new Shapes(model, this.view);
     this.shapes.led = () => this.redraw();
     this.ahead = new Ahead(model, (lead) => this.shapes.showLead(lead));
+    this.reference = new Reference(this.box, model, this.view);
     this.redraw = painter(paper, this.view, signal, (pen) => this.#draw(pen));
     this.link = new Link(model, this.box, signal, () => this.#report());
     this.room = this.interactive ? new Room(this.box, model, signal) : null;
@@ -103,10 +108,22 @@ export class Canvas {
     clearTimeout(this.#saving);
     this.ahead.close();
     this.shapes.close();
+    this.reference.close();
   }
 
-  get marks() {
+  /** Targets and images, of pins that the user hid as well. */
+  get allMarks() {
     return marksOf(this.model.get("marks"), this.shapes.lead);
+  }
+
+  /** What is drawn. */
+  get marks() {
+    return withoutHidden(this.allMarks, this.model.get("pins"), Number.NaN);
+  }
+
+  /** What the pointer reaches. */
+  get reachable() {
+    return withoutHidden(this.allMarks, this.model.get("pins"), Infinity);
   }
 
   /** Starts the page's own solver anew, for what is edited now. */
@@ -114,9 +131,26 @@ export class Canvas {
     if (this.interactive) void this.ahead.prepare();
   }
 
-  /** Goes over to the kernel's map, unless a drag goes on. */
+  /** Goes over to the kernel's map, unless a drag goes on; a drag of the shape has a pin by now. */
   rested() {
-    if (!this.pad.grip) this.ahead.giveBack();
+    if (this.pad.grip) return;
+    const made = this.behaviour.madePin();
+    if (made === undefined) this.ahead.giveBack();
+    else this.#hold(made);
+  }
+
+  /**
+   * Holds a pin that the present drag has made, where the pointer is.
+   *
+   * @param {number} made
+   */
+  #hold(made) {
+    const { pad, view, behaviour } = this;
+    const [from] = pad.path;
+    const [place] = pad.pointers.values();
+    pad.grip = { from, points: new Map([[made, from]]) };
+    if (!behaviour.constrains) pad.held.set(made, view.toWorld(place)); // else with the next move
+    this.followHand();
   }
 
   /** Has the page's own solver follow what is dragged. */
@@ -145,8 +179,37 @@ export class Canvas {
 
   /** The brush that paints stiff areas; null for none. */
   get brush() {
-    const brush = this.model.get("brush");
-    return "radius" in brush ? /** @type {Brush} */ (brush) : null;
+    const { radius, strength } = this.model.get("brush");
+    const { tool } = this;
+    return tool
+      ? /** @type {Brush} */ ({ radius, strength: tool === "stiff" ? strength : 0 })
+      : null;
+  }
+
+  get tool() {
+    const told = this.model.get("brush").tool;
+    return told === undefined ? "" : (this.#tool ?? told);
+  }
+
+  /**
+   * Takes a tool of the brush, or puts it away. The page has it at once, so that a stroke right after
+   * the key drags nothing.
+   *
+   * @param {"stiff" | "erase"} tool
+   */
+  toggleTool(tool) {
+    const name = this.tool === tool ? "" : tool;
+    this.pad.link.put({ type: "tool", name });
+    this.#showTool(name);
+  }
+
+  /** @param {Tool | undefined} tool undefined for the kernel's */
+  #showTool(tool) {
+    if (tool === this.#tool) return;
+    this.#tool = tool;
+    this.showNotice();
+    this.pad.hover();
+    this.redraw();
   }
 
   get painting() {
@@ -168,11 +231,12 @@ export class Canvas {
     const { selected, targets } = this.marks;
     const mark = found?.mark === undefined ? null : Number(found.mark);
     const centre = /** @type {Point} */ ([this.view.x, this.view.y]);
-    const point = mark === null ? (this.model.get("cursor") ?? centre) : targets[mark];
+    const pinned = mark !== null && Number.isFinite(targets[mark]?.[0]);
+    const point = pinned ? targets[mark] : (this.model.get("cursor") ?? centre);
     const at = place ?? this.view.toScreen(point);
     const does = {
       press: (/** @type {string} */ key, shift = false) => {
-        return () => this.pad.press(key, { shiftKey: shift });
+        return () => this.#press(key, shift);
       },
       pin: () => void this.pad.send("pin", at),
       paste: () => void this.clipboard.paste(),
@@ -180,9 +244,10 @@ export class Canvas {
       fullScreen: () => this.room?.fullScreen(),
       showKeys: this.help.toggle,
     };
-    const pinned = mark !== null && selected.includes(mark) ? selected.length : 1;
+    const count = mark !== null && selected.includes(mark) ? selected.length : 1;
     const covered = mark === null && coveredNear(this.box, at);
-    openMenu(this.box, at, menuRows(does, mark === null ? null : { pinned }, covered));
+    const hides = this.model.get("pins").away.length > 0;
+    openMenu(this.box, at, menuRows(does, mark === null ? null : count, covered, hides));
   }
 
   /**
@@ -240,6 +305,7 @@ export class Canvas {
     if (now === this.#chosen) return;
     this.#chosen = now;
     if (now === undefined || this.pad.mode) return;
+    if (!Number.isFinite(targets[now]?.[0])) return; // hidden
     if (inSight(this.view, targets[now]) || inSight(this.view, images[now])) return;
     this.view.centreOn(targets[now]);
   }
@@ -253,10 +319,19 @@ export class Canvas {
 
   /** @param {Event} e */
   #pressed(e) {
-    const { detail } = /** @type {CustomEvent<string>} */ (e);
-    const act = this.pad.behaviour.actions?.[detail];
+    this.#press(/** @type {CustomEvent<string>} */ (e).detail);
+  }
+
+  /**
+   * Does what a key does, in the page or in the kernel.
+   *
+   * @param {string} key
+   * @param {boolean} [shift]
+   */
+  #press(key, shift = false) {
+    const act = this.behaviour.actions[key];
     if (act) act();
-    else this.pad.press(detail, {});
+    else this.pad.press(key, { shiftKey: shift });
   }
 
   // Handles two kinds of input before the pad does. While a motion is seen, keys and the right button
@@ -274,6 +349,10 @@ export class Canvas {
     const ours = (/** @type {KeyboardEvent} */ e) =>
       !e.ctrlKey && !e.metaKey && KEYS.test(keyOf(e));
     this.box.addEventListener("keydown", (e) => ours(e) && goBack(e), { capture });
+    const putAway = (/** @type {KeyboardEvent} */ e) => {
+      if (keyOf(e) === "Escape" && this.painting) this.#showTool("");
+    };
+    this.box.addEventListener("keydown", putAway, { capture });
     const openedByKeys = (/** @type {KeyboardEvent} */ e) => {
       if (e.key !== "F10" || !e.shiftKey) return; // a keyboard without a menu key
       e.stopImmediatePropagation();
@@ -304,6 +383,7 @@ export class Canvas {
   // Shows a refusal as the notice. After a press into a motion, shows the pose that is edited now.
   #report() {
     const { busy, refusal } = this.link;
+    if (this.link.idle) this.#showTool(undefined);
     if (this.#presses && this.link.idle && this.pad.mode === null) {
       this.#presses = false;
       this.#playing.release();
@@ -322,6 +402,7 @@ export class Canvas {
 
   #see() {
     this.shapes.see();
+    this.reference.place();
     this.redraw();
   }
 
@@ -350,7 +431,10 @@ export class Canvas {
       this.ghosts.draw(pen, view, model.get("outline").outline, marks.targets.length > 0);
     }
     const cursor = pad.focused ? model.get("cursor") : null;
-    drawMarks(pen, view, marks, { hovered: pad.found?.mark, held: pad.held, cursor });
+    const pins = model.get("pins");
+    const held = new Map([...pad.held].filter(([mark]) => !pins.away.includes(Number(mark))));
+    drawMarks(pen, view, marks, { hovered: pad.found?.mark, held, cursor });
+    drawLocks(pen, view, marks, pins);
     if (brush) drawBrush(pen, view, brush, pad);
     else this.#drawNumbers(pen);
     if (pad.encloses && pad.path.length > 2) drawLasso(pen, view, pad.path);

@@ -16,13 +16,17 @@
 
 /**
  * @param {Does} does
- * @param {{ pinned: number } | null} pin how many pins would be removed; null where there is none
+ * @param {number | null} pins how many pins the rows are about; null where there is none
  * @param {boolean} covered whether the shape is there
+ * @param {boolean} hides whether some pins are hidden
  * @returns {MenuRow[]}
  */
-export function menuRows(does, pin, covered) {
+export function menuRows(does, pins, covered, hides) {
   return [
-    ...(pin ? pinRows(does, pin.pinned) : shapeRows(does, covered)),
+    ...(pins === null ? shapeRows(does, covered) : pinRows(does, pins)),
+    ...(hides
+      ? [/** @type {MenuRow} */ (["Show hidden pins", "Shift+H", does.press("h", true)])]
+      : []),
     ["Copy the pose", "Ctrl+C", does.press("copy")],
     ["Paste a pose", "Ctrl+V", does.paste],
     ["Swap left and right", "M", does.press("m")],
@@ -50,6 +54,9 @@ function pinRows({ press }, count) {
     ["Bring forward", "Page Up", press("PageUp")],
     ["Send back", "Page Down", press("PageDown")],
     ["Leave angle and scale free", "X", press("x")],
+    ["Lock or unlock", "L", press("l")],
+    ["Hide", "H", press("h")],
+    ...(count > 1 ? [/** @type {MenuRow} */ (["Group", "G", press("g")])] : []),
     null,
   ];
 }

@@ -18,6 +18,8 @@ export const HELP = [
       ["Ring around a pin; Alt on the pin", "turn the shape there; the ring's knob scales it too"],
       ["< >, + -, X", "turn, scale; free both again"],
       ["Page Down, Page Up, [ ]", "send selected pins and their surroundings back, forward"],
+      ["L, H", "lock the selected pins, hide them; Shift+H shows all again"],
+      ["G", "make a group: it is selected and moved together; with Shift dissolve it"],
       ["Arrow keys", "nudge selected pins, with Shift farther; else move a cursor"],
       ["Enter", "show the cursor; pin or select there"],
     ],
@@ -63,6 +65,14 @@ export const HELP = [
       ["K", "make a keyframe of what is shown"],
       ["Space", "play the motion through the poses, pause; on the canvas too"],
       ["Arrow keys, Home, End", "step a frame, with Shift to the next pose; first, last pose"],
+      [
+        "Click a curve between poses, Enter",
+        "ease the motion there: drag its two handles, or arrow keys",
+      ],
+      [
+        "Shift+Home, Shift+End",
+        "play over and over from here, to here; so do the two marks on the ruler",
+      ],
       ["Ctrl and wheel", "zoom the timeline; then the wheel alone moves along it"],
       ["Double click a pose, F2", "type its name"],
       ["Alt and arrow keys", "move the pose in time; Delete removes it"],

@@ -19,12 +19,14 @@ function render(context) {
     "change:rest": () => canvas.rested(),
     "change:drawing_time": () =>
       model.get("drawn") && !model.get("drawing_time") && measure(canvas, signal),
-    "change:marks change:cursor change:onion change:stiff change:brush": () => canvas.redraw(),
+    "change:marks change:cursor change:onion change:stiff change:brush change:pins": () =>
+      canvas.redraw(),
     "glid:motion": (...shown) => canvas.showMotion(...shown), // from the timeline, on the page
     "change:legend change:panel_legend change:legend_corner": () => canvas.showLegend(),
     "change:notice change:marks change:brush": () => canvas.showNotice(),
     "change:marks": () => canvas.reveal(),
     "change:brush": () => canvas.takeFocus(),
+    "change:reference": () => canvas.reference.show(),
     "change:prepared": () => canvas.notices.prepare(model.get("prepared")),
   });
   measure(canvas, signal);

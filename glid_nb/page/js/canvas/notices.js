@@ -26,6 +26,7 @@ export class Notices {
     notice.textContent = refusal || advice || "";
     notice.hidden = !notice.textContent;
     notice.classList.toggle("glid-first", !refusal);
+    notice.classList.toggle("glid-invites", !refusal && !painting); // in an editor the footer does
   }
 
   /** @param {number} share how much of what the first solve needs is done, from 0 to 1 */

@@ -2,6 +2,7 @@
 
 import { constrained } from "./constrain.js";
 import { markAt, ringAt } from "./marks.js";
+import { movedWith } from "./pin_marks.js";
 
 /** @import { Found, Mark, Point } from "../types.js" */
 /** @import { Behaviour } from "../pad/pad.js" */
@@ -9,10 +10,11 @@ import { markAt, ringAt } from "./marks.js";
 /** @import { Canvas } from "./canvas.js" */
 
 const REACH = { mouse: 13, pen: 16, touch: 26 }; // CSS pixels
-export const KEYS = /^(Arrow\w+|Page\w+|Delete|Backspace|Escape|Enter|[0fa,.[\]<>+=xmbne-])$/i;
+export const KEYS = /^(Arrow\w+|Page\w+|Delete|Backspace|Escape|Enter|[0fa,.[\]<>+=xmbelhgn-])$/i;
 const TARGET_TIP =
   "where it should be. Drag it; Alt turns it; a right click shows more; Shift-click selects several";
 const IMAGE_TIP = "where the shape is now. The cyan disk is where it should be";
+const LOCKED_TIP = "locked where it is; L unlocks it when it is selected";
 const COVERED = ". Another part of the shape covers it";
 const RING_TIPS = {
   turn: "Drag around the pin to turn the shape there; X frees it again",
@@ -29,12 +31,16 @@ export class PinBehaviour {
   /** @param {Canvas} canvas */
   constructor(canvas) {
     this.canvas = canvas;
+    /** @type {Record<string, () => void>} */
     this.actions = {
       "?": canvas.help.toggle,
+      b: () => canvas.toggleTool("stiff"),
+      e: () => canvas.toggleTool("erase"),
       contextmenu: () => canvas.openMenu(),
       i: () => canvas.room?.toggleInspector(),
       k: () => void canvas.box.dispatchEvent(new CustomEvent("glid:key", { bubbles: true })),
       p: () => canvas.room?.alone(),
+      reference: () => canvas.reference.toggle(), // of the bar's menu; no key is called so
       w: () => canvas.room?.fullScreen(),
     };
   }
@@ -69,9 +75,9 @@ export class PinBehaviour {
    * @param {number} reach
    */
   find(point, reach) {
-    const { view, marks, shapes, painting } = this.canvas;
+    const { view, marks, reachable, shapes, painting } = this.canvas;
     if (shapes.motion || painting) return null;
-    const mark = markAt(marks, point, reach);
+    const mark = markAt(reachable, point, reach);
     return mark ?? ringAt(view, marks, view.toScreen(point), reach / view.unit / 2);
   }
 
@@ -87,14 +93,28 @@ export class PinBehaviour {
     return e.ctrlKey || e.metaKey ? "lasso" : null;
   }
 
+  /** Whether a key constrains the present drag. */
+  get constrains() {
+    const { axis, whole } = this.pressed?.keys ?? {};
+    return Boolean(axis || whole);
+  }
+
+  /** The pin that the kernel has made of the present drag of the shape; undefined for none. */
+  madePin() {
+    const { pad, model } = this.canvas;
+    const { pressed } = this;
+    if (!pressed || pressed.found || this.painting || pad.mode !== "hand") return undefined;
+    const count = model.get("rest").pose?.targets.length ?? 0;
+    return count === pressed.pins + 1 && !pad.encloses ? pressed.pins : undefined;
+  }
+
   /**
    * @param {Found} found
    * @returns {Map<Mark, Point>}
    */
   held({ mark }) {
-    const { selected, targets } = this.canvas.marks;
-    const pressed = Number(mark);
-    const moved = selected.includes(pressed) ? selected : [pressed];
+    const { selected, targets } = this.canvas.allMarks;
+    const moved = movedWith(Number(mark), selected, this.canvas.model.get("pins"));
     return new Map(moved.map((i) => [i, targets[i]]));
   }
 
@@ -121,7 +141,13 @@ export class PinBehaviour {
   /** @param {Found | null} found */
   cursor(found) {
     this.canvas.box.title = this.#tip(found);
+    if (found?.mark !== undefined && this.#locked(found)) return "pointer";
     return found ? "grab" : "crosshair";
+  }
+
+  /** @param {Found} found */
+  #locked({ mark }) {
+    return this.canvas.model.get("pins").locked.includes(Number(mark));
   }
 
   /** @param {Found | null} found */
@@ -131,6 +157,7 @@ export class PinBehaviour {
     const { marks, model } = this.canvas;
     const mark = Number(found.mark);
     const name = ["Pin", mark + 1, model.get("names")[mark]].join(" ").trim();
+    if (this.#locked(found)) return `${name}: ${LOCKED_TIP}`;
     const tip = found.reached ? IMAGE_TIP : TARGET_TIP;
     return `${name}: ${tip}${marks.hidden.includes(mark) ? COVERED : ""}`;
   }

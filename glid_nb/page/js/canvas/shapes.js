@@ -1,6 +1,7 @@
 // Puts the kernel's coefficients and the page's view into pythreejs's objects.
 
 import { make, penOf, toFloats } from "../pad/dom.js";
+import { Detail } from "./detail.js";
 import { MovedShape } from "./moved_shape.js";
 import { movedByPage } from "./vertices.js";
 
@@ -41,6 +42,7 @@ export class Shapes {
   #renderer = null;
   #loading = 0; // counts the loads, to tell the newest
   #loaded = ""; // the references of the materials that are loaded
+  #detail = new Detail(() => Object.values(this.#renderer?.views ?? {}));
 
   /**
    * @param {Model<CanvasTraits>} model
@@ -99,6 +101,7 @@ export class Shapes {
   }
 
   #forget() {
+    this.#detail.restore();
     this.#renderer?.off(null, null, this);
     for (const material of this.#materials) material.off(null, null, this);
     this.#edited = new MovedShape();
@@ -125,6 +128,7 @@ export class Shapes {
   /** @param {Lead | null} lead */
   #takeLead(lead) {
     this.lead = lead;
+    if (lead && this.movesVertices) this.#detail.moved(this.model.get("drawing_time"));
     this.refresh();
     this.led();
   }

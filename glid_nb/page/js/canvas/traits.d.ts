@@ -14,6 +14,13 @@ export interface Marks {
   ring: Ring | [];
 }
 
+/** Pins by their indices: which are locked, which the user hid, and the group's number of each. */
+export interface PinMarks {
+  locked: number[];
+  away: number[];
+  groups: number[];
+}
+
 export interface ColorBar {
   title: string;
   /** The title while a motion is seen. */
@@ -23,8 +30,12 @@ export interface ColorBar {
   about: string;
 }
 
+/** What the left button does; empty while it pins and drags. */
+export type Tool = "" | "stiff" | "erase";
+
 export interface Brush {
   radius: number;
+  /** 0 erases. */
   strength: number;
 }
 
@@ -62,11 +73,15 @@ export interface CanvasTraits {
   rest: Rest | Record<string, never>;
   marks: Marks;
   names: string[];
+  pins: PinMarks;
   /** Width and height of the picture in its pixels. */
   picture_size: number[];
+  /** A picture behind the shape; empty for none. */
+  reference: DataView<ArrayBuffer>;
   onion: [color: string, loops: Point[][]][];
   stiff: [strength: number, loops: Point[][]][];
-  brush: Brush | Record<string, never>;
+  /** Empty before the kernel has told of it. */
+  brush: (Brush & { tool: Tool }) | Record<string, never>;
   cursor: Point | null;
   legend: ColorBar | Record<string, never>;
   panel_legend: ColorBar | Record<string, never>;

@@ -1,7 +1,7 @@
 // The timeline's buttons.
 
 import { make } from "../pad/dom.js";
-import { icon, iconButton } from "../pad/icons.js";
+import { drawnButton, icon, iconButton } from "../pad/icons.js";
 import { seconds } from "./words.js";
 import { STEP } from "./zoom.js";
 
@@ -16,6 +16,7 @@ import { STEP } from "./zoom.js";
  * @property {(type: string, content?: Record<string, unknown>) => void} act
  * @property {(type: string, content?: Record<string, unknown>) => void} edit
  * @property {(by: number) => void} zoom
+ * @property {() => void} ease opens the easing of the motion that leaves the pose
  */
 
 /** @typedef {[value: string, label: string]} Choice */
@@ -36,12 +37,14 @@ const LEGEND = [
   ["refused", "not proved"],
 ];
 
+const EASE = "M2.5 13.5C8 13.5 8 2.5 13.5 2.5"; // an icon
+
 export class Bar {
   recording = false;
   onionOn = false;
 
   /** @param {Does} does */
-  constructor({ play, keep, act, edit, zoom }) {
+  constructor({ play, keep, act, edit, zoom, ease }) {
     this.play = iconButton("play", "Play, pause (Space)", play);
     this.repeat = menu("Play once, in a loop, or there and back", REPEATS, (repeat) =>
       act("set_repeat", { repeat }),
@@ -53,6 +56,8 @@ export class Bar {
     this.onion = iconButton("onion", ONION, () => act("onion", { on: !this.onionOn }));
     this.keep = make("button", { className: "glid-keep", title: KEY, onclick: keep }, "Key");
     const copy = iconButton("copy", "Duplicate this pose", () => edit("duplicate_pose"));
+    this.ease = drawnButton(EASE, "Easing of the motion that leaves this pose (Enter)", ease);
+    this.ease.ariaHasPopup = "dialog";
     this.remove = iconButton("trash", "Delete this pose (Delete)", () => edit("delete_pose"));
     this.save = iconButton("export", "Export the motion", () => {
       this.save.dispatchEvent(new CustomEvent("glid:inspect", { bubbles: true }));
@@ -63,7 +68,7 @@ export class Bar {
       { className: "glid-bar", role: "toolbar", "aria-label": "Motion" },
       ...[this.play, this.repeat, this.clock, gap()],
       ...[this.record, this.onion, gap()],
-      ...[this.keep, copy, this.remove, gap(), this.save],
+      ...[this.keep, copy, this.remove, this.ease, gap(), this.save],
       make(
         "span",
         { className: "glid-zoom" },
@@ -81,7 +86,7 @@ export class Bar {
     const alone = keyframes.length < 2;
     this.repeat.value = repeat;
     this.remove.disabled = alone;
-    for (const control of [this.play, this.save, this.repeat]) {
+    for (const control of [this.play, this.save, this.repeat, this.ease]) {
       control.disabled = alone;
     }
     this.save.hidden = !exports;

@@ -15,7 +15,7 @@ function render(context) {
   // A tap on the space bar over the canvas of the same editor plays too.
   const tapped = (/** @type {Event} */ e) => {
     const target = /** @type {Element} */ (e.target);
-    if (target.closest(".glid-editor") === el.closest(".glid-editor")) player.play();
+    if (target.closest(".glid-editor") === el.closest(".glid-editor")) timeline.play();
   };
   window.addEventListener("glid:play", tapped, { signal });
   const keyed = (/** @type {Event} */ e) => {

@@ -35,6 +35,8 @@ export class Player {
   time = 0; // of a ping-pong, on the way back too
   seen = false; // whether the motion is shown, not the pose that is edited
   only = 0; // s, of the keyframe, if there is only one
+  /** @type {[start: number, end: number] | null} the part that plays over and over */
+  range = null;
   /** @type {number | null} a time after the last keyframe */
   later = null;
 
@@ -108,12 +110,12 @@ export class Player {
       return;
     }
     this.later = null;
-    const once = clock.repeat === "once";
+    const once = clock.repeat === "once" && !this.range;
     if (once && this.time >= clock.end) this.time = clock.start;
     /** @type {number | null} */
     let last = null;
     const step = async (/** @type {number} */ now) => {
-      const time = this.time + (last === null ? 0 : (now - last) / 1000);
+      const time = this.#inRange(this.time + (last === null ? 0 : (now - last) / 1000));
       last = now;
       await this.#seek(time);
       if (!this.playing) return;
@@ -124,6 +126,18 @@ export class Player {
     };
     this.#frame = requestAnimationFrame(step);
     this.moved();
+  }
+
+  /**
+   * The time that plays instead of one: before or after the range, its start, and round and round.
+   *
+   * @param {number} time
+   */
+  #inRange(time) {
+    if (!this.range) return time;
+    const [start, end] = this.range;
+    if (time >= start && time < end) return time;
+    return time < start || this.time >= end ? start : start + ((time - start) % (end - start));
   }
 
   pause() {

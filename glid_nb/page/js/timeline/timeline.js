@@ -5,8 +5,9 @@ import { make, toFloats } from "../pad/dom.js";
 import { undoOrRedo } from "../pad/keys.js";
 import { Link } from "../pad/link.js";
 import { Bar, legend } from "./bar.js";
+import { EaseEditor } from "./ease_editor.js";
 import { Player } from "./player.js";
-import { keyAt, nextKey } from "./scale.js";
+import { keyAt, nextKey, withReturn } from "./scale.js";
 import { Track } from "./track.js";
 import { noteOn } from "./words.js";
 
@@ -24,6 +25,8 @@ export class Timeline {
   #layers = null;
   /** @type {Record<string, Motion | null>} those of the shapes around the edited one, by their keys */
   #otherLayers = {};
+  #easeBefore = -1; // the segment whose easing was open when a button was pressed
+  #played = false; // whether the kernel knows that somebody has played
   #hovered = ""; // what lies below the pointer, in words
   #playing = {
     release: () => this.release(),
@@ -49,18 +52,27 @@ export class Timeline {
       () => this.#selectHere(),
     );
     this.bar = new Bar({
-      play: () => this.player.play(),
+      play: () => this.play(),
       keep: () => this.keep(),
       act: (type, content) => void this.act(type, content),
       edit: (type, content) => void this.edit(type, content),
       zoom: (by) => this.track.zoom.zoom(by),
+      ease: () => this.#ease(),
     });
+    this.bar.ease.addEventListener("pointerdown", () => this.#easePressed());
+    this.ease = new EaseEditor(
+      (index, easing) => void this.act("set_easing", { index, easing }),
+      (index) => this.#easeClosed(index),
+    );
     this.track = new Track({
       scrub: (time) => this.#scrub(time),
       scrubbed: () => this.#selectHere(),
       select: (index) => this.select(index),
       move: (index, time) => void this.act("move_pose", { index, time }),
       rename: (index, name) => void this.act("rename_pose", { index, name }),
+      range: (range) => void this.act("set_loop_range", { range }),
+      ease: (index, button) => this.#openEase(index, button),
+      easePressed: () => this.#easePressed(),
       hover: (text) => {
         this.#hovered = text;
         this.tell();
@@ -71,7 +83,10 @@ export class Timeline {
       },
     });
     const parts = [this.bar.element, this.note, legend(), this.track.zoom.box];
-    this.root.append(make("div", { className: "glid-timeline-parts" }, ...parts));
+    this.root.append(
+      make("div", { className: "glid-timeline-parts" }, ...parts),
+      this.ease.element,
+    );
     this.root.addEventListener("keydown", (e) => this.#keydown(e));
     this.root.addEventListener("keyup", (e) => {
       if (e.key === " " && !this.#typing(e)) e.preventDefault();
@@ -152,6 +167,9 @@ export class Timeline {
 
   showKeys() {
     this.track.showKeys(this.shown, this.model.get("thumbnails"));
+    const segment = this.#segment(this.ease.index);
+    if (segment) this.ease.show(segment.title, segment.easing);
+    else this.ease.close();
   }
 
   showState() {
@@ -168,6 +186,7 @@ export class Timeline {
   showMotion() {
     const { player, shown, spans } = this;
     player.only = shown.keyframes?.[0].time ?? 0;
+    player.range = shown.range ?? null;
     player.set(intervalsOf(spans), shown.repeat, this.#others);
     const computing = spans.some(({ status }) => status === "computing");
     if (shown.kernel && !player.playing && player.seen && computing) this.release();
@@ -213,10 +232,72 @@ export class Timeline {
     if (this.shown.kernel) return this.act("frame", { time: time ?? null, replaces: "frame" });
   }
 
+  /** Plays, or pauses. The kernel hears of the first time. */
+  play() {
+    this.player.play();
+    if (!this.player.playing || this.#played) return;
+    this.#played = true;
+    void this.act("played");
+  }
+
   /** Makes a keyframe of what is shown. */
   keep() {
     const { player } = this;
     this.act("keep", { time: player.seen ? player.place : this.active.time });
+  }
+
+  /**
+   * What the panel shows of a segment; null if there is none.
+   *
+   * @param {number} index
+   */
+  #segment(index) {
+    const [start, end] = withReturn(this.shown).slice(index, index + 2);
+    return index >= 0 && end
+      ? { title: `${start.name} → ${end.name}`, easing: start.easing }
+      : null;
+  }
+
+  // The easing of the motion that leaves the edited pose; at the end, of the one that arrives there.
+  #ease() {
+    const { active, keyframes } = this.shown;
+    const last = withReturn(this.shown).length - 2;
+    const { bar, track } = this;
+    const index = Math.min(active, last);
+    const own = /** @type {HTMLElement | undefined} */ (track.eases.children[index]);
+    if (keyframes.length > 1) this.#openEase(index, own && !own.hidden ? own : bar.ease);
+  }
+
+  // A press elsewhere closes the panel before the click comes, and the click on its own button would
+  // open it again.
+  #easePressed() {
+    this.#easeBefore = this.ease.index;
+  }
+
+  /**
+   * @param {number} index
+   * @param {HTMLElement} at
+   */
+  #openEase(index, at) {
+    const segment = this.#segment(index);
+    if (segment && this.#easeBefore !== index) {
+      this.ease.open(index, segment.title, segment.easing, at);
+    }
+    this.#easeBefore = -1;
+  }
+
+  /**
+   * Gives the focus back, unless it is already elsewhere.
+   *
+   * @param {number} index
+   */
+  #easeClosed(index) {
+    const { activeElement } = document;
+    const lost = !activeElement || activeElement === document.body;
+    if (!lost && !this.ease.element.contains(activeElement)) return;
+    const button = this.track.eases.children[index];
+    if (button instanceof HTMLElement && !button.hidden) button.focus({ preventScroll: true });
+    else this.track.focus();
   }
 
   /** @param {number} time */
@@ -247,6 +328,12 @@ export class Timeline {
     else does?.();
   }
 
+  /** @param {0 | 1} which the start or the end of the loop range, at the playhead */
+  #rangeEnd(which) {
+    const { player } = this;
+    this.track.range.key(which, player.seen ? player.place : this.active.time);
+  }
+
   /**
    * What a key does; null for the others.
    *
@@ -257,20 +344,22 @@ export class Timeline {
     const { keyframes } = this.shown;
     switch (e.key) {
       case " ":
-        return () => void (e.repeat || this.player.play());
+        return () => void (e.repeat || this.play());
       case "ArrowLeft":
         return () => this.#step(e, -1);
       case "ArrowRight":
         return () => this.#step(e, 1);
+      case "Enter":
+        return e.target === this.track.ruler ? () => this.#ease() : null;
       case "F2":
         return () => this.track.rename();
       case "Delete":
       case "Backspace":
         return () => void this.edit("delete_pose");
       case "Home":
-        return () => this.select(0);
+        return () => (e.shiftKey ? this.#rangeEnd(0) : this.select(0));
       case "End":
-        return () => this.select(keyframes.length - 1);
+        return () => (e.shiftKey ? this.#rangeEnd(1) : this.select(keyframes.length - 1));
       case "Escape":
         return () => {
           this.track.drop();

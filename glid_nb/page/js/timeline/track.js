@@ -5,12 +5,15 @@
 import { heightOf } from "../motion/strip.js";
 import { make } from "../pad/dom.js";
 import { scaleOf } from "../pad/place.js";
+import { nameOf } from "./ease.js";
+import { curveIcon } from "./ease_editor.js";
 import { nameField } from "./name_field.js";
+import { RangeMarks } from "./range.js";
 import { frameAt, labelledTimes, landing, roomAt, spanOf, withReturn } from "./scale.js";
 import { seconds } from "./words.js";
 import { INSET, Zoom } from "./zoom.js";
 
-/** @import { Shown, Span, TimelineTraits } from "./traits.js" */
+/** @import { Keyframe, Shown, Span, TimelineTraits } from "./traits.js" */
 
 /**
  * What a hand on the track does.
@@ -21,10 +24,14 @@ import { INSET, Zoom } from "./zoom.js";
  * @property {(index: number) => void} select
  * @property {(index: number, time: number) => void} move moves a keyframe
  * @property {(index: number, name: string) => void} rename renames a keyframe
+ * @property {(index: number, button: HTMLElement) => void} ease opens the easing of a segment
+ * @property {() => void} easePressed a button of `ease` is pressed, and not let go yet
+ * @property {(range: Range | null) => void} range sets the part that plays over and over
  * @property {(text: string) => void} hover says what lies below the pointer
  * @property {() => void} dropped what was dragged is let go, so all is shown again
  */
 
+/** @import { Range } from "./range.js" */
 /** @typedef {{ index: number, from: number, x: number, time: number | null }} Drag a keyframe's */
 
 const DOUBLE_CLICK = 400; // ms
@@ -33,12 +40,14 @@ const SNAP = 6; // around a keyframe, of a pointer that scrubs
 const STILL = 4; // that a click may move
 const SLIM = 8; // width of a keyframe, at least
 const WIDE = 60; // at most
+const EASE = 34; // room for the curve of a segment
 const LEAST_FRAME = 6; // width of a frame that gets a tick
 
 export class Track {
   span = 1; // s, what it shows
   rate = 25; // frames in a second of an export
   keys = make("div", { className: "glid-keys" });
+  eases = make("div", { className: "glid-eases" });
   head = make("div", { className: "glid-playhead" });
   ruler = make("div", {
     className: "glid-ruler",
@@ -64,7 +73,15 @@ export class Track {
       role: "img",
       onpointerleave: () => hand.hover(""),
     });
-    const parts = [this.ruler, this.keys, this.strip, this.head];
+    this.range = new RangeMarks({
+      at: (time) => this.#at(time),
+      timeOf: (e) => this.#timeNear(e, true),
+      frame: () => 1 / this.rate,
+      set: (range) => hand.range(range),
+      hover: (text) => hand.hover(text),
+    });
+    const { elements } = this.range;
+    const parts = [this.ruler, this.keys, this.eases, this.strip, ...elements, this.head];
     this.element = make("div", { className: "glid-track" }, ...parts);
     this.zoom = new Zoom(this.element, () => this.#label());
     new ResizeObserver(() => this.#label()).observe(this.ruler);
@@ -85,11 +102,11 @@ export class Track {
     nameField(this.element, this.#at(key.time), key.name, rename, () => this.focus());
   }
 
-  // The index of the keyframe that has the focus, -1 for none.
-  #focused() {
-    const root = /** @type {Document | ShadowRoot} */ (this.keys.getRootNode());
+  // The index of the keyframe that has the focus, or of another row's child; -1 for none.
+  #focused(row = this.keys) {
+    const root = /** @type {Document | ShadowRoot} */ (row.getRootNode());
     const active = /** @type {Element} */ (root.activeElement);
-    return [...this.keys.children].indexOf(active);
+    return [...row.children].indexOf(active);
   }
 
   /** @param {number} rate frames in a second of an export */
@@ -106,6 +123,7 @@ export class Track {
   drop() {
     this.#drag = null;
     this.#scrubbing = null;
+    this.range.drop();
     this.hand.hover("");
     this.hand.dropped();
   }
@@ -172,6 +190,50 @@ export class Track {
     );
     const key = this.keys.children[focused];
     if (key instanceof HTMLElement) key.focus();
+    this.#showEases(all);
+    const { time: end } = all[all.length - 1];
+    this.range.show(shown.range, all.length > 1 ? [all[0].time, end] : null);
+  }
+
+  /**
+   * The curves of the segments, where there is room between their keyframes.
+   *
+   * @param {Keyframe[]} all
+   */
+  #showEases(all) {
+    const focused = this.#focused(this.eases);
+    this.eases.replaceChildren(
+      ...all.slice(1).map(({ name, time }, i) => {
+        const start = all[i];
+        const title = `From ${start.name} to ${name}: ${nameOf(start.easing)}`;
+        const button = make("button", {
+          className: "glid-segment-ease",
+          title,
+          "aria-label": title,
+          "aria-haspopup": "dialog",
+          innerHTML: curveIcon(start.easing),
+          style: `left: ${this.#at((start.time + time) / 2)}`,
+          onpointerdown: (/** @type {PointerEvent} */ e) => {
+            e.stopPropagation(); // the track would scrub
+            this.hand.easePressed();
+          },
+          onclick: () => this.hand.ease(i, button),
+        });
+        button.dataset.seconds = `${time - start.time}`;
+        button.dataset.even = String(start.easing === "linear");
+        return button;
+      }),
+    );
+    this.#hideNarrow();
+    const button = this.eases.children[focused];
+    if (button instanceof HTMLElement) button.focus();
+  }
+
+  #hideNarrow() {
+    const perSecond = Math.max(this.ruler.clientWidth - 2 * INSET, 0) / this.span;
+    for (const button of /** @type {Iterable<HTMLElement>} */ (this.eases.children)) {
+      button.hidden = Number(button.dataset.seconds) * perSecond < WIDE + EASE;
+    }
   }
 
   /**
@@ -197,6 +259,7 @@ export class Track {
     const ticks = make("i", { className: "glid-frames", hidden: frame < LEAST_FRAME });
     ticks.style.setProperty("--glid-frame", `${frame}px`);
     ruler.replaceChildren(ticks, ...labels);
+    this.#hideNarrow();
   }
 
   /** @param {Span} span */
@@ -324,12 +387,21 @@ export class Track {
    * @param {PointerEvent} e
    */
   #scrub(e) {
-    if (this.#scrubbing !== e.pointerId) return;
+    if (this.#scrubbing === e.pointerId) this.hand.scrub(this.#timeNear(e));
+  }
+
+  /**
+   * The time below a pointer; near a keyframe its time.
+   *
+   * @param {PointerEvent} e
+   * @param {boolean} [framed] whether it is else that of the nearest frame
+   */
+  #timeNear(e, framed = false) {
     const { left, width } = this.#inside();
     const time = ((e.clientX - left) / width) * this.span;
     const near = (SNAP / width) * this.span;
     const key = this.#shown?.keyframes.find((one) => Math.abs(one.time - time) < near);
-    this.hand.scrub(key?.time ?? time);
+    return key?.time ?? (framed ? Math.round(time * this.rate) / this.rate : time);
   }
 
   /** @param {PointerEvent} e */

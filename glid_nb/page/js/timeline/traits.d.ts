@@ -1,11 +1,13 @@
 // What the kernel says of a timeline: the traits of `TimelinePanel` in glid_nb/widgets/timeline.py.
 
 import type { Repeat } from "../motion/motion.js";
+import type { Easing } from "./ease.js";
 
 export interface Keyframe {
   name: string;
   time: number;
-  easing: string;
+  /** Of the motion to the next keyframe. */
+  easing: Easing;
   /** The key of its picture in `thumbnails`. */
   thumbnail?: string;
 }
@@ -32,6 +34,8 @@ export interface Shown {
   repeat: Repeat;
   /** Seconds from the last keyframe back to the first, of a loop. */
   back: number;
+  /** Where the part begins and ends that plays over and over; null for the whole motion. */
+  range: [start: number, end: number] | null;
   recording: boolean;
   onion: boolean;
   /** Whether there is an export button. */

@@ -14,7 +14,7 @@ function render({ model, el }) {
   follow(model, {
     "change:tool": () => toolbar.showTool(),
     "change:can_undo change:can_redo": () => toolbar.showHistory(),
-    "change:overlay change:shows": () => toolbar.view.show(),
+    "change:overlay change:shows change:referenced": () => toolbar.view.show(),
   });
 }
 

@@ -22,7 +22,7 @@ export class Toolbar {
   /** @param {Model<ToolbarTraits>} model */
   constructor(model) {
     this.model = model;
-    this.view = new ViewMenu(model, () => this.#press("p"));
+    this.view = new ViewMenu(model, (name) => this.#press(name));
     this.tools = TOOLS.map(([tool, icon, title]) => {
       const button = iconButton(icon, title, () => save(model, { tool }));
       button.dataset.tool = tool || "select";

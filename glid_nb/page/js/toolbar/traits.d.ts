@@ -11,6 +11,8 @@ export interface ToolbarTraits {
   checks: [name: string, label: string, title: string][];
   /** Which of these are shown. */
   shows: Record<string, boolean>;
+  /** Whether there is a reference picture. */
+  referenced: boolean;
   can_undo: boolean;
   can_redo: boolean;
 }

@@ -11,9 +11,9 @@ const BELOW = 4; // CSS pixels between the button and the menu
 export class ViewMenu {
   /**
    * @param {Model<ToolbarTraits>} model
-   * @param {() => void} alone shows the picture alone
+   * @param {(action: string) => void} press has the canvas do something
    */
-  constructor(model, alone) {
+  constructor(model, press) {
     this.model = model;
     this.overlays = model.get("overlays").map(([name, label]) => {
       const item = row("menuitemradio", label, () => save(model, { overlay: name }));
@@ -29,10 +29,14 @@ export class ViewMenu {
       item.title = title;
       return item;
     });
-    const picture = row("menuitem", "The picture alone", () => {
-      this.menu.hidePopover();
-      alone();
-    });
+    const closing = (/** @type {string} */ label, /** @type {string} */ action) =>
+      row("menuitem", label, () => {
+        this.menu.hidePopover();
+        press(action);
+      });
+    const picture = closing("The picture alone", "p");
+    this.reference = closing("", "reference");
+    this.reference.title = "A picture behind the shape, to draw poses after; no export has it";
     picture.append(make("kbd", {}, "P"));
     this.menu = make(
       "div",
@@ -42,7 +46,7 @@ export class ViewMenu {
         "aria-label": "What the canvas shows",
         popover: "auto",
       },
-      ...[...this.overlays, make("hr"), ...this.checks, make("hr"), picture],
+      ...[...this.overlays, make("hr"), ...this.checks, make("hr"), this.reference, picture],
     );
     this.label = make("span", { className: "glid-view-label" });
     this.button = make("button", {
@@ -66,19 +70,24 @@ export class ViewMenu {
       item.ariaChecked = String(chosen);
       if (chosen) this.label.textContent = item.textContent;
     }
+    const { firstElementChild: label } = this.reference;
+    const has = this.model.get("referenced");
+    if (label) label.textContent = has ? "Remove the reference" : "Reference picture…";
     for (const item of this.checks) item.ariaChecked = String(shows[item.dataset.value ?? ""]);
   }
 
   #place() {
     const { left, bottom } = this.button.getBoundingClientRect();
+    const lowest = window.innerHeight - this.menu.offsetHeight - BELOW; // all of it is to be seen
     this.menu.style.left = `${left}px`;
-    this.menu.style.top = `${bottom + BELOW}px`;
+    this.menu.style.top = `${Math.max(BELOW, Math.min(bottom + BELOW, lowest))}px`;
   }
 
   /** @param {ToggleEvent} e */
   #opened({ newState }) {
     this.button.ariaExpanded = String(newState === "open");
     if (newState !== "open") return;
+    this.#place(); // only now its height is known
     this.overlays.find((item) => item.ariaChecked === "true")?.focus({ preventScroll: true });
   }
 

@@ -36,7 +36,7 @@ export function drawStage(pen, stage, scene, hover) {
   }
   drawHoles(pen, stage, scene, hover);
   if (stage.brushing || shown.options.method === "scribbles") drawStrokes(pen, stage, scene);
-  if (loops.length && !(stage.drawing && shown.doubt)) drawCage(pen, stage, scene, hover);
+  if (loops.length) drawCage(pen, stage, scene, hover);
   if (stage.drawing || shown.inside.length) drawOutline(pen, stage, scene);
   if (stage.cutting) drawKnife(pen, stage, scene);
   for (const { point } of shown.problems) {

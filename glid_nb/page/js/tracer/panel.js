@@ -59,6 +59,25 @@ export class Panel {
       brush("background", "Background"),
       make("button", { onclick: () => act("clear_scribbles") }, "Clear"),
     );
+    this.knife = make("input", {
+      type: "number",
+      className: "glid-number",
+      min: 0,
+      step: "any",
+      placeholder: "auto",
+      "aria-label": "Width of the knife (px)",
+      onchange: () => {
+        const { value } = this.knife;
+        act("knife", { width: value === "" ? null : Number(value) });
+      },
+    });
+    this.knives = row(
+      make("span", { className: "glid-grow" }, "Width of the knife"),
+      this.knife,
+      make("span", { className: "glid-unit" }, "px"),
+    );
+    this.knives.classList.add("glid-knife");
+    this.knives.title = "How wide the slit is; empty: as narrow as is good";
     this.component = make("select", {
       "aria-label": "Component",
       onchange: () => this.#choose({ component: Number(this.component.value), component_at: null }),
@@ -70,7 +89,10 @@ export class Panel {
     );
     this.keep = row(make("button", { onclick: () => act("keep_pieces") }, "Keep all as parts"));
     this.doubt = make("p");
-    this.byHand = make("div", { className: "glid-by-hand" }, this.doubt, ...this.#outlines());
+    const title = "Show the outline as it was found, and use it";
+    this.guess = make("button", { title, onclick: () => act("accept_guess") }, "Use the guess");
+    const byHand = [this.doubt, ...this.#outlines(), this.guess];
+    this.byHand = make("div", { className: "glid-by-hand" }, ...byHand);
     this.holesTitle = make("h4");
     this.holes = make("div", { className: "glid-holes" });
     this.notes = make("ul");
@@ -93,6 +115,7 @@ export class Panel {
       { className: "glid-panel" },
       make("h4", {}, "By hand"),
       this.byHand,
+      this.knives,
       make("h4", {}, "Foreground"),
       make("div", group, ...this.methods),
       ...[this.scribbles, this.pickColor, threshold, this.inverts, smoothing, this.components],
@@ -128,6 +151,8 @@ export class Panel {
     this.#showDoubt(shown);
     this.#showComponents(shown);
     this.#showHoles(shown);
+    this.knives.hidden = shown.tool !== "knife";
+    this.knife.value = shown.knife_width === null ? "" : String(shown.knife_width);
     this.notesBox.hidden = !shown.notes.length;
     this.notes.replaceChildren(...shown.notes.map((note) => make("li", {}, note)));
   }
@@ -152,7 +177,8 @@ export class Panel {
     const guess = Boolean(doubt) || !loops.length;
     this.byHand.classList.toggle("glid-guess", guess);
     this.doubt.hidden = !guess;
-    const why = doubt ? `This outline is a guess: ${doubt}. ` : "";
+    this.guess.hidden = !doubt;
+    const why = doubt ? `The outline is not clear: ${doubt}. ` : "";
     this.doubt.textContent = `${why}Show it the shape:`;
   }
 
@@ -171,9 +197,10 @@ export class Panel {
   }
 
   /** @param {Shown} shown */
-  #showHoles({ holes: listed, n_holes: count, n_filled: filled, loops }) {
+  #showHoles({ holes: listed, n_holes: count, n_filled: filled, loops, doubt }) {
     const small = filled ? `, ${filled} small filled` : "";
     this.holesTitle.textContent = `${holesIn(loops.length - 1)} in the cage${small}`;
+    this.holesTitle.hidden = Boolean(doubt); // no outline, no holes
     const rows = listed.map((hole, i) => this.#holeRow(hole, i));
     const left = count - listed.length;
     // Rebuilding takes the focus; the row that had it gets it back.

@@ -97,7 +97,11 @@ export const HELP = [
     [
       ["B, N", "paint over the shape, over the background"],
       ["I, C", "pick the background's colour, the component"],
-      ["K", "knife: draw a line along which the shape is cut; Esc while drawing discards it"],
+      [
+        "K",
+        "knife: draw a line along which the shape is cut; Esc while drawing discards it; " +
+          "its width is in the panel",
+      ],
       ["P, R", "draw the outline or a hole in it, a rectangle; Enter closes it, Esc discards it"],
     ],
   ],

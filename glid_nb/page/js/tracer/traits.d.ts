@@ -48,6 +48,8 @@ export interface Shown {
   inside: Point[];
   /** What the knife did last: its pieces as shares of the shape, and which one is kept. */
   cut: { shares: number[]; kept: number; in_middle: boolean } | null;
+  /** Of the knife's slit, in pixels; null where the kernel chooses it. */
+  knife_width: number | null;
   selected: [loop: number, index: number][];
   /** Whether the other pieces of a picture or cut can be kept as parts. */
   keeps: boolean;

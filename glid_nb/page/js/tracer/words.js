@@ -18,9 +18,9 @@ export function statusOf(shown, refusal, busy) {
     const kept = "This is not a valid cage; the last valid cage is kept";
     return { kind: "bad", text: shown.loops.length ? kept : "There is no cage yet" };
   }
-  const text = cutOf(shown) + cageOf(shown) + moreOn(shown);
   const { doubt } = shown;
-  return doubt ? { kind: "guess", text: `A guess, as ${doubt} · ${text}` } : { kind: "ok", text };
+  if (doubt) return { kind: "guess", text: `No outline yet, as ${doubt} · paint over the shape` };
+  return { kind: "ok", text: cutOf(shown) + cageOf(shown) + moreOn(shown) };
 }
 
 /**
