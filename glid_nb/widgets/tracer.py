@@ -131,7 +131,8 @@ class CageTracer(Pad):
                 self._pushed_image = self.tracing_model.image
                 self.gestures.begin()
                 self.picture = displayed(self._pushed_image)
-            self.shown = described(self.gestures) | {"keeps": self._on_pieces is not None}
+            keeps: dict[str, Any] = {"keeps": self._on_pieces is not None}
+            self.shown = described(self.gestures) | keeps
 
 
 def described(gestures: TraceGestures) -> dict[str, Any]:

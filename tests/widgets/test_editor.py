@@ -170,7 +170,7 @@ def test_a_photograph_opens_in_trace(name: str) -> None:
         assert shown["n_filled"] == editor.tracer.tracing.n_filled
         editor.tabs.selected_index = 1
         assert editor.canvas is None
-        assert "no outline yet" in editor._deform_box.children[0].value
+        assert "no outline yet" in editor.tabs.children[1].children[0].value
         editor.tabs.selected_index = 0
         editor.tracer.handle([{"type": "draw"}])
         assert editor.tracer.shown["doubt"] == ""
