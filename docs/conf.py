@@ -31,6 +31,7 @@ extensions = [
     "live_gecko",
     "mathml",
     "pictures",
+    "proof_checker",
     "reference",
     "source_pages",
 ]

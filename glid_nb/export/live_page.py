@@ -45,7 +45,8 @@ from glid_nb.page import (
 from glid_nb.pose import Pose
 from glid_nb.solvers.stiffness import stiff_nodes
 
-_VERTICES = 300  # of the mesh before the page divides its triangles
+_VERTICES = 300, 250, 200, 150  # of the mesh before the page divides its triangles, the most first
+_MOST = 60_000  # bytes beside the picture; for a cage of many vertices the mesh is coarser
 _STEP = 2.5e-5  # rounding of the mesh, as a share of the shape's size
 _HEIGHT = 2.0**-10  # rounding of heights
 _DIGITS = 1e-6  # rounding of the cage, as a share of its size
@@ -99,10 +100,10 @@ def live_page_html(
             "weight": float(p2p_weight),
             "stiff": stiff_nodes(domain, first.stiffness) if stiff and first is not None else None,
         },
+        "stiffness": first.stiffness.to_list() if stiff and first is not None else None,
         "start": _start(start),
         "poses": [pins_of(one) for one in poses],
         "motion": _motion(start) if isinstance(start, Motion) else None,
-        **_mesh(domain, first),
         **_shaders(domain),
         "frame": [*PixelFrame(*texture.shape[1::-1]).bounds],
         "margin": MARGIN,
@@ -111,17 +112,16 @@ def live_page_html(
         "ranges": _RANGES,
         "size": [*texture.shape[1::-1]],
     }
-    code = [bundle("live"), bundle("live_page"), stylesheet("live_page")]
-    deflated = _deflated(data, code)
+    page = template("live_page")
+    packed_data = _packed(data, domain, first, _MOST - len(page) - len(title))
     parts = {
         "title": html.escape(title),
-        "packed": _lettered(deflated),
-        "size": str(len(deflated)),
+        **packed_data,
         "behind": behind_canvas(background),
         "picture": "data:image/png;base64," + base64.b64encode(png(texture)).decode("ascii"),
     }
     # Replace in one pass, so that inserted text is not searched for placeholders.
-    return re.sub(r"\{\{(\w+)\}\}", lambda found: parts[found[1]], template("live_page"))
+    return re.sub(r"\{\{(\w+)\}\}", lambda found: parts[found[1]], page)
 
 
 def _check_poses(shown: Domain | HarmonicMap | Motion, poses: Sequence[Pose | None]) -> None:
@@ -141,8 +141,19 @@ def _start(start: HarmonicMap | Motion) -> list[float]:
     return coefficients_of(map)
 
 
-def _mesh(domain: Domain, pose: Pose | None) -> dict[str, Any]:
-    mesh = triangulate(domain.cage, _VERTICES)
+def _packed(data: Any, domain: Domain, pose: Pose | None, most: int) -> dict[str, str]:
+    """Data, mesh and code of the page, if possible in at most this many letters."""
+    code = [bundle("live"), bundle("live_page"), stylesheet("live_page")]
+    for n_vertices in _VERTICES:
+        deflated = _deflated({**data, **_mesh(domain, pose, n_vertices)}, code)
+        letters = _lettered(deflated)
+        if len(letters) <= most:
+            break
+    return {"packed": letters, "size": str(len(deflated))}
+
+
+def _mesh(domain: Domain, pose: Pose | None, n_vertices: int) -> dict[str, Any]:
+    mesh = triangulate(domain.cage, n_vertices)
     heights = order_of(domain.cage, pose)(mesh.vertices)
     heights = heights - heights.mean()
     heights /= 2 * np.abs(heights).max() or 1.0

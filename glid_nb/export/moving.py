@@ -78,8 +78,8 @@ class MovingMesh:
         )
         poses = list(pose) if isinstance(pose, Sequence) else [pose]
         for one in poses:
-            kinds = Pose | Order | None
-            check_type("a pose", one, kinds, "give one for each keyframe", InputError)
+            if not isinstance(one, Order):
+                check_type("a pose", one, Pose | None, "give one for each keyframe", InputError)
         if isinstance(shown, HarmonicMap):
             maps, times, pose_times = (shown,), (0.0,), (0.0,)
         else:

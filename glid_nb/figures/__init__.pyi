@@ -3,6 +3,7 @@ from .curves import convergence as convergence
 from .curves import derivative_curve as derivative_curve
 from .curves import energy_levels as energy_levels
 from .curves import function as function
+from .curves import planes as planes
 from .drawing import figure_png as figure_png
 from .frames import LiveFigure as LiveFigure
 from .frames import live as live

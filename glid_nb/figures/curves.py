@@ -193,6 +193,32 @@ def function(
     return figure
 
 
+def planes(*panels: Mapping[str, ArrayLike], titles: Sequence[str] = ()) -> NotebookFigure:
+    """Curves in complex planes, side by side: each panel has (n,) complex points by name.
+
+    The points of a name are joined by lines; a single number is a dot. Two thin lines cross at 0.
+    ``titles`` has one for each panel.
+    """
+    rows = max((1 + len(curves)) // 2 for curves in panels)  # of the longest legend
+    figure = NotebookFigure(2.9 * len(panels), 3.2 + 0.2 * rows)
+    grid = figure.subplots(1, len(panels), squeeze=False)[0]
+    for axes, curves, title in zip(grid, panels, titles or [""] * len(panels), strict=True):
+        axes.axhline(0, color=FAINT, linewidth=0.6)
+        axes.axvline(0, color=FAINT, linewidth=0.6)
+        for (name, given), look in zip(curves.items(), _LOOKS * len(curves), strict=False):
+            points = as_points(np.atleast_1d(np.asarray(given))).T
+            is_dot = points.shape[1] == 1
+            kind = {"marker": "o", "markersize": 6, "linestyle": ""} if is_dot else {}
+            axes.plot(*points, label=name, zorder=3, **{"linewidth": style.LINE, **look, **kind})
+        axes.set_aspect("equal")
+        axes.locator_params(nbins=5)
+        _named(axes, "", "", title)
+        if len(curves) > 1:
+            below = {"loc": "upper center", "bbox_to_anchor": (0.5, -0.09)}
+            axes.legend(ncols=2, **{**style.LEGEND, **below})
+    return figure
+
+
 def _round_nearby(value: float, most: float) -> float:
     rounded = (float(f"{value:.{digits}g}") for digits in range(1, 18))
     return next(number for number in rounded if abs(number - value) <= most)

@@ -1,4 +1,5 @@
-"""Figures with sliders that need no kernel: all frames are in the output, and the page shows one.
+"""Figures with sliders, and a point to drag, that need no kernel: all frames are in the output, and
+the page shows one.
 
 A frame is an SVG file, in which fields and pictures are WebP. Frames of one figure have most lines
 in common, such as the outlines of letters, so each line is stored once. `page/js/frames` reads it.
@@ -19,10 +20,12 @@ import matplotlib as mpl
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.collections import Collection
+from numpy.typing import ArrayLike
 from PIL import Image
 
 from glid_nb._errors import InputError
 from glid_nb.figures.drawing import CSS_DPI, MANY, NotebookFigure, figure_png
+from glid_nb.geometry import as_points
 from glid_nb.page.files import bundle, stylesheet
 
 _PIXELS_PER_INCH = 120.0  # of the fields and pictures in a frame
@@ -48,7 +51,12 @@ class LiveFigure:
         return data, {"image/png": size}
 
 
-def live(draw: Callable[..., NotebookFigure], *start: Any, **values: Iterable[Any]) -> LiveFigure:
+def live(
+    draw: Callable[..., NotebookFigure],
+    *start: Any,
+    point: Callable[..., ArrayLike] | None = None,
+    **values: Iterable[Any],
+) -> LiveFigure:
     """A figure with a slider for each argument of ``draw``. It also moves in a saved notebook.
 
     ``values`` has the positions of each slider, such as ``t=[0, 0.5, 1]``; False and True make a
@@ -56,8 +64,12 @@ def live(draw: Callable[..., NotebookFigure], *start: Any, **values: Iterable[An
     kernel. ``start`` has the values to begin with, in the same order; the default is the first of
     each. All frames have the same axes: the limits contain those of every frame.
 
-    Raises an InputError if a slider has no position, if ``start`` is not among the values, or for
-    more than 200 frames.
+    ``point`` takes the same arguments and returns a place (x, y) in the first axes, or a complex
+    number. The page shows a ring there. Dragging the ring moves the sliders to neighbouring
+    positions as long as their place is nearer to the hand.
+
+    Raises an InputError if a slider has no position, if ``start`` is not among the values, if a
+    place of ``point`` lies outside the figure, or for more than 200 frames.
     """
     positions = {name: _plain(name, given) for name, given in values.items()}
     if not positions:
@@ -82,10 +94,30 @@ def live(draw: Callable[..., NotebookFigure], *start: Any, **values: Iterable[An
         **_in_lines([_svg(figure) for figure in figures]),
         "titles": [_titles(figure) for figure in figures],
     }
+    if point is not None:
+        places = [point(**one) for one in combinations]
+        data["points"] = list(map(_in_picture, figures, places, combinations))
     shown = int(np.ravel_multi_index(begin, [len(given) for given in positions.values()]))
     words = ", ".join(f"{name} = {_text(value)}" for name, value in combinations[shown].items())
     alt = ": ".join(filter(None, [words, _titles(figures[shown])]))
     return LiveFigure(_markup(data, alt, figures[shown]), figures[shown])
+
+
+def _in_picture(figure: NotebookFigure, place: ArrayLike, of: dict[str, Any]) -> list[float]:
+    """A place in the first axes, as shares of the picture's width and height from its top left.
+
+    The figure must have been drawn, because drawing arranges its axes.
+    """
+    given = np.asarray(place)
+    if given.ndim == 0:
+        given = as_points(np.atleast_1d(given))[0]
+    words = ", ".join(f"{name} = {_text(value)}" for name, value in of.items())
+    if given.shape != (2,):
+        raise InputError(f"the point of {words} is no (x, y) and no complex number")
+    x, y = figure.axes[0].transData.transform(given) / figure.bbox.size
+    if not (0 <= x <= 1 and 0 <= y <= 1):
+        raise InputError(f"the point of {words} lies outside the figure; enlarge the axes' limits")
+    return [round(float(x), 4), round(float(1 - y), 4)]
 
 
 def _in_lines(frames: Sequence[str]) -> dict[str, Any]:

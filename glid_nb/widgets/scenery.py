@@ -127,23 +127,17 @@ def stacked_meshes(edited: Scene, scenes: Sequence[Scene]) -> list[Any]:
     for i, scene in enumerate(scenes):
         middle = 2 * HIGHEST * ((i + 0.5) * size - 0.5)
         for mesh in scene.picture_meshes:
-            _put(mesh, middle, size if size == 1 else _LEVEL * size, i)
+            _put(mesh, middle, size if size == 1 else _LEVEL * size)
             pictures.append(mesh)
-    lines = [mesh for mesh in edited.meshes if mesh not in pictures]
-    for mesh in lines:
-        _put(mesh, 0.0, 1.0, len(scenes) if len(scenes) > 1 else 0)
-    return [*pictures, *lines]
+    return [*pictures, *(mesh for mesh in edited.meshes if mesh not in pictures)]
 
 
-def _put(mesh: Any, height: float, scale: float, order: int) -> None:
-    """Move a mesh to a height, and give it a number in the drawing order. Says nothing to the page
-    if it is there."""
+def _put(mesh: Any, height: float, scale: float) -> None:
+    """Give a mesh its range of heights. Says nothing to the page if it has it."""
     if tuple(mesh.position)[2] != height:
         mesh.position = (0.0, 0.0, height)
     if tuple(mesh.scale)[2] != scale:
         mesh.scale = (1.0, 1.0, scale)
-    if mesh.renderOrder != order:
-        mesh.renderOrder = order
 
 
 def suits(scene: Scene, n_vertices: int) -> bool:

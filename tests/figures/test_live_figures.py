@@ -148,3 +148,35 @@ def test_wrong_sliders_are_refused(start: Any, values: Any, words: str) -> None:
 def test_a_function_that_draws_nothing_is_refused() -> None:
     with pytest.raises(InputError, match="the function returns NoneType, not a figure"):
         figures.live(print, sep=[" "])  # type: ignore[arg-type]
+
+
+def test_the_point_of_a_frame_lies_where_its_axes_put_it() -> None:
+    drawn: list[NotebookFigure] = []
+
+    def square(x: float, y: float) -> NotebookFigure:
+        drawn.append(figures.function([0, 4], {"line": [x, y]}))
+        drawn[-1].axes[0].set(xlim=(0, 4), ylim=(0, 2))
+        return drawn[-1]
+
+    places = {"x": [0, 2, 4], "y": [0, 2]}
+    points = np.array(data_of(figures.live(square, point=lambda x, y: (x, y), **places))["points"])
+    box = drawn[-1].axes[0].get_position()
+    corners = [
+        [x, 1 - y] for x in (box.x0, (box.x0 + box.x1) / 2, box.x1) for y in (box.y0, box.y1)
+    ]
+    np.testing.assert_allclose(points, corners, atol=1e-4)
+    complex_ones = figures.live(square, point=lambda x, y: x + 1j * y, **places)
+    assert data_of(complex_ones)["points"] == points.tolist()
+
+
+@pytest.mark.parametrize(
+    ("point", "words"),
+    [
+        (lambda a: (50, a), "the point of a = 1 lies outside the figure; enlarge"),
+        (lambda a: [a, a, a], "the point of a = 1 is no (x, y) and no complex number"),
+        (lambda a: a * float("nan"), "the point of a = 1 lies outside the figure"),
+    ],
+)
+def test_a_point_that_cannot_be_shown_is_refused(point: Any, words: str) -> None:
+    with pytest.raises(InputError, match=re.escape(words)):
+        figures.live(line, point=point, a=[1, 2])

@@ -22,7 +22,7 @@ from glid_nb import figures
 from glid_nb.certificate import certify
 from glid_nb.energies import AMIPS
 from glid_nb.figures.style import VERMILION
-from glid_nb.geometry import MeshMap, triangulate
+from glid_nb.geometry import MeshMap, as_points, triangulate
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.minima import solve
 from glid_nb.pose import Pose
@@ -200,3 +200,19 @@ def test_level_sets_and_convergence_are_labelled() -> None:
         curve, ring = figure.axes[0].lines
         assert ring.get_fillstyle() == "none"  # marks the last iteration
         assert np.array_equal(np.array(ring.get_xydata())[0], np.array(curve.get_xydata())[-1])
+
+
+def test_planes_join_the_points_of_a_name_and_draw_a_single_number_as_a_dot() -> None:
+    square = np.array([0, 2, 2 + 1j, 1j, 0])
+    figure = figures.planes(
+        {"square": square, "a": 1 + 2j}, {"image": 1j * square}, titles=["z", "w"]
+    )
+    left, right = figure.axes
+    assert [axes.get_title() for axes in figure.axes] == ["z", "w"]
+    line, dot = left.lines[2:]
+    np.testing.assert_array_equal(line.get_xydata(), as_points(square))
+    assert (line.get_linestyle(), line.get_marker()) == ("-", "None")
+    assert (dot.get_xydata().tolist(), dot.get_marker()) == ([[1.0, 2.0]], "o")
+    assert {text.get_text() for text in left.get_legend().get_texts()} == {"square", "a"}
+    assert right.get_legend() is None
+    assert left.get_aspect() == right.get_aspect() == 1.0

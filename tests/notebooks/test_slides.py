@@ -8,6 +8,7 @@ from typing import Any
 
 import nbformat
 import pytest
+from playwright.sync_api import Locator
 
 from tools import slides
 
@@ -87,3 +88,53 @@ def test_slides_change_and_live_figures_move(lectures: Path) -> None:
         page.keyboard.press("n")
         assert page.locator("section.now aside").is_visible()
         assert not failed
+
+
+_TOO_LARGE = """() => [...document.querySelectorAll('section')].flatMap((slide, i) => {
+  go(i);
+  const { scrollHeight, clientHeight, scrollWidth, clientWidth } = slide;
+  const fits = scrollHeight <= clientHeight + 1 && scrollWidth <= clientWidth + 1;
+  return fits ? [] : [`slide ${i + 1}: ${scrollWidth} x ${scrollHeight}`];
+})"""
+
+_LIVE = """() => [...document.querySelectorAll('.glid-frames')]
+  .every((figure) => figure.querySelector('input'))"""
+_WITH_RINGS = """() => [...document.querySelectorAll('section')]
+  .flatMap((slide, i) => (slide.querySelector('.glid-ring') ? [i] : []))"""
+
+
+def moved_by_ring(figure: Locator) -> bool:
+    """Whether dragging the ring across the figure moves a slider."""
+    values = "(found) => found.map((one) => one.value)"
+    before = figure.locator("input").evaluate_all(values)
+    ring, picture = (
+        figure.locator(".glid-ring").bounding_box(),
+        figure.locator("img").bounding_box(),
+    )
+    assert ring is not None
+    assert picture is not None
+    x, y = ring["x"] + ring["width"] / 2, ring["y"] + ring["height"] / 2
+    mouse = figure.page.mouse
+    mouse.move(x, y)
+    mouse.down()
+    for share in (0.0, 1.0):  # to the one end and to the other
+        mouse.move(
+            picture["x"] + share * picture["width"], picture["y"] + share * picture["height"]
+        )
+    mouse.up()
+    return figure.locator("input").evaluate_all(values) != before
+
+
+@pytest.mark.browser
+@pytest.mark.slow
+def test_every_slide_fits_a_projector_and_rings_are_dragged_on_slides(lectures: Path) -> None:
+    with launched_chromium() as browser:
+        page = browser.new_page(viewport={"width": 1366, "height": 768})
+        for name in slides.LECTURES:
+            page.goto((lectures / f"{name}.html").as_uri())
+            page.wait_for_function(_LIVE)
+            assert page.evaluate(_TOO_LARGE) == []
+            rings = page.evaluate(_WITH_RINGS)
+            for number in rings:
+                page.evaluate("go", number)
+                assert moved_by_ring(page.locator("section.now .glid-frames")), f"{name}, {number}"

@@ -5,6 +5,7 @@ import { test } from "node:test";
 import { Solving } from "../../glid_nb/page/js/live/solving.js";
 import { coefficientsOf, movedVertices } from "../../glid_nb/page/js/live/wire.js";
 import { Editing } from "../../glid_nb/page/js/live_page/editing.js";
+import { nameOf } from "../../glid_nb/page/js/live_page/files.js";
 import { History } from "../../glid_nb/page/js/live_page/history.js";
 import { quicker, shaderSuffices, sharpness } from "../../glid_nb/page/js/live_page/measuring.js";
 import { boxOf, divided, dividedTimes, sourceAt } from "../../glid_nb/page/js/live_page/mesh.js";
@@ -122,7 +123,7 @@ test("the two files have the same numbers, and no -0", () => {
 
 test("a pose in Python names only what was asked for", () => {
   const pins = [pinAt([0, 0], [1, 2.5]), { ...pinAt([3, 0], [3, 0]), angle: 0.5 }];
-  const code = pythonCode(pins, { energy: "amips", s: 0.5 }, "cat.png");
+  const code = pythonCode(pins, { options: { energy: "amips", s: 0.5 } }, "cat.png");
   assert.match(code, /handles=\[\[0, 0\], \[3, 0\]\]/);
   assert.match(code, /angles=\[None, 0.5\]/);
   assert.doesNotMatch(code, /scales|weights|p2p_weight/);
@@ -269,4 +270,32 @@ test("a pin that the shape does not follow is named once the shape is at rest", 
   assert.ok(editing.refused);
   assert.match(spokenOf(editing), /does not reach pin 1/);
   assert.deepEqual(editing.turnOf(0), { angle: Math.PI / 2, scale: 2 });
+});
+
+test("the lines of Python have the stiff areas", () => {
+  const stiffness = [
+    {
+      points: [
+        [0, 1],
+        [2, 3],
+      ],
+      radius: 0.5,
+      strength: 1,
+    },
+  ];
+  const code = pythonCode([], { options: {}, stiffness }, "cat.png");
+  assert.match(code, /stiffness=\[\{"points":\[\[0,1\],\[2,3\]\],"radius":0\.5,"strength":1\}\],/);
+});
+
+test("files have the title's letters, and no command takes their names for options", () => {
+  assert.equal(nameOf({ title: "Écureuil été" }), "Écureuil-été");
+  assert.equal(nameOf({ title: "ヤモリ" }), "ヤモリ");
+  assert.equal(nameOf({ title: "--force ../x" }), "force-x");
+  assert.equal(nameOf({ title: " ?! " }), "picture");
+  assert.equal(nameOf({ title: "x".repeat(300) }).length, 80);
+});
+
+test("screen readers hear that there are no pins", () => {
+  const nothing = { pins: [], selected: [], missed: [], inGesture: false };
+  assert.equal(spokenOf(nothing), "No pins");
 });

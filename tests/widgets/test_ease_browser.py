@@ -5,6 +5,7 @@ from __future__ import annotations
 import pytest
 from playwright.sync_api import Locator
 
+from ..support.axe import faults
 from .conftest import OpenNotebook
 from .editor_page import ROOMY_EDITOR, SETUP, Hand, center
 from .test_timeline_browser import Timeline
@@ -43,10 +44,7 @@ def test_each_segment_shows_its_curve_which_two_handles_change(open_notebook: Op
     panel.get_by_text("Pose 2 → Pose 3").wait_for()
     panel.get_by_role("button", name="Ease out").click()
     book.wait_for(f"{EASING}[1] == 'out'")
-    page.wait_for_function(
-        "([one, before]) => one.querySelector('path').getAttribute('d') !== before",
-        arg=[segments.nth(1).element_handle(), straight],
-    )
+    segments.nth(1).locator(f"path:not([d='{straight}'])").wait_for()
     panel.locator("[aria-pressed=true]", has_text="Ease out").wait_for()
 
     # A handle: its whole way is one step for undo, which the keyboard reaches in the panel.
@@ -61,6 +59,7 @@ def test_each_segment_shows_its_curve_which_two_handles_change(open_notebook: Op
     book.wait_for(f"{EASING}[1] == (0.63, 0.0, 0.6666666666666666, 1.0)")
     assert leaving.get_attribute("aria-valuetext") == "time 63 %, way 0 %"
     book.screenshot("timeline-ease")
+    assert faults(page, root) == []  # with the panel
     page.keyboard.press("Control+z")
     book.wait_for(f"{EASING}[1] == 'out'")
     panel.locator("[aria-pressed=true]", has_text="Ease out").wait_for()

@@ -166,7 +166,12 @@ def test_a_photograph_opens_in_trace(name: str) -> None:
         assert (editor.tabs.selected_index, editor.canvas) == (0, None)
         shown = editor.tracer.shown
         assert shown["doubt"]
+        assert (shown["loops"], shown["holes"], shown["tool"]) == ([], [], "foreground")
         assert shown["n_filled"] == editor.tracer.tracing.n_filled
+        editor.tabs.selected_index = 1
+        assert editor.canvas is None
+        assert "no outline yet" in editor._deform_box.children[0].value
+        editor.tabs.selected_index = 0
         editor.tracer.handle([{"type": "draw"}])
         assert editor.tracer.shown["doubt"] == ""
         editor.tabs.selected_index = 1

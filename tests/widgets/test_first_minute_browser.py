@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import pytest
 
+from glid_nb.session.first_minute import HINTS, Step
+
 from .conftest import OpenNotebook
 from .editor_page import NEW_PICTURE, ROOMY_EDITOR, SETUP, Hand
 
@@ -53,27 +55,31 @@ def test_the_footer_gives_one_hint_at_a_time(open_notebook: OpenNotebook) -> Non
     hint = page.locator(".glid-foot .glid-next")
     page.locator(".glid-editor").scroll_into_view_if_needed()
 
-    def wait_for_hint(text: str, name: str) -> None:
-        hint.get_by_text(text).wait_for()
+    def wait_for_hint(step: Step) -> None:
+        hint.get_by_text(HINTS[step], exact=True).wait_for()
         assert hint.count() == 1
-        for size in ((390, 844), (1366, 768)):
-            page.set_viewport_size({"width": size[0], "height": size[1]})
+
+    def look(name: str) -> None:
+        for width, height in ((390, 844), (1366, 768)):
+            page.set_viewport_size({"width": width, "height": height})
             hint.scroll_into_view_if_needed()
             hand.wait_until_still()
             assert hint.is_visible()
-            book.screenshot(f"hint-{name}-{size[0]}")
+            book.screenshot(f"hint-{name}-{width}")
 
-    wait_for_hint("Click the shape to pin a point", "pin")
+    wait_for_hint("pin")
+    look("pin")
     assert hand.pad.locator(".glid-notice").is_hidden()
     hand.click((-6.0, 0.0))
-    wait_for_hint("Drag the pin", "drag")
+    wait_for_hint("drag")
     hand.drag([(-6.0, 0.0), (-6.0, 0.5), (-6.0, 1.0)])
-    hint.get_by_text("Drag around the pin").wait_for()
+    wait_for_hint("turn")
+    look("turn")
     page.keyboard.press(">")
-    wait_for_hint("Keep this pose", "keep")
+    wait_for_hint("keep")
     page.keyboard.press("k")
     book.wait_for("len(editor.poses) == 2")
-    hint.get_by_text("play the motion").wait_for()
+    wait_for_hint("play")
     hand.click((6.0, 0.0))
     book.wait_for("editor.timeline.animation.spans[0].status == 'proved'", 60)
     page.get_by_role("button", name="Play").first.click()

@@ -87,7 +87,7 @@ def test_a_range_set_on_the_ruler_plays_over_and_over(open_notebook: OpenNoteboo
     book.wait_for(f"abs({RANGE}[1] - {chosen[1]} - 1 / 25) < 1e-9")
     # An export can be of the range alone.
     page.get_by_role("tab", name="Files").click()
-    only = page.get_by_role("button", name="Loop range", exact=True)
+    only = page.get_by_title("Only the part between the two marks")
     book.value("None", setup="editor.files.show_motion()")
     only.click()
     book.wait_for("editor.files.motion.part.value")

@@ -18,4 +18,6 @@ export interface Frames {
   frames: number[][];
   /** The words above each frame. */
   titles: string[];
+  /** Where each frame's point is, as shares of the picture's width and height from its top left. */
+  points?: [x: number, y: number][];
 }

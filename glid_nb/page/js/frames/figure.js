@@ -1,6 +1,6 @@
-// The sliders of a figure. Each position has its own picture.
+// The sliders of a figure, and the point that is dragged. Each position has its own picture.
 
-import { frameAt, svgOf, wordsOf } from "./frames.js";
+import { dragged, frameAt, svgOf, wordsOf } from "./frames.js";
 
 /** @import { Control, Frames } from "./data.js" */
 
@@ -16,46 +16,92 @@ function controlled({ name, values, start, check }, moved) {
   const value = document.createElement("output");
   const show = (/** @type {number} */ position) => {
     value.textContent = values[position];
-    if (!check) input.setAttribute("aria-valuetext", values[position]);
+    if (check) input.checked = position === 1;
+    else {
+      input.value = `${position}`;
+      input.setAttribute("aria-valuetext", values[position]);
+    }
   };
-  if (check) {
-    Object.assign(input, { type: "checkbox", checked: start === 1 });
-  } else {
-    Object.assign(input, { type: "range", min: "0", max: `${values.length - 1}` });
-    input.value = `${start}`;
-  }
+  if (check) input.type = "checkbox";
+  else Object.assign(input, { type: "range", min: "0", max: `${values.length - 1}` });
   input.setAttribute("aria-label", name);
   input.addEventListener("input", () => {
-    const position = check ? Number(input.checked) : input.valueAsNumber;
-    show(position);
-    moved(position);
+    moved(check ? Number(input.checked) : input.valueAsNumber);
   });
   show(start);
   row.append(name, input);
   if (!check) row.append(value);
-  return row;
+  return { row, show };
 }
 
 /**
- * Puts the sliders above the picture.
+ * A ring on the picture that a hand drags. Keyboards and screen readers have the sliders.
+ *
+ * @param {HTMLImageElement} picture
+ * @param {(hand: [x: number, y: number], size: [width: number, height: number]) => void} moved
+ *   in pixels, from the picture's top left
+ */
+function ringOn(picture, moved) {
+  const stage = document.createElement("div");
+  const ring = document.createElement("div");
+  stage.className = "glid-stage";
+  ring.className = "glid-ring";
+  ring.setAttribute("aria-hidden", "true");
+  picture.replaceWith(stage);
+  stage.append(picture, ring);
+  /** @type {[x: number, y: number]} */
+  let held = [0, 0]; // from the hand to the ring's middle
+  ring.addEventListener("pointerdown", (event) => {
+    if (event.button !== 0) return;
+    event.preventDefault();
+    const { left, top, width, height } = ring.getBoundingClientRect();
+    held = [left + width / 2 - event.clientX, top + height / 2 - event.clientY];
+    ring.setPointerCapture(event.pointerId);
+  });
+  ring.addEventListener("pointermove", (event) => {
+    if (!ring.hasPointerCapture(event.pointerId)) return;
+    const { left, top, width, height } = picture.getBoundingClientRect();
+    moved([event.clientX + held[0] - left, event.clientY + held[1] - top], [width, height]);
+  });
+  return ring;
+}
+
+/**
+ * Puts the sliders above the picture, and the ring on it.
  *
  * @param {HTMLElement} figure
  * @param {Frames} data
  */
 export function addControls(figure, data) {
+  const { controls, points } = data;
   const picture = /** @type {HTMLImageElement} */ (figure.querySelector("img"));
-  const positions = data.controls.map(({ start }) => start);
-  const show = () => {
-    const svg = svgOf(data, frameAt(data.controls, positions));
-    picture.src = `data:image/svg+xml,${encodeURIComponent(svg)}`;
-    picture.alt = wordsOf(data, positions);
-  };
-  const rows = data.controls.map((control, i) =>
-    controlled(control, (position) => {
-      positions[i] = position;
-      show();
-    }),
+  let positions = controls.map(({ start }) => start);
+  const rows = controls.map((control, i) =>
+    controlled(control, (position) => show(positions.with(i, position))),
   );
-  show();
-  figure.prepend(...rows);
+  const ring =
+    points &&
+    ringOn(picture, (hand, [width, height]) => {
+      /** @type {[x: number, y: number][]} */
+      const places = points.map(([x, y]) => [width * x, height * y]);
+      const next = dragged(controls, places, positions, hand);
+      if (next !== positions) show(next);
+    });
+
+  /** @param {number[]} next */
+  function show(next) {
+    positions = next;
+    const at = frameAt(controls, positions);
+    picture.src = `data:image/svg+xml,${encodeURIComponent(svgOf(data, at))}`;
+    picture.alt = wordsOf(data, positions);
+    rows.forEach((row, i) => {
+      row.show(positions[i]);
+    });
+    if (points && ring) {
+      const [left, top] = points[at];
+      Object.assign(ring.style, { left: `${100 * left}%`, top: `${100 * top}%` });
+    }
+  }
+  show(positions);
+  figure.prepend(...rows.map(({ row }) => row));
 }

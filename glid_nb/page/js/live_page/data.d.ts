@@ -34,6 +34,8 @@ export interface LiveData {
   title: string;
   outline: Outline;
   options: SolverOptions;
+  /** The stiff areas' strokes, as `glid.Pose` takes them; null without. */
+  stiffness?: object[] | null;
   /** The map to begin with; empty for the identity. */
   start: number[];
   /** The pins of the start; of a motion, those of all keyframes. */

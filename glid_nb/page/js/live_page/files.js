@@ -6,6 +6,7 @@ import { boxOf } from "./mesh.js";
 import { proofFiles } from "./proof_file.js";
 import { pythonCode } from "./python.js";
 
+/** @import { Solving } from "../live/solving.js" */
 /** @import { LiveMap } from "../live/types.js" */
 /** @import { LiveData } from "./data.js" */
 /** @import { Editing } from "./editing.js" */
@@ -13,11 +14,16 @@ import { pythonCode } from "./python.js";
 
 const MOST_PIXELS = 4096; // of a side of the picture
 const KEPT = 60_000; // ms for which the browser may still read a file
+const LONGEST = 80; // characters of a name
 const PLAIN = "0"; // the picture without colours
 
-/** @param {LiveData} data */
-function nameOf({ title }) {
-  return title.replace(/[^\w-]+/g, "-") || "picture";
+/**
+ * A name for files, which no command takes for an option.
+ * @param {Pick<LiveData, "title">} data
+ */
+export function nameOf({ title }) {
+  const words = title.match(/[\p{L}\p{M}\p{N}_]+/gu) ?? ["picture"];
+  return words.join("-").slice(0, LONGEST);
 }
 
 /**
@@ -26,7 +32,7 @@ function nameOf({ title }) {
  * @param {Editing} editing
  */
 export async function copyPython(data, { pins }) {
-  const text = pythonCode(pins, data.options, `${nameOf(data)}.png`);
+  const text = pythonCode(pins, data, `${nameOf(data)}.png`);
   const allowed = await copied(text);
   return allowed ? "The lines are in the clipboard." : "The browser did not allow copying.";
 }
@@ -50,11 +56,11 @@ export function downloadPicture(data, stage, shown) {
 }
 
 /**
- * Saves the map that the solver has, and its proof; returns what is to be said.
+ * Saves the map that a solver has, and its proof; returns what is to be said.
  * @param {LiveData} data
- * @param {Editing} editing
+ * @param {Solving} solving
  */
-export async function downloadProof(data, { solving }) {
+export async function downloadProof(data, solving) {
   const answer = await solving.ask({ type: "claim" });
   if (answer.type !== "claim") throw new Error("the worker did not answer with a claim");
   const { map, proof } = proofFiles(data.outline, answer.claim);

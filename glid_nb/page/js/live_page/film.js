@@ -91,7 +91,7 @@ export class Film {
     this.#showPlaying();
   }
 
-  #solver() {
+  solver() {
     this.#solving ??= this.start();
     return this.#solving;
   }
@@ -111,7 +111,7 @@ export class Film {
    * @param {Pin[][]} poses pins of its poses
    */
   async load(reel, poses) {
-    const solving = await this.#solver();
+    const solving = await this.solver();
     /** @type {Kept[]} */
     const kept = [];
     for (const [i, time] of reel.keyframes.entries()) {
@@ -251,7 +251,7 @@ export class Film {
   async #way(from, to, start) {
     const known = this.#ways.get(from);
     if (known?.to === to && known.start === start) return known.knots;
-    const knots = await wayBetween(await this.#solver(), from, to, start);
+    const knots = await wayBetween(await this.solver(), from, to, start);
     this.#ways.set(from, { start, to, knots });
     return knots;
   }
@@ -307,7 +307,7 @@ export class Film {
   async #showWanted(motion) {
     this.#asking = true;
     try {
-      const solving = await this.#solver();
+      const solving = await this.solver();
       while (this.#wanted !== null) {
         const coefficients = motion.at(this.#wanted).slice();
         this.#wanted = null; // a newer time may come meanwhile

@@ -14,6 +14,7 @@ import { Film } from "./film.js";
 import { Hand } from "./hand.js";
 import { HELP } from "./help_table.js";
 import { drawMissed } from "./missed.js";
+import { poseOf } from "./pins.js";
 import { Report } from "./report.js";
 import { fitted, roomOn } from "./room.js";
 
@@ -48,6 +49,8 @@ export class LivePage {
   /** @type {LiveMap | null} a frame of the motion, shown instead of the edited pose */
   #moving = null;
   #due = 0;
+  #keeps = false; // poses of the reader
+  #fitted = ""; // the view that shows everything
   #news = true; // of the pose that is edited, which is to be told
   #paintPins;
 
@@ -124,15 +127,27 @@ export class LivePage {
         this.redraw();
       }),
       row("Download the map and its proof", async () => {
-        this.film.release();
-        report.say(await downloadProof(data, editing));
+        report.say(await downloadProof(data, await this.#solverOfShown()));
       }),
       row("Fit the window", () => this.fit()),
       row("Back to the undeformed shape", () => this.#reset()),
     ];
   }
 
+  /** A solver that has the map that is shown. */
+  async #solverOfShown() {
+    const frame = this.#moving;
+    if (!frame) return this.editing.solving;
+    const solving = await this.film.solver();
+    solving.place(poseOf([]), frame.coefficients);
+    return solving;
+  }
+
   #hear() {
+    for (const type of ["dragover", "drop"]) {
+      document.addEventListener(type, (e) => e.preventDefault()); // a dropped file replaces no page
+    }
+    window.addEventListener("beforeunload", (e) => this.#keeps && e.preventDefault());
     this.#overlay.addEventListener("change", () => {
       this.#showLegend();
       this.redraw();
@@ -149,7 +164,7 @@ export class LivePage {
     const { dataset } = this.#box;
     document.addEventListener("keydown", () => Object.assign(dataset, { keys: "" }), true);
     document.addEventListener("pointerdown", () => delete dataset.keys, true);
-    new ResizeObserver(() => this.fit()).observe(this.#box);
+    new ResizeObserver(() => this.#resize()).observe(this.#box);
     const dark = matchMedia("(prefers-color-scheme: dark)");
     dark.addEventListener("change", () => this.report.draw());
   }
@@ -187,6 +202,7 @@ export class LivePage {
     this.film.release();
     const { pins, frame } = this.editing;
     this.film.keep({ pins, frame });
+    this.#keeps = true;
     this.report.tell(`Pose ${this.film.kept.length} is kept`);
     byId("hint").hidden = true;
   }
@@ -200,8 +216,21 @@ export class LivePage {
     const room = roomOn(this.#box);
     const points = this.shown.images ?? [];
     Object.assign(this.view, room.size, fitted(points, room, this.data.margin));
+    this.#fitted = String(this.#seen);
     this.report.draw();
     this.redraw();
+  }
+
+  // A view that the reader has chosen stays where it is.
+  #resize() {
+    if (String(this.#seen) === this.#fitted) this.fit();
+    Object.assign(this.view, roomOn(this.#box).size);
+    this.report.draw();
+    this.redraw();
+  }
+
+  get #seen() {
+    return [this.view.x, this.view.y, this.view.unit];
   }
 
   /** Draws in the next frame. */

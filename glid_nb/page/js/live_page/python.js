@@ -1,7 +1,6 @@
 // The pose as lines of Python, for somebody who goes on with the package.
 
-/** @import { SolverOptions } from "../live/types.js" */
-/** @import { Pin } from "./data.js" */
+/** @import { LiveData, Pin } from "./data.js" */
 
 /** @type {Record<string, string>} the classes of `glid_nb.energies`, by the energies' names */
 const ENERGIES = {
@@ -16,10 +15,11 @@ const WEIGHT = 1e5; // the package's default
 
 /**
  * @param {readonly Pin[]} pins
- * @param {SolverOptions} options
+ * @param {Pick<LiveData, "options" | "stiffness">} data
  * @param {string} picture the name of its file
  */
-export function pythonCode(pins, { energy = "iso", s = 1, weight = WEIGHT }, picture) {
+export function pythonCode(pins, { options, stiffness }, picture) {
+  const { energy = "iso", s = 1, weight = WEIGHT } = options;
   const lines = [
     "import glid_nb as glid",
     "",
@@ -30,6 +30,7 @@ export function pythonCode(pins, { energy = "iso", s = 1, weight = WEIGHT }, pic
     `    targets=${listOf(pins.map(({ target }) => listOf(target.map(numberText))))},`,
     ...optional("angles", pins, ({ angle }) => angle),
     ...optional("scales", pins, ({ scale }) => scale),
+    ...(stiffness ? [`    stiffness=${JSON.stringify(stiffness)},`] : []),
     ...optional("weights", pins, ({ weight: firm }) => (firm === 1 ? null : firm), "1.0"),
     ")",
   ];

@@ -92,7 +92,7 @@ export function spokenOf({ pins, selected, missed, inGesture }) {
     return `The shape does not reach pin ${numbers}`;
   }
   const last = selected.at(-1);
-  if (last === undefined) return "";
+  if (last === undefined) return pins.length ? "" : "No pins";
   const [x, y] = pins[last].target;
   return `Pin ${last + 1} of ${pins.length}, at ${tenths(x)}, ${tenths(y)}`;
 }
