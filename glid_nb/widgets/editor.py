@@ -479,7 +479,6 @@ class Editor(ClosingWidget, ipywidgets.VBox):
         model.observe(lambda what: self._show_layers() if what == "state" else None)
         self.canvas = canvas = DeformCanvas(layers.image, model, **shown)
         canvas.on_other_part = self._edit_part
-        self.monitor = monitor = SolverMonitor(model, *_PLOTS_SIZE, self._plots)
         self.monitor = monitor = SolverMonitor(model, *_PLOTS_SIZE, self._plots, IN_THIS_SESSION)
         self.toolbar = Toolbar(self.canvas, monitor)
         # Make the hidden parts only when the model rests, and the pins' numbers after the first
