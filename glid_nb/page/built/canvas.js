@@ -502,7 +502,7 @@ classList.contains("glid-narrow");const side=shell.querySelector(".glid-side");c
 ".glid-plots-box");const beside=shell.clientWidth-(narrow?0:side?.offsetWidth??0);const plotted=Boolean(
 plots?.offsetWidth)&&!narrow&&beside-PLOTS>=BESIDE3;shell.classList.toggle("glid-beside",plotted);const width=plotted?
 beside-PLOTS:beside;const above=shell.getBoundingClientRect().top-root.getBoundingClientRect().top;return{
-width,height:Math.max(LEAST,below-above/scaleOf(root).down-PARTS),alone:0}}};var FRAME=16;var SHARE=Math.SQRT1_2;var REST=200;var Detail=class{#views;#less=new Map;#timer;constructor(views){
+width,height:Math.max(LEAST,below-above/scaleOf(root).down-PARTS),alone:0}}};var FRAME=16;var SHARE=.5;var REST=200;var Detail=class{#views;#less=new Map;#timer;constructor(views){
 this.#views=views}moved(drawingTime2){if(drawingTime2<=FRAME)return;clearTimeout(this.#timer);this.#timer=
 setTimeout(()=>this.restore(),REST);for(const one of this.#views())void one.then(view=>this.#reduce(
 view))}restore(){clearTimeout(this.#timer);for(const[renderer,ratio]of this.#less)renderer.setPixelRatio(

@@ -2,7 +2,7 @@
 // behind the hand, and with all of them as soon as it stays.
 
 const FRAME = 16; // ms: a page that draws within a frame of the screen draws all pixels
-const SHARE = Math.SQRT1_2; // of the pixels on a side, so half of them all
+const SHARE = 0.5; // of the pixels along each side, as in the live page
 const REST = 200; // ms after the last move
 
 export class Detail {
