@@ -42,15 +42,7 @@ class NotebookFigure(Figure):
         return f"<{type(self).__name__}>"
 
     def _repr_png_(self) -> tuple[bytes, dict[str, int]]:
-        width, height = (CSS_DPI * self.get_size_inches()).round().astype(int).tolist()
-        file, picture = io.BytesIO(), Image.open(io.BytesIO(figure_png(self, _SHOWN_DPI)))
-        values = [collection.get_array() for collection in self.findobj(Collection)]
-        field = any(array is not None and array.size > MANY for array in values)
-        # A palette has too few colours for a smooth field, which would then show bands.
-        smooth = field and not self.findobj(AxesImage)
-        drawn = (_rounded if smooth else _in_256_colors)(picture.convert("RGB"))
-        drawn.save(file, "png", optimize=True)
-        return file.getvalue(), {"width": width, "height": height}
+        return notebook_png(self)
 
     def _ipython_display_(self) -> None:
         # Do not use IPython's formatters: ipywidgets' interact sets one of its own for figures.
@@ -58,6 +50,19 @@ class NotebookFigure(Figure):
 
         png, size = self._repr_png_()
         publish_display_data({"text/plain": repr(self), "image/png": png}, {"image/png": size})
+
+
+def notebook_png(figure: Figure) -> tuple[bytes, dict[str, int]]:
+    """The figure as a small PNG file for a notebook, and its size there in CSS pixels."""
+    width, height = (CSS_DPI * figure.get_size_inches()).round().astype(int).tolist()
+    file, picture = io.BytesIO(), Image.open(io.BytesIO(figure_png(figure, _SHOWN_DPI)))
+    values = [collection.get_array() for collection in figure.findobj(Collection)]
+    field = any(array is not None and array.size > MANY for array in values)
+    # A palette has too few colours for a smooth field, which would then show bands.
+    smooth = field and not figure.findobj(AxesImage)
+    drawn = (_rounded if smooth else _in_256_colors)(picture.convert("RGB"))
+    drawn.save(file, "png", optimize=True)
+    return file.getvalue(), {"width": width, "height": height}
 
 
 def _in_256_colors(picture: Image.Image) -> Image.Image:

@@ -20,11 +20,12 @@ import matplotlib as mpl
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.collections import Collection
+from matplotlib.figure import Figure
 from numpy.typing import ArrayLike
 from PIL import Image
 
 from glid_nb._errors import InputError
-from glid_nb.figures.drawing import CSS_DPI, MANY, NotebookFigure, figure_png
+from glid_nb.figures.drawing import CSS_DPI, MANY, figure_png, notebook_png
 from glid_nb.geometry import as_points
 from glid_nb.page.files import bundle, stylesheet
 
@@ -38,7 +39,7 @@ _PNG = re.compile(r'data:image/png;base64,([^"]+)')
 class LiveFigure:
     """A figure with sliders, as :func:`live` draws it. A notebook shows it."""
 
-    def __init__(self, markup: str, first: NotebookFigure) -> None:
+    def __init__(self, markup: str, first: Figure) -> None:
         self._html, self._first = markup, first
 
     def __repr__(self) -> str:
@@ -46,13 +47,13 @@ class LiveFigure:
 
     def _repr_mimebundle_(self, **_: Any) -> tuple[dict[str, Any], dict[str, Any]]:
         """The page with its sliders, and the first picture for readers that show no HTML."""
-        png, size = self._first._repr_png_()
+        png, size = notebook_png(self._first)
         data = {"text/plain": repr(self), "text/html": self._html, "image/png": png}
         return data, {"image/png": size}
 
 
 def live(
-    draw: Callable[..., NotebookFigure],
+    draw: Callable[..., Figure],
     *start: Any,
     point: Callable[..., ArrayLike] | None = None,
     **values: Iterable[Any],
@@ -60,9 +61,10 @@ def live(
     """A figure with a slider for each argument of ``draw``. It also moves in a saved notebook.
 
     ``values`` has the positions of each slider, such as ``t=[0, 0.5, 1]``; False and True make a
-    check box. ``draw`` is called once for each combination of them, now, so the page needs no
-    kernel. ``start`` has the values to begin with, in the same order; the default is the first of
-    each. All frames have the same axes: the limits contain those of every frame.
+    check box. ``draw`` returns a figure of this package or of matplotlib. It is called once for
+    each combination of them, now, so the page needs no kernel. ``start`` has the values to begin
+    with, in the same order; the default is the first of each. All frames have the same axes: the
+    limits contain those of every frame.
 
     ``point`` takes the same arguments and returns a place (x, y) in the first axes, or a complex
     number. The page shows a ring there. Dragging the ring moves the sliders to neighbouring
@@ -83,7 +85,7 @@ def live(
     ]
     figures = [draw(**one) for one in combinations]
     for one in figures:
-        if not isinstance(one, NotebookFigure):
+        if not isinstance(one, Figure):
             raise InputError(f"the function returns {type(one).__name__}, not a figure")
     _hold_still(figures)
     data = {
@@ -103,7 +105,7 @@ def live(
     return LiveFigure(_markup(data, alt, figures[shown]), figures[shown])
 
 
-def _in_picture(figure: NotebookFigure, place: ArrayLike, of: dict[str, Any]) -> list[float]:
+def _in_picture(figure: Figure, place: ArrayLike, of: dict[str, Any]) -> list[float]:
     """A place in the first axes, as shares of the picture's width and height from its top left.
 
     The figure must have been drawn, because drawing arranges its axes.
@@ -131,6 +133,8 @@ def _in_lines(frames: Sequence[str]) -> dict[str, Any]:
 
 def _plain(name: str, given: Iterable[Any]) -> list[Any]:
     """The positions as Python's own numbers, texts or booleans."""
+    if not isinstance(given, Iterable):
+        raise InputError(f"the slider {name} needs several values, such as {name}=[0, 0.5, 1]")
     found = [np.asarray(value).tolist() for value in given]
     found = [round(value, 12) if isinstance(value, float) else value for value in found]
     if not found:
@@ -160,13 +164,13 @@ def _text(value: Any) -> str:
     return f"{value:.6g}" if isinstance(value, float) else str(value)
 
 
-def _titles(figure: NotebookFigure) -> str:
+def _titles(figure: Figure) -> str:
     """The titles of a figure's axes, in one line, for screen readers."""
     titles = (" ".join(axes.get_title().split()) for axes in figure.axes)
     return "; ".join(filter(None, titles))
 
 
-def _hold_still(figures: Sequence[NotebookFigure]) -> None:
+def _hold_still(figures: Sequence[Figure]) -> None:
     """Give all figures the size of the largest, and their axes the limits that contain all."""
     sizes = np.array([figure.get_size_inches() for figure in figures])
     for figure in figures:
@@ -186,7 +190,7 @@ def _union(same: Sequence[Axes], limits: Callable[[Axes], Any]) -> tuple[float, 
     return float(found.min()), float(found.max())
 
 
-def _svg(figure: NotebookFigure) -> str:
+def _svg(figure: Figure) -> str:
     """The figure as SVG. Fields and pictures in it have pixels, because they have many parts."""
     for collection in figure.findobj(Collection):
         if isinstance(collection, Collection) and len(collection.get_paths()) > MANY:
@@ -220,7 +224,7 @@ def _base64(data: bytes) -> str:
     return base64.b64encode(data).decode("ascii")
 
 
-def _markup(data: dict[str, Any], alt: str, figure: NotebookFigure) -> str:
+def _markup(data: dict[str, Any], alt: str, figure: Figure) -> str:
     """HTML with a frame as a picture, for print and without script. The script adds the sliders."""
     packed = json.dumps(data, ensure_ascii=False, separators=(",", ":")).encode()
     width, height = (CSS_DPI * figure.get_size_inches()).round().astype(int)

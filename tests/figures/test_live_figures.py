@@ -12,6 +12,7 @@ from xml.etree import ElementTree
 
 import numpy as np
 import pytest
+from matplotlib.figure import Figure
 from PIL import Image
 
 from glid_nb import figures
@@ -134,6 +135,7 @@ def test_a_field_of_many_triangles_is_a_small_picture_in_its_frame() -> None:
     ("start", "values", "words"),
     [
         ((), {}, "there is no slider"),
+        ((), {"a": 0.5}, "the slider a needs several values"),
         ((), {"a": []}, "the slider a has no position"),
         ((3,), {"a": [1, 2]}, "a cannot begin with 3, which is not one of 1, 2"),
         ((1, 1), {"a": [1, 2]}, "there are 2 values to begin with for 1 sliders"),
@@ -143,6 +145,18 @@ def test_a_field_of_many_triangles_is_a_small_picture_in_its_frame() -> None:
 def test_wrong_sliders_are_refused(start: Any, values: Any, words: str) -> None:
     with pytest.raises(InputError, match=words):
         figures.live(line, *start, **values)
+
+
+def test_a_figure_of_matplotlib_has_sliders_too() -> None:
+    def drawn(a: float) -> Figure:
+        figure = Figure()
+        figure.subplots().plot([0, a])
+        return figure
+
+    data, size = figures.live(drawn, a=[1, 2])._repr_mimebundle_()
+    assert data["image/png"].startswith(b"\x89PNG")
+    assert size["image/png"]["width"] > 0
+    assert "glid-frames" in data["text/html"]
 
 
 def test_a_function_that_draws_nothing_is_refused() -> None:
