@@ -21,14 +21,14 @@ from typing import ClassVar
 import pytest
 from playwright.sync_api import Browser, Page
 
-from docs.extensions import proof_checker
+from docs.extensions import proof_form
 
 from ..support.browser import launched_chromium
 from ..support.documented import REPOSITORY
 
 pytestmark = [pytest.mark.browser, pytest.mark.slow]
 
-WORKER = (proof_checker.PARTS / "worker.js").read_text(encoding="utf-8")
+WORKER = (proof_form.PARTS / "worker.js").read_text(encoding="utf-8")
 RUNTIME, FLINT = re.findall(r'"(https://[^"]+)"', WORKER)
 FOLDER, _, WHEEL = FLINT.rpartition("/")
 
@@ -59,7 +59,7 @@ def browser() -> Iterator[Browser]:
 @pytest.fixture(scope="module")
 def form(tmp_path_factory: pytest.TempPathFactory) -> Path:
     file = tmp_path_factory.mktemp("form") / "form.html"
-    page = f"<!doctype html><meta charset='utf-8'>{proof_checker.markup()}"
+    page = f"<!doctype html><meta charset='utf-8'>{proof_form.markup()}"
     file.write_text(page, encoding="utf-8")
     return file
 
@@ -156,7 +156,7 @@ def test_a_proof_is_verified_and_a_forged_one_refused(online: Page) -> None:
 @pytest.mark.install
 def test_the_readers_own_files_are_checked_in_any_order(online: Page, tmp_path: Path) -> None:
     files = []
-    for name, text in zip(("map", "proof"), proof_checker.examples()["right"], strict=True):
+    for name, text in zip(("map", "proof"), proof_form.examples()["right"], strict=True):
         files.append(tmp_path / f"{name}.json")
         files[-1].write_text(text, encoding="utf-8")
     online.locator("input").set_input_files(files[::-1])
