@@ -73,15 +73,14 @@ def test_a_photoshop_file_is_its_visible_layers(tmp_path: Path) -> None:
     psd_tools = pytest.importorskip("psd_tools")
     document: Any = psd_tools.PSDImage.new("RGB", (RED.shape[1], RED.shape[0]))
 
-    def layer(group: Any, name: str, pixels: np.ndarray, left: int, right: int) -> Any:
+    def layer(name: str, pixels: np.ndarray, left: int, right: int) -> Any:
         cropped = Image.fromarray(pixels[:, left:right])
-        return group.create_pixel_layer(cropped, name=name, top=0, left=left)
+        return document.create_pixel_layer(cropped, name=name, top=0, left=left)
 
-    layer(document, "red", RED, 5, 70)
-    group = document.create_group(name="group")
-    layer(group, "blue", BLUE, 60, 120)
-    layer(document, "hidden", RED, 5, 70).visible = False
-    layer(document, "empty", 0 * RED, 5, 70)
+    layer("red", RED, 5, 70)
+    document.create_group([layer("blue", BLUE, 60, 120)], name="group")
+    layer("hidden", RED, 5, 70).visible = False
+    layer("empty", 0 * RED, 5, 70)
     document.save(tmp_path / "two.psd")
     parts: Any = parts_in(tmp_path / "two.psd")
     assert list(parts) == ["red", "blue"]
