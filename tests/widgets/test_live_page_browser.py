@@ -235,6 +235,27 @@ def test_a_motion_plays_in_the_live_page(browser: Browser, tmp_path: Path) -> No
         assert status(page) == f"Pin 1 of 2, at {x:.1f}, {y:.1f}"
 
 
+def test_the_proof_of_a_motions_frame_is_that_of_the_map_that_is_shown(
+    browser: Browser, tmp_path: Path
+) -> None:
+    bent, rest = shapes.bent(), HarmonicMap.identity(shapes.domain())
+    with watched_page(browser, _WATCHED) as page:
+        opened(page, tmp_path, Motion([rest, bent]), [shapes.pose()] * 2)
+        slider = page.locator(".track input")
+        bound = page.locator("#bound").text_content()
+        slider.fill("0.5")
+        changed = "before => document.getElementById('bound').textContent !== before"
+        page.wait_for_function(changed, arg=bound)
+        time = slider.input_value()
+        map_file, proof_file = downloads(page, "Download the map and its proof", 2)
+        shown = HarmonicMap.load(map_file.path())
+        assert glid_check.main([str(map_file.path()), str(proof_file.path())]) == 0
+        # Neither the pose that is edited nor that of the end.
+        for end in (rest, bent):
+            assert abs(shown.phi - end.phi).max() > 0.01
+        assert slider.input_value() == time
+
+
 def test_both_ways_to_draw_show_the_same(browser: Browser, tmp_path: Path) -> None:
     pictures, movers = [], []
     for script in (_WATCHED, _WATCHED + _QUICK):
