@@ -90,7 +90,8 @@ def live_page_html(
     _check_poses(shown, poses)
     first = poses[0]
     texture = bled(texture)
-    stiff = None if first is None else first.stiffness.within(domain.cage)
+    painted = None if first is None else first.stiffness
+    stiff = painted if painted and painted.within(domain.cage) else None
     data = {
         "title": title,
         "outline": outline_of(domain),
@@ -98,9 +99,9 @@ def live_page_html(
             "energy": energy.name,
             "s": float(getattr(energy, "s", 1.0)),
             "weight": float(p2p_weight),
-            "stiff": stiff_nodes(domain, first.stiffness) if stiff and first is not None else None,
+            "stiff": None if stiff is None else stiff_nodes(domain, stiff),
         },
-        "stiffness": first.stiffness.to_list() if stiff and first is not None else None,
+        "stiffness": None if stiff is None else stiff.to_list(),
         "start": _start(start),
         "poses": [pins_of(one) for one in poses],
         "motion": _motion(start) if isinstance(start, Motion) else None,

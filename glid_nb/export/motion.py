@@ -120,6 +120,10 @@ def motion_files(
     """
     suffix, fps = suffix_of(name), frames_per_second
     check_type("motion", motion, Motion, _MAKE_ONE, InputError)
+    if suffix not in OF_ONE_SHAPE:
+        how: dict[str, Any] = {"size": size, "frames_per_second": fps, "background": background}
+        how |= {"loop": loop, "progress": progress}
+        return parts_motion_files(name, [MovingPart(image, motion, poses)], **how)
     ground = encode.check_settings(size, fps, background, suffix)
     checked("loop", bool, loop)
     image = as_rgba8(image)
@@ -133,14 +137,10 @@ def motion_files(
                 contents = [page_html(image, motion, **shown, background=behind).encode()]
             case ".glb":
                 contents = [motion_glb(image, motion, poses, progress=progress)]
-            case ".motion.json":
+            case _:  # .motion.json
                 report(progress, 0, 1)
                 contents = [text.encode() for text in motion.texts(image_size=(width, height))]
                 report(progress, 1, 1)
-            case _:
-                parts = [MovingPart(image, motion, poses)]
-                drawn = frames(parts, size, fps, ground, progress)
-                contents = encode.encoded(drawn, name, suffix, fps, ground, loop)
     except Stopped:
         return {}
     return _named(name, suffix, contents)

@@ -19,18 +19,23 @@ model.save_pose(); model.drag(1, (6.0, -2.0)); model.move_pose(2, 2.0); model.go
 EASING = "list(model.state.timeline.easing)"
 
 
+def posed_timeline(open_notebook: OpenNotebook) -> Timeline:
+    """The timeline of an editor with three poses, the first of them edited."""
+    book = open_notebook([SETUP, ROOMY_EDITOR])
+    book.page.set_viewport_size({"width": 1366, "height": 768})
+    timeline = Timeline(Hand(book))
+    book.value("None", setup=POSES)
+    timeline.settle()
+    return timeline
+
+
 def drawn(part: Locator) -> str:
     return part.locator("svg path").last.get_attribute("d") or ""
 
 
 def test_each_segment_shows_its_curve_which_two_handles_change(open_notebook: OpenNotebook) -> None:
-    book = open_notebook([SETUP, ROOMY_EDITOR])
-    hand, page = Hand(book), book.page
-    page.set_viewport_size({"width": 1366, "height": 768})
-    book.value("None", setup=POSES)
-    timeline = Timeline(hand)
-    timeline.settle()
-    root = timeline.root
+    timeline = posed_timeline(open_notebook)
+    book, page, root = timeline.book, timeline.page, timeline.root
     segments, panel = root.locator(".glid-segment-ease"), root.locator(".glid-ease")
     segments.nth(1).wait_for()
     assert segments.count() == 2

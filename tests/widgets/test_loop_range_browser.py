@@ -5,9 +5,8 @@ from __future__ import annotations
 import pytest
 
 from .conftest import OpenNotebook
-from .editor_page import ROOMY_EDITOR, SETUP, Hand, center
-from .test_ease_browser import POSES
-from .test_timeline_browser import Timeline
+from .editor_page import center
+from .test_ease_browser import posed_timeline
 
 pytestmark = [pytest.mark.browser, pytest.mark.slow]
 
@@ -24,13 +23,8 @@ PLAYED = """async ([track, count]) => {
 
 
 def test_a_range_set_on_the_ruler_plays_over_and_over(open_notebook: OpenNotebook) -> None:
-    book = open_notebook([SETUP, ROOMY_EDITOR])
-    hand, page = Hand(book), book.page
-    page.set_viewport_size({"width": 1366, "height": 768})
-    book.value("None", setup=POSES)
-    timeline = Timeline(hand)
-    timeline.settle()
-    root = timeline.root
+    timeline = posed_timeline(open_notebook)
+    book, page, root = timeline.book, timeline.page, timeline.root
     start = root.get_by_role("slider", name="Start of the loop range")
     end = root.get_by_role("slider", name="End of the loop range")
     assert start.get_attribute("data-set") == "false"
