@@ -126,40 +126,40 @@ element.addEventListener("blur",()=>{this.#setSpace(false);behaviour.changed()})
 element.matches(":focus")}place(e){return placeIn(this.element,e)}send(type,place,e={},more={}){const[
 x,y]=this.view.toWorld(place);const{unit}=this.view;return this.link.put({type,x,y,unit,reach:this.#reach(
 e.pointerType)*unit,button:e.button??0,shift:Boolean(e.shiftKey),alt:Boolean(e.altKey),time:e.timeStamp??
-performance.now(),...more})}press(key,e){this.send("key",[this.view.width/2,this.view.height/2],e,{key})}hover(place=this.
-rests){this.rests=place;if(this.mode!==null)return;this.found=place&&this.#find(place,"mouse");this.#showCursor();
-this.behaviour.changed()}keydown(e){const key=keyOf(e);const command=e.ctrlKey||e.metaKey;const action=command||
-e.altKey?void 0:this.behaviour.actions[key.toLowerCase()];const history=undoOrRedo(e);if(!history&&!action&&
-key!==" "){if(e.altKey||!this.behaviour.keys.test(key)||command&&key!=="a")return}e.preventDefault();
-e.stopPropagation();if(key===" "){if(!e.repeat)this.#tap=true;this.#setSpace(true)}else if(action){action()}else{
-if(key==="Escape"||history)this.#drop();this.press(history??key,e)}}#keyup(e){if(e.key!==" ")return;
-this.#setSpace(false);if(this.#tap)this.behaviour.tapped?.()}#reach(type){return this.behaviour.reach[type??
-"mouse"]??this.behaviour.reach.mouse}#find(place,type){return this.behaviour.find(this.view.toWorld(
-place),this.#reach(type)*this.view.unit)}#down(e){if(this.pointers.has(e.pointerId)||this.pointers.size>
-1)return;e.preventDefault();this.element.focus({preventScroll:true});this.#tap=false;const place=this.
-place(e);this.pointers.set(e.pointerId,place);this.element.setPointerCapture(e.pointerId);const second=this.
-pointers.size===2;if(second)this.#takeBack(e);this.#start=place;this.mode=second||e.button===1||e.button===
-0&&this.#space?"pan":"hand";if(this.mode==="hand")this.#handDown(place,e);this.#showCursor()}#handDown(place,e){
-const{behaviour}=this;const found=this.#find(place,e.pointerType);const left=e.button===0;const drags=left&&
-!e.altKey&&(behaviour.constrain||!e.shiftKey);if(drags&&found?.mark!==void 0){this.grip={from:this.view.
-toWorld(place),points:behaviour.held(found)}}this.#pans=left&&Boolean(behaviour.pans?.(found,e));this.
-encloses=left&&!behaviour.painting?behaviour.encloses?.(found,e):null;this.path=left?[this.view.toWorld(
-place)]:[];this.send("down",place,e,{part:found?.part,at:left?behaviour.pressedAt?.():void 0});if(e.
-pointerType==="touch"&&behaviour.menu&&!behaviour.painting){this.#longPress=setTimeout(()=>this.#pressedLong(
-e,place),LONG_PRESS)}behaviour.changed()}#pressedLong(e,place){this.#longPress=setTimeout(()=>{this.#takeBack(
-e);this.mode=null;this.#menu(place,"touch")},LONG_PRESS_GRACE)}#menu(place,type){this.behaviour.menu?.(
-place,this.#find(place,type))}#contextMenu(e){e.preventDefault();e.stopPropagation();const touch=e instanceof
-PointerEvent&&e.pointerType==="touch";if(e.button===2&&!touch)this.#menu(this.place(e),"mouse")}#takeBack(e){
-if(this.mode==="hand")this.send("cancel",this.#start,e);this.#drop()}#move(e){const place=this.place(
-e);const touch=e.pointerType==="touch";if(!this.pointers.has(e.pointerId)){if(!touch)this.hover(place);
-return}if(!touch)this.rests=place;const far=distance(place,this.#start);if(far>LONG_PRESS_SLACK)clearTimeout(
-this.#longPress);if(this.mode==="hand"&&this.#pans&&far>CLICK){this.#takeBack(e);this.mode="pan";this.#showCursor()}
-if(this.mode==="pan"){this.view.follow(this.pointers,e.pointerId,place);return}this.pointers.set(e.pointerId,
-place);if(this.mode==="hand")this.#handMoved(place,e,far)}#handMoved(place,e,far){const free=this.view.
-toWorld(place);this.#lengthenPath(place,free,far);const[x,y]=this.behaviour.constrain?.(free,e)??free;
-if(!this.encloses&&!this.behaviour.painting){this.send("move",place,e,{x,y,replaces:`move ${e.pointerId}`})}
-if(this.grip){const dx=x-this.grip.from[0];const dy=y-this.grip.from[1];for(const[mark,[u,v]]of this.
-grip.points)this.held.set(mark,[u+dx,v+dy])}this.behaviour.changed()}#lengthenPath(place,point,far){
+performance.now(),...more})}press(key,e){this.behaviour.pressing?.(key);this.send("key",[this.view.width/
+2,this.view.height/2],e,{key})}hover(place=this.rests){this.rests=place;if(this.mode!==null)return;this.
+found=place&&this.#find(place,"mouse");this.#showCursor();this.behaviour.changed()}keydown(e){const key=keyOf(
+e);const command=e.ctrlKey||e.metaKey;const action=command||e.altKey?void 0:this.behaviour.actions[key.
+toLowerCase()];const history=undoOrRedo(e);if(!history&&!action&&key!==" "){if(e.altKey||!this.behaviour.
+keys.test(key)||command&&key!=="a")return}e.preventDefault();e.stopPropagation();if(key===" "){if(!e.
+repeat)this.#tap=true;this.#setSpace(true)}else if(action){action()}else{if(key==="Escape"||history)
+this.#drop();this.press(history??key,e)}}#keyup(e){if(e.key!==" ")return;this.#setSpace(false);if(this.#tap)
+this.behaviour.tapped?.()}#reach(type){return this.behaviour.reach[type??"mouse"]??this.behaviour.reach.
+mouse}#find(place,type){return this.behaviour.find(this.view.toWorld(place),this.#reach(type)*this.view.
+unit)}#down(e){if(this.pointers.has(e.pointerId)||this.pointers.size>1)return;e.preventDefault();this.
+element.focus({preventScroll:true});this.#tap=false;const place=this.place(e);this.pointers.set(e.pointerId,
+place);this.element.setPointerCapture(e.pointerId);const second=this.pointers.size===2;if(second)this.#takeBack(
+e);this.#start=place;this.mode=second||e.button===1||e.button===0&&this.#space?"pan":"hand";if(this.
+mode==="hand")this.#handDown(place,e);this.#showCursor()}#handDown(place,e){const{behaviour}=this;const found=this.#find(
+place,e.pointerType);const left=e.button===0;const drags=left&&!e.altKey&&(behaviour.constrain||!e.shiftKey);
+if(drags&&found?.mark!==void 0){this.grip={from:this.view.toWorld(place),points:behaviour.held(found)}}
+this.#pans=left&&Boolean(behaviour.pans?.(found,e));this.encloses=left&&!behaviour.painting?behaviour.
+encloses?.(found,e):null;this.path=left?[this.view.toWorld(place)]:[];this.send("down",place,e,{part:found?.
+part,at:left?behaviour.pressedAt?.():void 0});if(e.pointerType==="touch"&&behaviour.menu&&!behaviour.
+painting){this.#longPress=setTimeout(()=>this.#pressedLong(e,place),LONG_PRESS)}behaviour.changed()}#pressedLong(e,place){
+this.#longPress=setTimeout(()=>{this.#takeBack(e);this.mode=null;this.#menu(place,"touch")},LONG_PRESS_GRACE)}#menu(place,type){
+this.behaviour.menu?.(place,this.#find(place,type))}#contextMenu(e){e.preventDefault();e.stopPropagation();
+const touch=e instanceof PointerEvent&&e.pointerType==="touch";if(e.button===2&&!touch)this.#menu(this.
+place(e),"mouse")}#takeBack(e){if(this.mode==="hand")this.send("cancel",this.#start,e);this.#drop()}#move(e){
+const place=this.place(e);const touch=e.pointerType==="touch";if(!this.pointers.has(e.pointerId)){if(!touch)
+this.hover(place);return}if(!touch)this.rests=place;const far=distance(place,this.#start);if(far>LONG_PRESS_SLACK)
+clearTimeout(this.#longPress);if(this.mode==="hand"&&this.#pans&&far>CLICK){this.#takeBack(e);this.mode=
+"pan";this.#showCursor()}if(this.mode==="pan"){this.view.follow(this.pointers,e.pointerId,place);return}
+this.pointers.set(e.pointerId,place);if(this.mode==="hand")this.#handMoved(place,e,far)}#handMoved(place,e,far){
+const free=this.view.toWorld(place);this.#lengthenPath(place,free,far);const[x,y]=this.behaviour.constrain?.(
+free,e)??free;if(!this.encloses&&!this.behaviour.painting){this.send("move",place,e,{x,y,replaces:`m\
+ove ${e.pointerId}`})}if(this.grip){const dx=x-this.grip.from[0];const dy=y-this.grip.from[1];for(const[
+mark,[u,v]]of this.grip.points)this.held.set(mark,[u+dx,v+dy])}this.behaviour.changed()}#lengthenPath(place,point,far){
 if(this.encloses==="box"){const[corner]=this.path;this.path=far>CLICK?rectangle(corner,point):[corner];
 return}const last=this.path.at(-1);if(last&&distance(place,this.view.toScreen(last))>=PATH_STEP)this.
 path.push(point)}#up(e,type){if(!this.pointers.has(e.pointerId))return;const place=this.place(e);this.
@@ -389,29 +389,30 @@ s it";var RING_TIPS={turn:"Drag around the pin to turn the shape there; X frees 
 this.canvas=canvas;this.actions={"?":canvas.help.toggle,b:()=>canvas.toggleTool("stiff"),e:()=>canvas.
 toggleTool("erase"),contextmenu:()=>canvas.openMenu(),i:()=>canvas.room?.toggleInspector(),k:()=>void canvas.
 box.dispatchEvent(new CustomEvent("glid:key",{bubbles:true})),p:()=>canvas.room?.alone(),reference:()=>canvas.
-reference.toggle(),w:()=>canvas.room?.fullScreen()}}get painting(){return this.canvas.painting}changed(){
-this.canvas.followHand();this.canvas.redraw()}menu(place,found){this.canvas.openMenu(place,found)}pressedAt(){
-return this.canvas.pressedAt()}tapped(){this.canvas.box.dispatchEvent(new CustomEvent("glid:play",{bubbles:true}))}find(point,reach){
-const{view,marks,reachable:reachable2,shapes,painting}=this.canvas;if(shapes.motion||painting)return null;
-const mark=markAt(reachable2,point,reach);return mark??ringAt(view,marks,view.toScreen(point),reach/
-view.unit/2)}encloses(found,e){const start=this.canvas.pad.grip?.points.get(found?.mark??"");this.pressed=
-{found,start,pins:this.canvas.marks.targets.length};if(found)return null;if(e.shiftKey)return"box";return e.
-ctrlKey||e.metaKey?"lasso":null}get constrains(){const{axis,whole}=this.pressed?.keys??{};return Boolean(
-axis||whole)}madePin(){const{pad,model}=this.canvas;const{pressed}=this;if(!pressed||pressed.found||
-this.painting||pad.mode!=="hand")return void 0;const count=model.get("rest").pose?.targets.length??0;
-return count===pressed.pins+1&&!pad.encloses?pressed.pins:void 0}held({mark}){const{selected,targets}=this.
-canvas.allMarks;const moved=movedWith(Number(mark),selected,this.canvas.model.get("pins"));return new Map(
-moved.map(i=>[i,targets[i]]))}constrain(point,e){const{model,pad}=this.canvas;const{pressed}=this;const[
-from]=pad.path;if(!pressed||!from||pressed.found?.part||pad.encloses||e.altKey)return point;pressed.
-keys={axis:e.shiftKey,whole:e.ctrlKey||e.metaKey};pressed.start??=from;const[x,y]=pressed.start;const free=[
-x+point[0]-from[0],y+point[1]-from[1]];const[u,v]=constrained([x,y],free,pressed.keys,model.get("pic\
-ture_size"));return[u-x+from[0],v-y+from[1]]}cursor(found){this.canvas.box.title=this.#tip(found);if(found?.
-mark!==void 0&&this.#locked(found))return"pointer";return found?"grab":"crosshair"}#locked({mark}){return this.
-canvas.model.get("pins").locked.includes(Number(mark))}#tip(found){if(!found)return"";if(found.part)
-return RING_TIPS[found.part];const{marks,model}=this.canvas;const mark=Number(found.mark);const name=[
-"Pin",mark+1,model.get("names")[mark]].join(" ").trim();if(this.#locked(found))return`${name}: ${LOCKED_TIP}`;
-const tip=found.reached?IMAGE_TIP:TARGET_TIP;return`${name}: ${tip}${marks.hidden.includes(mark)?COVERED:
-""}`}};async function copied(text){try{await navigator.clipboard.writeText(text);return true}catch{return copiedBySelection(
+reference.toggle(),w:()=>canvas.room?.fullScreen(),"tool:":()=>canvas.takeTool(""),"tool:stiff":()=>canvas.
+takeTool("stiff"),"tool:erase":()=>canvas.takeTool("erase")}}pressing(key){if(key==="Escape")this.canvas.
+putBrushAway()}get painting(){return this.canvas.painting}changed(){this.canvas.followHand();this.canvas.
+redraw()}menu(place,found){this.canvas.openMenu(place,found)}pressedAt(){return this.canvas.pressedAt()}tapped(){
+this.canvas.box.dispatchEvent(new CustomEvent("glid:play",{bubbles:true}))}find(point,reach){const{view,
+marks,reachable:reachable2,shapes,painting}=this.canvas;if(shapes.motion||painting)return null;const mark=markAt(
+reachable2,point,reach);return mark??ringAt(view,marks,view.toScreen(point),reach/view.unit/2)}encloses(found,e){
+const start=this.canvas.pad.grip?.points.get(found?.mark??"");this.pressed={found,start,pins:this.canvas.
+marks.targets.length};if(found)return null;if(e.shiftKey)return"box";return e.ctrlKey||e.metaKey?"la\
+sso":null}get constrains(){const{axis,whole}=this.pressed?.keys??{};return Boolean(axis||whole)}madePin(){
+const{pad,model}=this.canvas;const{pressed}=this;if(!pressed||pressed.found||this.painting||pad.mode!==
+"hand")return void 0;const count=model.get("rest").pose?.targets.length??0;return count===pressed.pins+
+1&&!pad.encloses?pressed.pins:void 0}held({mark}){const{selected,targets}=this.canvas.allMarks;const moved=movedWith(
+Number(mark),selected,this.canvas.model.get("pins"));return new Map(moved.map(i=>[i,targets[i]]))}constrain(point,e){
+const{model,pad}=this.canvas;const{pressed}=this;const[from]=pad.path;if(!pressed||!from||pressed.found?.
+part||pad.encloses||e.altKey)return point;pressed.keys={axis:e.shiftKey,whole:e.ctrlKey||e.metaKey};
+pressed.start??=from;const[x,y]=pressed.start;const free=[x+point[0]-from[0],y+point[1]-from[1]];const[
+u,v]=constrained([x,y],free,pressed.keys,model.get("picture_size"));return[u-x+from[0],v-y+from[1]]}cursor(found){
+this.canvas.box.title=this.#tip(found);if(found?.mark!==void 0&&this.#locked(found))return"pointer";
+return found?"grab":"crosshair"}#locked({mark}){return this.canvas.model.get("pins").locked.includes(
+Number(mark))}#tip(found){if(!found)return"";if(found.part)return RING_TIPS[found.part];const{marks,
+model}=this.canvas;const mark=Number(found.mark);const name=["Pin",mark+1,model.get("names")[mark]].
+join(" ").trim();if(this.#locked(found))return`${name}: ${LOCKED_TIP}`;const tip=found.reached?IMAGE_TIP:
+TARGET_TIP;return`${name}: ${tip}${marks.hidden.includes(mark)?COVERED:""}`}};async function copied(text){try{await navigator.clipboard.writeText(text);return true}catch{return copiedBySelection(
 text)}}function copiedBySelection(text){const focused=document.activeElement;const area=document.createElement(
 "textarea");area.value=text;area.setAttribute("readonly","");Object.assign(area.style,{position:"fix\
 ed",top:"0",left:"0",opacity:"0"});document.body.append(area);area.select();try{return document.execCommand(
@@ -749,17 +750,19 @@ ahead.leads&&this.shapes.movesVertices;return spacing.put(event,leads&&event.typ
 event=>this.link.put(event));signal.addEventListener("abort",()=>spacing.close());return{put,signal}}get brush(){
 const{radius,strength}=this.model.get("brush");const{tool}=this;return tool?{radius,strength:tool===
 "stiff"?strength:0}:null}get tool(){const told=this.model.get("brush").tool;return told===void 0?"":
-this.#tool??told}toggleTool(tool){const name=this.tool===tool?"":tool;this.pad.link.put({type:"tool",
-name});this.#showTool(name)}#showTool(tool){if(tool===this.#tool)return;this.#tool=tool;this.showNotice();
-this.pad.hover();this.redraw()}get painting(){return this.brush!==null}say(notice){save(this.model,{
-notice})}openMenu(place,found={mark:this.marks.selected.at(-1)}){const{selected,targets}=this.marks;
-const mark=found?.mark===void 0?null:Number(found.mark);const centre=[this.view.x,this.view.y];const pinned=mark!==
-null&&Number.isFinite(targets[mark]?.[0]);const point=pinned?targets[mark]:this.model.get("cursor")??
-centre;const at=place??this.view.toScreen(point);const does={press:(key,shift=false)=>{return()=>this.#press(
-key,shift)},pin:()=>void this.pad.send("pin",at),paste:()=>void this.clipboard.paste(),alone:()=>this.
-room?.alone(),fullScreen:()=>this.room?.fullScreen(),showKeys:this.help.toggle};const count=mark!==null&&
-selected.includes(mark)?selected.length:1;const covered=mark===null&&coveredNear(this.box,at);const hides=this.
-model.get("pins").away.length>0;openMenu(this.box,at,menuRows(does,mark===null?null:count,covered,hides))}showMotion(motion=null,playing=STILL,heights=null,parts={}){
+this.#tool??told}toggleTool(tool){this.takeTool(this.tool===tool?"":tool)}takeTool(name){this.pad.link.
+put({type:"tool",name});this.#showTool(name)}putBrushAway(){if(this.painting)this.#showTool("")}#showTool(tool){
+if(tool===this.#tool)return;this.#tool=tool;this.box.dispatchEvent(new CustomEvent("glid:tool",{bubbles:true,
+detail:this.tool}));this.takeFocus();this.showNotice();this.pad.hover();this.redraw()}get painting(){
+return this.brush!==null}say(notice){save(this.model,{notice})}openMenu(place,found={mark:this.marks.
+selected.at(-1)}){const{selected,targets}=this.marks;const mark=found?.mark===void 0?null:Number(found.
+mark);const centre=[this.view.x,this.view.y];const pinned=mark!==null&&Number.isFinite(targets[mark]?.[0]);
+const point=pinned?targets[mark]:this.model.get("cursor")??centre;const at=place??this.view.toScreen(
+point);const does={press:(key,shift=false)=>{return()=>this.#press(key,shift)},pin:()=>void this.pad.
+send("pin",at),paste:()=>void this.clipboard.paste(),alone:()=>this.room?.alone(),fullScreen:()=>this.
+room?.fullScreen(),showKeys:this.help.toggle};const count=mark!==null&&selected.includes(mark)?selected.
+length:1;const covered=mark===null&&coveredNear(this.box,at);const hides=this.model.get("pins").away.
+length>0;openMenu(this.box,at,menuRows(does,mark===null?null:count,covered,hides))}showMotion(motion=null,playing=STILL,heights=null,parts={}){
 this.#playing=playing;this.shapes.motion=motion;this.shapes.partMotions=parts;this.shapes.lift(heights);
 this.showLegend();this.shapes.refresh();this.redraw()}showLegend(){this.legend.show(this.model,Boolean(
 this.shapes.motion))}takeFocus(){const{painting}=this;const chosen=painting&&!this.#painted;this.#painted=
@@ -777,30 +780,29 @@ const act=this.behaviour.actions[key];if(act)act();else this.pad.press(key,{shif
 const goBack=e=>{if(!this.shapes.motion)return;e.stopImmediatePropagation();e.preventDefault();this.#playing.
 release()};const capture=true;this.box.addEventListener("pointerdown",e=>e.button===2&&goBack(e),{capture});
 const ours=e=>!e.ctrlKey&&!e.metaKey&&KEYS.test(keyOf(e));this.box.addEventListener("keydown",e=>ours(
-e)&&goBack(e),{capture});const putAway=e=>{if(keyOf(e)==="Escape"&&this.painting)this.#showTool("")};
-this.box.addEventListener("keydown",putAway,{capture});const openedByKeys=e=>{if(e.key!=="F10"||!e.shiftKey)
-return;e.stopImmediatePropagation();e.preventDefault();this.openMenu()};this.box.addEventListener("k\
-eydown",openedByKeys,{capture});const followArrow=e=>{const target=arrowAt(this.view,this.marks,this.
-pad.place(e));if(!target||e.target!==this.box)return;this.view.centreOn(target);e.stopImmediatePropagation()};
-this.box.addEventListener("pointerdown",followArrow,{capture})}#makeCorner(){const look="glid-help-b\
-utton";return make("div",{className:"glid-corner"},this.help.button,iconButton("screen","Full screen\
- (W)",()=>this.room?.fullScreen(),look),iconButton("rectangle","The picture alone (P)",()=>this.room?.
-alone(),look))}#report(){const{busy,refusal}=this.link;if(this.link.idle)this.#showTool(void 0);if(this.#presses&&
-this.link.idle&&this.pad.mode===null){this.#presses=false;this.#playing.release()}if(!busy&&refusal&&
-refusal!==this.model.get("notice"))this.say(refusal)}#viewMoved(){this.#see();clearTimeout(this.#saving);
-this.#saving=setTimeout(()=>{const{x,y,unit}=this.view;save(this.model,{view:[x,y,unit]})},SAVE_VIEW_AFTER)}#see(){
-this.shapes.see();this.reference.place();this.redraw()}#drawNumbers(pen){const{model,view,pad,marks}=this;
-const{pressed}=this.behaviour;const drags=pad.mode==="hand"&&pad.path.length>1&&!pad.encloses;const moved=drags&&
-pressed&&movedPin(pressed,marks,pad.held,model.get("picture_size"));if(!moved)return;const{start,keys}=pressed;
-if(start&&keys?.axis)drawAxis(pen,view,start,moved.at);drawNumbers(pen,view,moved)}#draw(pen){const{
-model,view,pad,marks,brush}=this;const{motion}=this.shapes;const through=!motion&&knobInCorner(view,
-marks,pad.held);this.corner.classList.toggle("glid-through",through);if(motion)return;drawOnion(pen,
-view,model.get("onion"));drawStiff(pen,view,model.get("stiff"),this.painting);if(this.interactive&&!this.
-painting){this.ghosts.draw(pen,view,model.get("outline").outline,marks.targets.length>0)}const cursor=pad.
-focused?model.get("cursor"):null;const pins=model.get("pins");const held=new Map([...pad.held].filter(
-([mark])=>!pins.away.includes(Number(mark))));drawMarks(pen,view,marks,{hovered:pad.found?.mark,held,
-cursor});drawLocks(pen,view,marks,pins);if(brush)drawBrush(pen,view,brush,pad);else this.#drawNumbers(
-pen);if(pad.encloses&&pad.path.length>2)drawLasso(pen,view,pad.path)}};function render(context){const{model,signal}=context;const canvas=new Canvas(context);follow(model,{
+e)&&goBack(e),{capture});const openedByKeys=e=>{if(e.key!=="F10"||!e.shiftKey)return;e.stopImmediatePropagation();
+e.preventDefault();this.openMenu()};this.box.addEventListener("keydown",openedByKeys,{capture});const followArrow=e=>{
+const target=arrowAt(this.view,this.marks,this.pad.place(e));if(!target||e.target!==this.box)return;
+this.view.centreOn(target);e.stopImmediatePropagation()};this.box.addEventListener("pointerdown",followArrow,
+{capture})}#makeCorner(){const look="glid-help-button";return make("div",{className:"glid-corner"},this.
+help.button,iconButton("screen","Full screen (W)",()=>this.room?.fullScreen(),look),iconButton("rect\
+angle","The picture alone (P)",()=>this.room?.alone(),look))}#report(){const{busy,refusal}=this.link;
+if(this.link.idle)this.#showTool(void 0);if(this.#presses&&this.link.idle&&this.pad.mode===null){this.#presses=
+false;this.#playing.release()}if(!busy&&refusal&&refusal!==this.model.get("notice"))this.say(refusal)}#viewMoved(){
+this.#see();clearTimeout(this.#saving);this.#saving=setTimeout(()=>{const{x,y,unit}=this.view;save(this.
+model,{view:[x,y,unit]})},SAVE_VIEW_AFTER)}#see(){this.shapes.see();this.reference.place();this.redraw()}#drawNumbers(pen){
+const{model,view,pad,marks}=this;const{pressed}=this.behaviour;const drags=pad.mode==="hand"&&pad.path.
+length>1&&!pad.encloses;const moved=drags&&pressed&&movedPin(pressed,marks,pad.held,model.get("pictu\
+re_size"));if(!moved)return;const{start,keys}=pressed;if(start&&keys?.axis)drawAxis(pen,view,start,moved.
+at);drawNumbers(pen,view,moved)}#draw(pen){const{model,view,pad,marks,brush}=this;const{motion}=this.
+shapes;const through=!motion&&knobInCorner(view,marks,pad.held);this.corner.classList.toggle("glid-t\
+hrough",through);if(motion)return;drawOnion(pen,view,model.get("onion"));drawStiff(pen,view,model.get(
+"stiff"),this.painting);if(this.interactive&&!this.painting){this.ghosts.draw(pen,view,model.get("ou\
+tline").outline,marks.targets.length>0)}const cursor=pad.focused?model.get("cursor"):null;const pins=model.
+get("pins");const held=new Map([...pad.held].filter(([mark])=>!pins.away.includes(Number(mark))));drawMarks(
+pen,view,marks,{hovered:pad.found?.mark,held,cursor});drawLocks(pen,view,marks,pins);if(brush)drawBrush(
+pen,view,brush,pad);else this.#drawNumbers(pen);if(pad.encloses&&pad.path.length>2)drawLasso(pen,view,
+pad.path)}};function render(context){const{model,signal}=context;const canvas=new Canvas(context);follow(model,{
 "change:width change:height change:view":()=>canvas.fit(),"change:coefficients":()=>canvas.shapes.lead||
 canvas.shapes.refresh(),"change:part_maps":()=>canvas.shapes.refresh(),"change:solver_script change:\
 solver change:outline":()=>canvas.prepareSolver(),"change:rest":()=>canvas.rested(),"change:drawing_\

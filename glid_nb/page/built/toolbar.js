@@ -44,22 +44,24 @@ key];if(!by)return;e.preventDefault();e.stopPropagation();const items=[...this.m
 focus()}};function row(role,label,onclick){return make("button",{role,onclick},make("span",{},label))}var TOOLS=[["","edit","Select and drag pins (Esc)"],["stiff","brush","Paint what should stay stiff (\
 B)"],["erase","eraser","Erase stiff areas (E)"]];var INSPECTOR="M2 3h12v10H2z M10 3v10";var Toolbar=class{constructor(model){
 this.model=model;this.view=new ViewMenu(model,name=>this.#press(name));this.tools=TOOLS.map(([tool,icon2,
-title])=>{const button=iconButton(icon2,title,()=>save(model,{tool}));button.dataset.tool=tool||"sel\
-ect";return button});this.undo=iconButton("undo","Undo (Ctrl+Z)",()=>model.send({type:"undo"}));this.
-redo=iconButton("redo","Redo (Ctrl+Shift+Z)",()=>model.send({type:"redo"}));this.element=make("div",
-{className:"glid-skin glid-toolbar glid-tools",role:"toolbar","aria-label":"Deform"},...[...this.tools,
-gap(),this.undo,this.redo,gap(),this.view.button,this.view.menu],make("span",{className:"glid-grow"}),
-iconButton("fit","See everything (F)",()=>this.#press("f")),drawnButton(INSPECTOR,"Hide the inspecto\
-r, show it again (I)",()=>this.#press("i")),iconButton("screen","Full screen (W)",()=>this.#press("w")),
-this.#help())}showTool(){const tool=this.model.get("tool")||"select";for(const button of this.tools)
-button.ariaPressed=String(button.dataset.tool===tool)}showHistory(){this.undo.disabled=!this.model.get(
-"can_undo");this.redo.disabled=!this.model.get("can_redo")}#find(selector){return this.element.closest(
-".glid-editor")?.querySelector(selector)}#press(key){const event=new CustomEvent("glid:press",{detail:key});
-this.#find(".glid-pad:not([inert])")?.dispatchEvent(event)}#help(){const title="Keys and gestures (?\
-)";const look={className:"glid-help-button",title,"aria-label":title};const button=make("button",look,
-"?");const aim=()=>{button.popoverTargetElement=this.#find(".glid-pad:not([inert]) .glid-help")??null};
-button.addEventListener("pointerenter",aim);button.addEventListener("focus",aim);return button}};function gap(){
-return make("span",{className:"glid-gap"})}function render({model,el}){const toolbar=new Toolbar(model);el.classList.add("glid-host");el.append(
-toolbar.element);follow(model,{"change:tool":()=>toolbar.showTool(),"change:can_undo change:can_redo":()=>toolbar.
+title])=>{const button=iconButton(icon2,title,()=>this.#press(`tool:${tool}`));button.dataset.tool=tool||
+"select";return button});this.undo=iconButton("undo","Undo (Ctrl+Z)",()=>model.send({type:"undo"}));
+this.redo=iconButton("redo","Redo (Ctrl+Shift+Z)",()=>model.send({type:"redo"}));this.element=make("\
+div",{className:"glid-skin glid-toolbar glid-tools",role:"toolbar","aria-label":"Deform"},...[...this.
+tools,gap(),this.undo,this.redo,gap(),this.view.button,this.view.menu],make("span",{className:"glid-\
+grow"}),iconButton("fit","See everything (F)",()=>this.#press("f")),drawnButton(INSPECTOR,"Hide the \
+inspector, show it again (I)",()=>this.#press("i")),iconButton("screen","Full screen (W)",()=>this.#press(
+"w")),this.#help())}showTool(tool=this.model.get("tool")){const name=tool||"select";for(const button of this.
+tools)button.ariaPressed=String(button.dataset.tool===name)}canvasTook(e){const editor=this.element.
+closest(".glid-editor");if(editor?.contains(e.target)){this.showTool(e.detail)}}showHistory(){this.undo.
+disabled=!this.model.get("can_undo");this.redo.disabled=!this.model.get("can_redo")}#find(selector){
+return this.element.closest(".glid-editor")?.querySelector(selector)}#press(key){const event=new CustomEvent(
+"glid:press",{detail:key});this.#find(".glid-pad:not([inert])")?.dispatchEvent(event)}#help(){const title="\
+Keys and gestures (?)";const look={className:"glid-help-button",title,"aria-label":title};const button=make(
+"button",look,"?");const aim=()=>{button.popoverTargetElement=this.#find(".glid-pad:not([inert]) .gl\
+id-help")??null};button.addEventListener("pointerenter",aim);button.addEventListener("focus",aim);return button}};
+function gap(){return make("span",{className:"glid-gap"})}function render({model,el,signal}){const toolbar=new Toolbar(model);el.classList.add("glid-host");el.
+append(toolbar.element);const took=e=>toolbar.canvasTook(e);window.addEventListener("glid:tool",took,
+{signal});follow(model,{"change:tool":()=>toolbar.showTool(),"change:can_undo change:can_redo":()=>toolbar.
 showHistory(),"change:overlay change:shows change:referenced":()=>toolbar.view.show()})}var main_default={
 render};export{main_default as default};

@@ -221,40 +221,40 @@ element.addEventListener("blur",()=>{this.#setSpace(false);behaviour.changed()})
 element.matches(":focus")}place(e){return placeIn(this.element,e)}send(type,place,e={},more={}){const[
 x,y]=this.view.toWorld(place);const{unit}=this.view;return this.link.put({type,x,y,unit,reach:this.#reach(
 e.pointerType)*unit,button:e.button??0,shift:Boolean(e.shiftKey),alt:Boolean(e.altKey),time:e.timeStamp??
-performance.now(),...more})}press(key,e){this.send("key",[this.view.width/2,this.view.height/2],e,{key})}hover(place=this.
-rests){this.rests=place;if(this.mode!==null)return;this.found=place&&this.#find(place,"mouse");this.#showCursor();
-this.behaviour.changed()}keydown(e){const key=keyOf(e);const command=e.ctrlKey||e.metaKey;const action=command||
-e.altKey?void 0:this.behaviour.actions[key.toLowerCase()];const history=undoOrRedo(e);if(!history&&!action&&
-key!==" "){if(e.altKey||!this.behaviour.keys.test(key)||command&&key!=="a")return}e.preventDefault();
-e.stopPropagation();if(key===" "){if(!e.repeat)this.#tap=true;this.#setSpace(true)}else if(action){action()}else{
-if(key==="Escape"||history)this.#drop();this.press(history??key,e)}}#keyup(e){if(e.key!==" ")return;
-this.#setSpace(false);if(this.#tap)this.behaviour.tapped?.()}#reach(type){return this.behaviour.reach[type??
-"mouse"]??this.behaviour.reach.mouse}#find(place,type){return this.behaviour.find(this.view.toWorld(
-place),this.#reach(type)*this.view.unit)}#down(e){if(this.pointers.has(e.pointerId)||this.pointers.size>
-1)return;e.preventDefault();this.element.focus({preventScroll:true});this.#tap=false;const place=this.
-place(e);this.pointers.set(e.pointerId,place);this.element.setPointerCapture(e.pointerId);const second=this.
-pointers.size===2;if(second)this.#takeBack(e);this.#start=place;this.mode=second||e.button===1||e.button===
-0&&this.#space?"pan":"hand";if(this.mode==="hand")this.#handDown(place,e);this.#showCursor()}#handDown(place,e){
-const{behaviour}=this;const found=this.#find(place,e.pointerType);const left=e.button===0;const drags=left&&
-!e.altKey&&(behaviour.constrain||!e.shiftKey);if(drags&&found?.mark!==void 0){this.grip={from:this.view.
-toWorld(place),points:behaviour.held(found)}}this.#pans=left&&Boolean(behaviour.pans?.(found,e));this.
-encloses=left&&!behaviour.painting?behaviour.encloses?.(found,e):null;this.path=left?[this.view.toWorld(
-place)]:[];this.send("down",place,e,{part:found?.part,at:left?behaviour.pressedAt?.():void 0});if(e.
-pointerType==="touch"&&behaviour.menu&&!behaviour.painting){this.#longPress=setTimeout(()=>this.#pressedLong(
-e,place),LONG_PRESS)}behaviour.changed()}#pressedLong(e,place){this.#longPress=setTimeout(()=>{this.#takeBack(
-e);this.mode=null;this.#menu(place,"touch")},LONG_PRESS_GRACE)}#menu(place,type){this.behaviour.menu?.(
-place,this.#find(place,type))}#contextMenu(e){e.preventDefault();e.stopPropagation();const touch=e instanceof
-PointerEvent&&e.pointerType==="touch";if(e.button===2&&!touch)this.#menu(this.place(e),"mouse")}#takeBack(e){
-if(this.mode==="hand")this.send("cancel",this.#start,e);this.#drop()}#move(e){const place=this.place(
-e);const touch=e.pointerType==="touch";if(!this.pointers.has(e.pointerId)){if(!touch)this.hover(place);
-return}if(!touch)this.rests=place;const far=distance(place,this.#start);if(far>LONG_PRESS_SLACK)clearTimeout(
-this.#longPress);if(this.mode==="hand"&&this.#pans&&far>CLICK){this.#takeBack(e);this.mode="pan";this.#showCursor()}
-if(this.mode==="pan"){this.view.follow(this.pointers,e.pointerId,place);return}this.pointers.set(e.pointerId,
-place);if(this.mode==="hand")this.#handMoved(place,e,far)}#handMoved(place,e,far){const free=this.view.
-toWorld(place);this.#lengthenPath(place,free,far);const[x,y]=this.behaviour.constrain?.(free,e)??free;
-if(!this.encloses&&!this.behaviour.painting){this.send("move",place,e,{x,y,replaces:`move ${e.pointerId}`})}
-if(this.grip){const dx=x-this.grip.from[0];const dy=y-this.grip.from[1];for(const[mark,[u,v]]of this.
-grip.points)this.held.set(mark,[u+dx,v+dy])}this.behaviour.changed()}#lengthenPath(place,point,far){
+performance.now(),...more})}press(key,e){this.behaviour.pressing?.(key);this.send("key",[this.view.width/
+2,this.view.height/2],e,{key})}hover(place=this.rests){this.rests=place;if(this.mode!==null)return;this.
+found=place&&this.#find(place,"mouse");this.#showCursor();this.behaviour.changed()}keydown(e){const key=keyOf(
+e);const command=e.ctrlKey||e.metaKey;const action=command||e.altKey?void 0:this.behaviour.actions[key.
+toLowerCase()];const history=undoOrRedo(e);if(!history&&!action&&key!==" "){if(e.altKey||!this.behaviour.
+keys.test(key)||command&&key!=="a")return}e.preventDefault();e.stopPropagation();if(key===" "){if(!e.
+repeat)this.#tap=true;this.#setSpace(true)}else if(action){action()}else{if(key==="Escape"||history)
+this.#drop();this.press(history??key,e)}}#keyup(e){if(e.key!==" ")return;this.#setSpace(false);if(this.#tap)
+this.behaviour.tapped?.()}#reach(type){return this.behaviour.reach[type??"mouse"]??this.behaviour.reach.
+mouse}#find(place,type){return this.behaviour.find(this.view.toWorld(place),this.#reach(type)*this.view.
+unit)}#down(e){if(this.pointers.has(e.pointerId)||this.pointers.size>1)return;e.preventDefault();this.
+element.focus({preventScroll:true});this.#tap=false;const place=this.place(e);this.pointers.set(e.pointerId,
+place);this.element.setPointerCapture(e.pointerId);const second=this.pointers.size===2;if(second)this.#takeBack(
+e);this.#start=place;this.mode=second||e.button===1||e.button===0&&this.#space?"pan":"hand";if(this.
+mode==="hand")this.#handDown(place,e);this.#showCursor()}#handDown(place,e){const{behaviour}=this;const found=this.#find(
+place,e.pointerType);const left=e.button===0;const drags=left&&!e.altKey&&(behaviour.constrain||!e.shiftKey);
+if(drags&&found?.mark!==void 0){this.grip={from:this.view.toWorld(place),points:behaviour.held(found)}}
+this.#pans=left&&Boolean(behaviour.pans?.(found,e));this.encloses=left&&!behaviour.painting?behaviour.
+encloses?.(found,e):null;this.path=left?[this.view.toWorld(place)]:[];this.send("down",place,e,{part:found?.
+part,at:left?behaviour.pressedAt?.():void 0});if(e.pointerType==="touch"&&behaviour.menu&&!behaviour.
+painting){this.#longPress=setTimeout(()=>this.#pressedLong(e,place),LONG_PRESS)}behaviour.changed()}#pressedLong(e,place){
+this.#longPress=setTimeout(()=>{this.#takeBack(e);this.mode=null;this.#menu(place,"touch")},LONG_PRESS_GRACE)}#menu(place,type){
+this.behaviour.menu?.(place,this.#find(place,type))}#contextMenu(e){e.preventDefault();e.stopPropagation();
+const touch=e instanceof PointerEvent&&e.pointerType==="touch";if(e.button===2&&!touch)this.#menu(this.
+place(e),"mouse")}#takeBack(e){if(this.mode==="hand")this.send("cancel",this.#start,e);this.#drop()}#move(e){
+const place=this.place(e);const touch=e.pointerType==="touch";if(!this.pointers.has(e.pointerId)){if(!touch)
+this.hover(place);return}if(!touch)this.rests=place;const far=distance(place,this.#start);if(far>LONG_PRESS_SLACK)
+clearTimeout(this.#longPress);if(this.mode==="hand"&&this.#pans&&far>CLICK){this.#takeBack(e);this.mode=
+"pan";this.#showCursor()}if(this.mode==="pan"){this.view.follow(this.pointers,e.pointerId,place);return}
+this.pointers.set(e.pointerId,place);if(this.mode==="hand")this.#handMoved(place,e,far)}#handMoved(place,e,far){
+const free=this.view.toWorld(place);this.#lengthenPath(place,free,far);const[x,y]=this.behaviour.constrain?.(
+free,e)??free;if(!this.encloses&&!this.behaviour.painting){this.send("move",place,e,{x,y,replaces:`m\
+ove ${e.pointerId}`})}if(this.grip){const dx=x-this.grip.from[0];const dy=y-this.grip.from[1];for(const[
+mark,[u,v]]of this.grip.points)this.held.set(mark,[u+dx,v+dy])}this.behaviour.changed()}#lengthenPath(place,point,far){
 if(this.encloses==="box"){const[corner]=this.path;this.path=far>CLICK?rectangle(corner,point):[corner];
 return}const last=this.path.at(-1);if(last&&distance(place,this.view.toScreen(last))>=PATH_STEP)this.
 path.push(point)}#up(e,type){if(!this.pointers.has(e.pointerId))return;const place=this.place(e);this.

@@ -198,15 +198,26 @@ export class Canvas {
    * @param {"stiff" | "erase"} tool
    */
   toggleTool(tool) {
-    const name = this.tool === tool ? "" : tool;
+    this.takeTool(this.tool === tool ? "" : tool);
+  }
+
+  /** @param {Tool} name "" for none */
+  takeTool(name) {
     this.pad.link.put({ type: "tool", name });
     this.#showTool(name);
+  }
+
+  /** Puts the brush away in the page; the kernel does it too. */
+  putBrushAway() {
+    if (this.painting) this.#showTool("");
   }
 
   /** @param {Tool | undefined} tool undefined for the kernel's */
   #showTool(tool) {
     if (tool === this.#tool) return;
     this.#tool = tool;
+    this.box.dispatchEvent(new CustomEvent("glid:tool", { bubbles: true, detail: this.tool }));
+    this.takeFocus();
     this.showNotice();
     this.pad.hover();
     this.redraw();
@@ -349,10 +360,6 @@ export class Canvas {
     const ours = (/** @type {KeyboardEvent} */ e) =>
       !e.ctrlKey && !e.metaKey && KEYS.test(keyOf(e));
     this.box.addEventListener("keydown", (e) => ours(e) && goBack(e), { capture });
-    const putAway = (/** @type {KeyboardEvent} */ e) => {
-      if (keyOf(e) === "Escape" && this.painting) this.#showTool("");
-    };
-    this.box.addEventListener("keydown", putAway, { capture });
     const openedByKeys = (/** @type {KeyboardEvent} */ e) => {
       if (e.key !== "F10" || !e.shiftKey) return; // a keyboard without a menu key
       e.stopImmediatePropagation();

@@ -42,7 +42,16 @@ export class PinBehaviour {
       p: () => canvas.room?.alone(),
       reference: () => canvas.reference.toggle(), // of the bar's menu; no key is called so
       w: () => canvas.room?.fullScreen(),
+      // The buttons of the bar.
+      "tool:": () => canvas.takeTool(""),
+      "tool:stiff": () => canvas.takeTool("stiff"),
+      "tool:erase": () => canvas.takeTool("erase"),
     };
+  }
+
+  /** @param {string} key */
+  pressing(key) {
+    if (key === "Escape") this.canvas.putBrushAway();
   }
 
   get painting() {

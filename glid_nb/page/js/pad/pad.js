@@ -28,6 +28,7 @@ import { distance } from "./view.js";
  * @property {(point: Point, e: PointerEvent) => Point} [constrain] the place that counts in a drag,
  *   when the pointer is at a point; with it, Shift drags too
  * @property {() => number | undefined} [pressedAt] the time of the motion that is pressed, if one is
+ * @property {(key: string) => void} [pressing] called before a key goes to the kernel
  * @property {() => void} [tapped] the space bar was pressed and let go, and nothing was dragged
  * @property {(place: Point, found: Found | null) => void} [menu] opens the menu of what is there,
  *   by the right button or a long touch
@@ -153,6 +154,7 @@ export class Pad {
    * @param {Pressed} [e]
    */
   press(key, e) {
+    this.behaviour.pressing?.(key);
     this.send("key", [this.view.width / 2, this.view.height / 2], e, { key });
   }
 

@@ -1,6 +1,6 @@
 // The bar above the canvas: tools, history, what is shown, the view.
 
-import { make, save } from "../pad/dom.js";
+import { make } from "../pad/dom.js";
 import { drawnButton, iconButton } from "../pad/icons.js";
 import { ViewMenu } from "./view_menu.js";
 
@@ -24,7 +24,7 @@ export class Toolbar {
     this.model = model;
     this.view = new ViewMenu(model, (name) => this.#press(name));
     this.tools = TOOLS.map(([tool, icon, title]) => {
-      const button = iconButton(icon, title, () => save(model, { tool }));
+      const button = iconButton(icon, title, () => this.#press(`tool:${tool}`));
       button.dataset.tool = tool || "select";
       return button;
     });
@@ -42,9 +42,21 @@ export class Toolbar {
     );
   }
 
-  showTool() {
-    const tool = this.model.get("tool") || "select";
-    for (const button of this.tools) button.ariaPressed = String(button.dataset.tool === tool);
+  showTool(tool = this.model.get("tool")) {
+    const name = tool || "select";
+    for (const button of this.tools) button.ariaPressed = String(button.dataset.tool === name);
+  }
+
+  /**
+   * Shows the tool that the canvas of this editor has; the kernel hears of it later.
+   *
+   * @param {Event} e
+   */
+  canvasTook(e) {
+    const editor = this.element.closest(".glid-editor");
+    if (editor?.contains(/** @type {Node} */ (e.target))) {
+      this.showTool(/** @type {CustomEvent<Tool>} */ (e).detail);
+    }
   }
 
   showHistory() {
