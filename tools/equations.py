@@ -33,7 +33,7 @@ def mathml(latex: str, display: str) -> str:
 
 def pieces(latex: str) -> list[str]:
     """The formulas between wide spaces. On a narrow page each can have a line of its own."""
-    found = re.split(r"\\qquad(?![a-zA-Z])", latex)
+    found = re.split(r"\\q?quad(?![a-zA-Z])", latex)
     return found if all(map(_is_whole, found)) else [latex]
 
 
