@@ -18,6 +18,7 @@ const WIDGETS = {
   clipboard: "clipboard/main.js",
   live_editor: "live_editor/main.js",
   loader: "pad/loader.js",
+  rows: "rows/main.js",
   timeline: "timeline/main.js",
   toolbar: "toolbar/main.js",
   tracer: "tracer/main.js",
@@ -32,6 +33,7 @@ const SMALL_STYLES = { live_page: "live_page/live_page.css" };
 const STYLES = {
   canvas: "canvas/canvas.css",
   exported: "exported/exported.css",
+  rows: "rows/rows.css",
   timeline: "timeline/timeline.css",
   toolbar: "toolbar/toolbar.css",
   tracer: "tracer/tracer.css",

@@ -105,6 +105,15 @@ def with_groups(marks: Sequence[PinMark], chosen: Iterable[int]) -> tuple[int, .
     return (*mates, *wanted)
 
 
+def switched(marks: Sequence[PinMark], chosen: Iterable[int], pin: int) -> tuple[int, ...]:
+    """The chosen pins with one more, which comes last, or without it and its group."""
+    chosen = tuple(chosen)
+    if pin not in chosen:
+        return (*chosen, pin)
+    mates = with_groups(marks, [pin])
+    return tuple(i for i in chosen if i not in mates)
+
+
 def _keys(handles: ArrayLike) -> list[_Handle]:
     points = number_pairs(handles, "handles must be [x, y] pairs", PinMarkError)
     return [(x, y) for x, y in points.tolist()]

@@ -15,55 +15,10 @@ from glid_nb.imaging import PixelFrame
 from glid_nb.session.deformation import Deformation
 from glid_nb.session.edit_state import Part
 from glid_nb.session.editor_model import EditorModel
-from glid_nb.widgets.closing import close_with_parts
 from glid_nb.widgets.controls import EditControls, button, heading
+from glid_nb.widgets.row_list import Row, RowList, Switch
 
 _THUMBNAIL = 48  # pixels of the longer side
-_SHOWN, _HIDDEN = "eye", "eye-slash"
-# The name beside it says what it shows.
-_PICTURE = '<img alt="" style="max-width:30px;max-height:30px" src="data:image/png;base64,{}">'
-
-
-class _Row(ipywidgets.HBox):
-    """A part in the list. ``act(action)`` runs an action of the user."""
-
-    def __init__(
-        self, model: Deformation, key: int, act: Callable[[Callable[[], None]], None]
-    ) -> None:
-        def index() -> int:
-            return model.state.keys.index(key)
-
-        def show(shown: bool) -> None:
-            act(lambda: model.show_part(index(), shown))
-
-        self._domain: Domain | None = None
-        # Without the padding, which would cut the icon off.
-        narrow = {"width": "34px", "padding": "0"}
-        self.eye = ipywidgets.ToggleButton(value=True, icon=_SHOWN, layout=narrow)
-        """Whether the part is shown."""
-        self.eye.observe(lambda change: show(change["new"]), ["value"])
-        self.picture = ipywidgets.HTML(layout={"width": "30px", "height": "30px"})
-        self.name = button(
-            "",
-            "",
-            "Edit this part (N: the next one)",
-            lambda: act(lambda: model.select_part(index())),
-            {"flex": "1 1 auto", "width": "auto", "min_width": "0"},
-        )
-        """A click edits the part."""
-        super().__init__([self.eye, self.picture, self.name])
-
-    def show(self, part: Part, edited: bool) -> None:
-        """Show the present state of the part."""
-        self.eye.value = part.visible
-        self.eye.icon = _SHOWN if part.visible else _HIDDEN
-        self.eye.tooltip = f"{'Hide' if part.visible else 'Show'} {part.name}"
-        self.name.description = part.name
-        self.name.button_style = "primary" if edited else ""
-        if part.domain is not self._domain:
-            self._domain = part.domain
-            data = base64.b64encode(thumbnail(part)).decode()
-            self.picture.value = _PICTURE.format(data)
 
 
 class PartsPanel(EditControls):
@@ -72,8 +27,9 @@ class PartsPanel(EditControls):
     def __init__(self, model: EditorModel, **kwargs: Any) -> None:
         deformation = model.deformation
         self.model = model
-        self._rows: dict[int, _Row] = {}
-        self.rows = ipywidgets.VBox()
+        self._pictures: dict[int, tuple[Domain, str]] = {}  # by the keys of parts
+        self.rows = self._made_rows(deformation)
+        """All parts. A click edits one."""
 
         def acting(icon: str, tooltip: str, act: Callable[[int], None]) -> ipywidgets.Button:
             def run() -> None:
@@ -108,6 +64,29 @@ class PartsPanel(EditControls):
         self._bind(self.name, lambda name: deformation.rename_part(deformation.state.part, name))
         self._bind(self.add, self._add)
 
+    def _made_rows(self, model: Deformation) -> RowList:
+        def at(key: int, act: Callable[[int], None]) -> None:
+            if key in model.state.keys:  # it may have been removed meanwhile
+                self._act(lambda: act(model.state.keys.index(key)))
+
+        def set_hidden(key: int, _: Switch, hidden: bool) -> None:
+            at(key, lambda i: model.show_part(i, not hidden))
+
+        return RowList(
+            "Parts, the foremost first (N: edit the next one)",
+            on_choose=lambda keys: at(keys[-1], model.select_part),
+            on_set=set_hidden,
+            on_rename=lambda key, name: at(key, lambda i: model.rename_part(i, name)),
+        )
+
+    def _row(self, part: Part) -> Row:
+        known = self._pictures.get(part.key)
+        if known is None or known[0] is not part.domain:
+            data = base64.b64encode(thumbnail(part)).decode()
+            self._pictures[part.key] = known = part.domain, f"data:image/png;base64,{data}"
+        switches: dict[Switch, bool] = {"hidden": not part.visible}
+        return Row(part.key, part.name, picture=known[1], switches=switches)
+
     def _add(self, files: Any) -> None:
         if files:
             one, self.add.value = files[0], ()
@@ -116,16 +95,9 @@ class PartsPanel(EditControls):
     def _show(self) -> None:
         state = self.deformation.state
         self.layout.display = None if state.parts else "none"
-        present = {part.key for part in state.parts}
-        gone = [self._rows.pop(key) for key in self._rows.keys() - present]
-        for part in state.parts:
-            if part.key not in self._rows:
-                self._rows[part.key] = _Row(self.deformation, part.key, self._act)
-            self._rows[part.key].show(part, part is state.edited_part)
-        rows = tuple(self._rows[part.key] for part in reversed(state.parts))
-        if self.rows.children != rows:
-            self.rows.children = rows
-        close_with_parts(*gone)
+        chosen = [] if state.edited_part is None else [state.edited_part.key]
+        self.rows.show([self._row(part) for part in reversed(state.parts)], chosen)
+        self._pictures = {part.key: self._pictures[part.key] for part in state.parts}
         if state.edited_part is not None:
             self.name.value = state.edited_part.name
         count = len(state.parts)

@@ -10,10 +10,10 @@ from glid_nb.pose import DEEPEST, SCALES, Pose
 from glid_nb.session.actions import wrapped
 from glid_nb.session.deformation import Deformation
 from glid_nb.session.edit_state import EditError
-from glid_nb.session.pin_marks import PinMark
+from glid_nb.session.pin_marks import PinMark, switched
 from glid_nb.widgets.controls import EditControls, button, toggle
+from glid_nb.widgets.row_list import Row, RowList, Switch
 
-_NO_PIN, _SEVERAL = -1, -2  # in the list, where pins have their indices
 _NOTHING = Pose([(0, 0)], [(0, 0)])  # shown in the fields while nothing is selected
 # For each field: what to type, the limits, and whether an empty field means free.
 _PLACE = "a coordinate, such as 7.5", -1e9, 1e9, False
@@ -25,11 +25,14 @@ _SCALE = "a scale from {:g} to {:g}, such as 1.5".format(*SCALES), *SCALES, True
 class PinBar(EditControls):
     """The list of pins, the numbers of the last selected pin, and buttons for all selected pins.
 
-    The buttons below the list lock, hide and group pins, and the list says which are. The numbers
-    are target, angle (degrees), scale, weight and depth. An empty angle or scale is free.
+    The list says which pins are locked, hidden or grouped, and has an eye and a padlock for each.
+    The buttons below it lock, hide and group all selected pins. The numbers are target, angle
+    (degrees), scale, weight and depth. An empty angle or scale is free.
     """
 
     def __init__(self, deformation: Deformation, **kwargs: Any) -> None:
+        self.list = self._made_list(deformation)
+        """All pins."""
         self._add_fields()
         self._bind_fields(deformation)
         self._add_buttons(deformation)
@@ -43,17 +46,37 @@ class PinBar(EditControls):
         buttons = ipywidgets.HBox([self.release, self.mirror, self.reset])
         marks = ipywidgets.HBox([self.lock, self.hide, self.group, self.ungroup])
         marks.add_class("glid-wide")
-        controls = [self.list, marks, self.name, *numbers, order, self.weight, buttons]
-        super().__init__(deformation, [ipywidgets.GridBox(controls)], **kwargs)
-        self.children[0].add_class("glid-pin")
+        controls = [marks, self.name, *numbers, order, self.weight, buttons]
+        numbers_box = ipywidgets.GridBox(controls).add_class("glid-pin")
+        super().__init__(deformation, [self.list, numbers_box], **kwargs)
         self.name.add_class("glid-wide")
         buttons.add_class("glid-wide")
+
+    def _made_list(self, model: Deformation) -> RowList:
+        def choose(pins: list[int]) -> None:
+            self._act(lambda: model.select(pins))
+
+        def switch(pin: int) -> None:
+            marks = model.state.marks
+            if pin < len(marks):
+                self._act(lambda: model.select(switched(marks, model.selection, pin)))
+
+        def set_mark(pin: int, mark: Switch, on: bool) -> None:
+            self._act(lambda: model.mark_pins([pin], **{mark: on}))
+
+        return RowList(
+            "Pins",
+            "No pins yet: click the shape.",
+            several=True,
+            on_choose=choose,
+            on_switch=switch,
+            on_set=set_mark,
+            on_rename=lambda pin, name: self._act(lambda: model.name_pin(pin, name)),
+        )
 
     def _add_fields(self) -> None:
         full = ipywidgets.Layout(width="auto")
         late: dict[str, Any] = {"continuous_update": False, "layout": full}
-        shown: Any = {"tooltip": "The selected pin", "layout": full}
-        self.list = ipywidgets.Dropdown(options=[("No pin", _NO_PIN)], **shown)
         tip = "The selected pin's name"
         self.name = ipywidgets.Text(placeholder="name", tooltip=tip, **late)
         late["style"] = {"description_width": "50px"}
@@ -85,11 +108,6 @@ class PinBar(EditControls):
             target[axis] = _number(text, *_PLACE)
             model.move_target(model.selection[-1], target)
 
-        def choose(chosen: int) -> None:
-            if chosen != _SEVERAL:
-                model.select([] if chosen == _NO_PIN else [chosen])
-
-        self._bind(self.list, choose)
         self._bind(self.name, lambda name: model.name_pin(model.selection[-1], name))
         self._bind(self.x, lambda text: move(0, text))
         self._bind(self.y, lambda text: move(1, text))
@@ -144,12 +162,7 @@ class PinBar(EditControls):
     def _show(self) -> None:
         pose, selection = self.deformation.pose, self.deformation.selection
         marks = self.deformation.state.marks
-        pins = map(_title, range(1, 1 + len(pose)), pose.names.tolist(), marks)
-        several = ((f"{len(selection)} pins", _SEVERAL),) if len(selection) > 1 else ()
-        names = (("No pin", _NO_PIN), *several, *((pin, i) for i, pin in enumerate(pins)))
-        if self.list.options != names:
-            self.list.options = names
-        self.list.value = _SEVERAL if several else next(iter(selection), _NO_PIN)
+        self.list.show(rows_of(pose, marks), list(selection))
         for control in self._of_a_pin:
             control.disabled = not selection
         chosen = [marks[i] for i in selection]
@@ -177,12 +190,24 @@ class PinBar(EditControls):
         self.weight.value = float(shown.weights[0])
 
 
-def _title(number: int, name: str, mark: PinMark) -> str:
-    """What the list says of a pin."""
-    title = f"{number} {name}" if name else f"Pin {number}"
-    said = ["locked"] * mark.locked + ["hidden"] * mark.hidden
-    said += [f"group {mark.group}"] * (mark.group > 0)
-    return " · ".join([title, *said])
+def rows_of(pose: Pose, marks: Sequence[PinMark]) -> list[Row]:
+    """What the list says of pins."""
+    named = zip(pose.names.tolist(), pose.targets.tolist(), marks, strict=True)
+    return [_row(i, name, place, mark) for i, (name, place, mark) in enumerate(named)]
+
+
+def _row(index: int, name: str, place: Sequence[float], mark: PinMark) -> Row:
+    x, y = (f"{round(value, 2) + 0.0:.2f}" for value in place)  # avoids -0.00
+    return Row(
+        index,
+        name,
+        number=str(index + 1),
+        unnamed=f"Pin {index + 1}",
+        detail=f"{x}, {y}".replace("-", "\N{MINUS SIGN}"),
+        said=f"at x {x}, y {y}",
+        group=mark.group,
+        switches={"hidden": mark.hidden, "locked": mark.locked},
+    )
 
 
 def _free_or(number: float) -> str:

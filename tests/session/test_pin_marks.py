@@ -13,7 +13,7 @@ from glid_nb.session import actions
 from glid_nb.session.deformation import Deformation
 from glid_nb.session.document_file import load_document, save_document
 from glid_nb.session.edit_state import EditError, EditState
-from glid_nb.session.pin_marks import PinMark, PinMarks, with_groups
+from glid_nb.session.pin_marks import PinMark, PinMarks, switched, with_groups
 from glid_nb.session.pose_text import mirror_pose
 from glid_nb.session.script import python_code
 
@@ -21,6 +21,13 @@ from ..support.domains import domain
 from .test_document import document
 
 POINTS = [(2.0, 0.0), (-2.0, 0.0), (0.0, 2.0)]
+
+
+def test_a_pin_is_added_to_the_chosen_ones_or_taken_out_with_its_group() -> None:
+    marks = [PinMark(group=1), PinMark(), PinMark(group=1), PinMark()]
+    assert switched(marks, (3,), 1) == (3, 1)
+    assert switched(marks, (0, 3, 2), 2) == (3,)
+    assert switched(marks, (0, 3, 2), 3) == (0, 2)
 
 
 @pytest.fixture

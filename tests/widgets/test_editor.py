@@ -669,22 +669,23 @@ def test_the_numbers_of_pins_and_the_model_show_each_other() -> None:
     with Deformation(domain("ring"), begin=False) as model:
         model.paused = True  # nothing here needs a solve
         bar = PinBar(model)
-        assert bar.list.options == (("No pin", -1),)
+        assert bar.list.rows == bar.list.chosen == []
         assert bar.x.disabled
         model.add_handles([(2, 0), (-2, 0.25)])
         model.select([0, 1])
-        assert [name for name, _ in bar.list.options] == ["No pin", "2 pins", "Pin 1", "Pin 2"]
-        assert bar.list.label == "2 pins"
+        assert [row["unnamed"] for row in bar.list.rows] == ["Pin 1", "Pin 2"]
+        assert [row["detail"] for row in bar.list.rows] == ["2.00, 0.00", "−2.00, 0.25"]
+        assert bar.list.chosen == [0, 1]
         assert (bar.x.value, bar.y.value, bar.depth.value) == ("-2", "0.25", "0")
         bar.name.value = "tail"
         assert model.pose.names.tolist() == ["", "tail"]
-        names = ["No pin", "2 pins", "Pin 1", "2 tail"]
-        assert [name for name, _ in bar.list.options] == names
+        assert [(row["number"], row["name"]) for row in bar.list.rows] == [("1", ""), ("2", "tail")]
         bar.back.click()
         assert model.pose.depths.tolist() == [-1, -1]
         assert bar.depth.value == "-1"
-        bar.list.value = 0
+        bar.list.act({"type": "choose", "keys": [0]})
         assert model.selection == (0,)
+        assert bar.list.chosen == [0]
         bar.x.value = "2,5"
         bar.depth.value = "0,5"
         assert model.pose.targets.tolist() == [[2.5, 0], [-2, 0.25]]
@@ -721,7 +722,7 @@ def test_the_numbers_of_pins_and_the_model_show_each_other() -> None:
         bar.release.click()
         assert "still moving" in bar.refusal.value
         assert len(model.pose) == 2
-        bar.list.value = -1
+        bar.list.act({"type": "choose", "keys": []})
         assert model.selection == ()
         assert bar.depth.disabled
         assert (bar.x.value, bar.name.value, bar.angle.value, bar.weight.value) == ("0", "", "", 1)

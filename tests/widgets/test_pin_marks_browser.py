@@ -24,8 +24,6 @@ _DRAWN = """(paper, [x, y]) => {
   return false;
 }"""
 
-_CHOSEN = "([list, index]) => list.selectedIndex === index"
-
 
 def test_pins_are_locked_hidden_and_grouped(open_notebook: OpenNotebook) -> None:
     book = open_notebook([SETUP, NEW_PICTURE + EDITOR])
@@ -53,7 +51,9 @@ def test_pins_are_locked_hidden_and_grouped(open_notebook: OpenNotebook) -> None
     page.locator(".glid-notice").get_by_text("pin 3 is locked").wait_for()
     assert hand.targets[2] == [6, 0]
     wait_until_drawn((6, 0), True)
-    assert side.locator("select").first.inner_text().count("locked") == 1
+    rows = side.get_by_role("row")
+    assert rows.get_by_role("button", name="Unlock").count() == 1
+    assert rows.nth(2).get_by_role("button", name="Unlock Pin 3").count() == 1
     assert side.get_by_label("Angle °").is_disabled()
     book.screenshot("pin-locked")
 
@@ -66,8 +66,9 @@ def test_pins_are_locked_hidden_and_grouped(open_notebook: OpenNotebook) -> None
     book.wait_for("model.state.marks[1].hidden")
     wait_until_drawn((0, 0), False)
     page.keyboard.press("Escape")
-    page.wait_for_function(_CHOSEN, arg=[side.locator("select").first.element_handle(), 0])
-    side.locator("select").first.select_option(index=2)  # Pin 2 · hidden
+    side.locator(".glid-entry[aria-selected=true]").wait_for(state="detached")
+    rows.nth(1).get_by_role("button", name="Show Pin 2").wait_for()
+    rows.nth(1).click(position={"x": 120, "y": 14})
     book.wait_for("model.selection == (1,)")
     book.screenshot("pin-hidden")
     hand.pad.focus()

@@ -327,18 +327,19 @@ selected and moved together; with Shift dissolve it"],["Arrow keys","nudge selec
 ift-click, A","select several pins, all pins"],["N, Shift+N, click a part","edit another part, if th\
 ere are several"],["Shift and drag, Ctrl and drag","select the pins in a box, in a lasso"],[", .","s\
 elect the pin before, the next pin, and bring it into view; so does a click on an arrow at the edge"],
-["Esc","cancel a drag; select nothing"]]],["Poses",[["Ctrl+Z, Ctrl+Shift+Z","undo, redo"],["Ctrl+C, \
-Ctrl+V","copy the pose, put it on this or a similar shape"],["M","swap left and right"],["0","back t\
-o the undeformed shape"]]],["Stiff areas",[["B, E","paint stiff areas, erase them; Esc ends painting"]]],
-["View",[["Wheel, two fingers","zoom"],["Middle button, Space and drag","move the view"],["F","see e\
-verything"],["P","the picture alone, for lectures; Esc brings the rest back"],["W","the whole screen\
-, without the inspector"],["I","hide the inspector, show it again"]]],["Timeline",[["K","make a keyf\
-rame of what is shown"],["Space","play the motion through the poses, pause; on the canvas too"],["Ar\
-row keys, Home, End","step a frame, with Shift to the next pose; first, last pose"],["Click a curve \
-between poses, Enter","ease the motion there: drag its two handles, or arrow keys"],["Shift+Home, Sh\
-ift+End","play over and over from here, to here; so do the two marks on the ruler"],["Ctrl and wheel",
-"zoom the timeline; then the wheel alone moves along it"],["Double click a pose, F2","type its name"],
-["Alt and arrow keys","move the pose in time; Delete removes it"]]]];var Legend=class{element=make("div",{className:"glid-legend"});show(model,moving){const bars=[model.
+["In the list of pins","arrow keys, with Shift several; Ctrl-click one more; F2, double click: renam\
+e"],["Esc","cancel a drag; select nothing"]]],["Poses",[["Ctrl+Z, Ctrl+Shift+Z","undo, redo"],["Ctrl\
++C, Ctrl+V","copy the pose, put it on this or a similar shape"],["M","swap left and right"],["0","ba\
+ck to the undeformed shape"]]],["Stiff areas",[["B, E","paint stiff areas, erase them; Esc ends pain\
+ting"]]],["View",[["Wheel, two fingers","zoom"],["Middle button, Space and drag","move the view"],["\
+F","see everything"],["P","the picture alone, for lectures; Esc brings the rest back"],["W","the who\
+le screen, without the inspector"],["I","hide the inspector, show it again"]]],["Timeline",[["K","ma\
+ke a keyframe of what is shown"],["Space","play the motion through the poses, pause; on the canvas t\
+oo"],["Arrow keys, Home, End","step a frame, with Shift to the next pose; first, last pose"],["Click\
+ a curve between poses, Enter","ease the motion there: drag its two handles, or arrow keys"],["Shift\
++Home, Shift+End","play over and over from here, to here; so do the two marks on the ruler"],["Ctrl \
+and wheel","zoom the timeline; then the wheel alone moves along it"],["Double click a pose, F2","typ\
+e its name"],["Alt and arrow keys","move the pose in time; Delete removes it"]]]];var Legend=class{element=make("div",{className:"glid-legend"});show(model,moving){const bars=[model.
 get("legend"),model.get("panel_legend")].filter(bar=>bar.title);this.element.replaceChildren(...bars.
 map(bar=>colorBar(bar,moving)));this.element.hidden=!bars.length;this.element.dataset.corner=model.get(
 "legend_corner")}};function colorBar({title,moving,colors,ticks,about},moves){const gradient=`backgr\

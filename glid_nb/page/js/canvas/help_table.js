@@ -35,6 +35,10 @@ export const HELP = [
         "select the pin before, the next pin, and bring it into view; " +
           "so does a click on an arrow at the edge",
       ],
+      [
+        "In the list of pins",
+        "arrow keys, with Shift several; Ctrl-click one more; F2, double click: rename",
+      ],
       ["Esc", "cancel a drag; select nothing"],
     ],
   ],
