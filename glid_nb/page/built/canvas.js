@@ -392,27 +392,28 @@ box.dispatchEvent(new CustomEvent("glid:key",{bubbles:true})),p:()=>canvas.room?
 reference.toggle(),w:()=>canvas.room?.fullScreen(),"tool:":()=>canvas.takeTool(""),"tool:stiff":()=>canvas.
 takeTool("stiff"),"tool:erase":()=>canvas.takeTool("erase")}}pressing(key){if(key==="Escape")this.canvas.
 putBrushAway()}get painting(){return this.canvas.painting}changed(){this.canvas.followHand();this.canvas.
-redraw()}menu(place,found){this.canvas.openMenu(place,found)}pressedAt(){return this.canvas.pressedAt()}tapped(){
-this.canvas.box.dispatchEvent(new CustomEvent("glid:play",{bubbles:true}))}find(point,reach){const{view,
-marks,reachable:reachable2,shapes,painting}=this.canvas;if(shapes.motion||painting)return null;const mark=markAt(
-reachable2,point,reach);return mark??ringAt(view,marks,view.toScreen(point),reach/view.unit/2)}encloses(found,e){
-const start=this.canvas.pad.grip?.points.get(found?.mark??"");this.pressed={found,start,pins:this.canvas.
-marks.targets.length};if(found)return null;if(e.shiftKey)return"box";return e.ctrlKey||e.metaKey?"la\
-sso":null}get constrains(){const{axis,whole}=this.pressed?.keys??{};return Boolean(axis||whole)}madePin(){
-const{pad,model}=this.canvas;const{pressed}=this;if(!pressed||pressed.found||this.painting||pad.mode!==
-"hand")return void 0;const count=model.get("rest").pose?.targets.length??0;return count===pressed.pins+
-1&&!pad.encloses?pressed.pins:void 0}held({mark}){const{selected,targets}=this.canvas.allMarks;const moved=movedWith(
-Number(mark),selected,this.canvas.model.get("pins"));return new Map(moved.map(i=>[i,targets[i]]))}constrain(point,e){
-const{model,pad}=this.canvas;const{pressed}=this;const[from]=pad.path;if(!pressed||!from||pressed.found?.
-part||pad.encloses||e.altKey)return point;pressed.keys={axis:e.shiftKey,whole:e.ctrlKey||e.metaKey};
-pressed.start??=from;const[x,y]=pressed.start;const free=[x+point[0]-from[0],y+point[1]-from[1]];const[
-u,v]=constrained([x,y],free,pressed.keys,model.get("picture_size"));return[u-x+from[0],v-y+from[1]]}cursor(found){
-this.canvas.box.title=this.#tip(found);if(found?.mark!==void 0&&this.#locked(found))return"pointer";
-return found?"grab":"crosshair"}#locked({mark}){return this.canvas.model.get("pins").locked.includes(
-Number(mark))}#tip(found){if(!found)return"";if(found.part)return RING_TIPS[found.part];const{marks,
-model}=this.canvas;const mark=Number(found.mark);const name=["Pin",mark+1,model.get("names")[mark]].
-join(" ").trim();if(this.#locked(found))return`${name}: ${LOCKED_TIP}`;const tip=found.reached?IMAGE_TIP:
-TARGET_TIP;return`${name}: ${tip}${marks.hidden.includes(mark)?COVERED:""}`}};async function copied(text){try{await navigator.clipboard.writeText(text);return true}catch{return copiedBySelection(
+redraw()}menu(place,found){if(!this.canvas.shapes.motion)this.canvas.openMenu(place,found)}pressedAt(){
+return this.canvas.pressedAt()}tapped(){this.canvas.box.dispatchEvent(new CustomEvent("glid:play",{bubbles:true}))}find(point,reach){
+const{view,marks,reachable:reachable2,shapes,painting}=this.canvas;if(shapes.motion||painting)return null;
+const mark=markAt(reachable2,point,reach);return mark??ringAt(view,marks,view.toScreen(point),reach/
+view.unit/2)}encloses(found,e){const start=this.canvas.pad.grip?.points.get(found?.mark??"");this.pressed=
+{found,start,pins:this.canvas.marks.targets.length};if(found)return null;if(e.shiftKey)return"box";return e.
+ctrlKey||e.metaKey?"lasso":null}get constrains(){const{axis,whole}=this.pressed?.keys??{};return Boolean(
+axis||whole)}madePin(){const{pad,model}=this.canvas;const{pressed}=this;if(!pressed||pressed.found||
+this.painting||pad.mode!=="hand")return void 0;const count=model.get("rest").pose?.targets.length??0;
+return count===pressed.pins+1&&!pad.encloses?pressed.pins:void 0}held({mark}){const{selected,targets}=this.
+canvas.allMarks;const moved=movedWith(Number(mark),selected,this.canvas.model.get("pins"));return new Map(
+moved.map(i=>[i,targets[i]]))}constrain(point,e){const{model,pad}=this.canvas;const{pressed}=this;const[
+from]=pad.path;if(!pressed||!from||pressed.found?.part||pad.encloses||e.altKey)return point;pressed.
+keys={axis:e.shiftKey,whole:e.ctrlKey||e.metaKey};pressed.start??=from;const[x,y]=pressed.start;const free=[
+x+point[0]-from[0],y+point[1]-from[1]];const[u,v]=constrained([x,y],free,pressed.keys,model.get("pic\
+ture_size"));return[u-x+from[0],v-y+from[1]]}cursor(found){this.canvas.box.title=this.#tip(found);if(found?.
+mark!==void 0&&this.#locked(found))return"pointer";return found?"grab":"crosshair"}#locked({mark}){return this.
+canvas.model.get("pins").locked.includes(Number(mark))}#tip(found){if(!found)return"";if(found.part)
+return RING_TIPS[found.part];const{marks,model}=this.canvas;const mark=Number(found.mark);const name=[
+"Pin",mark+1,model.get("names")[mark]].join(" ").trim();if(this.#locked(found))return`${name}: ${LOCKED_TIP}`;
+const tip=found.reached?IMAGE_TIP:TARGET_TIP;return`${name}: ${tip}${marks.hidden.includes(mark)?COVERED:
+""}`}};async function copied(text){try{await navigator.clipboard.writeText(text);return true}catch{return copiedBySelection(
 text)}}function copiedBySelection(text){const focused=document.activeElement;const area=document.createElement(
 "textarea");area.value=text;area.setAttribute("readonly","");Object.assign(area.style,{position:"fix\
 ed",top:"0",left:"0",opacity:"0"});document.body.append(area);area.select();try{return document.execCommand(
@@ -722,7 +723,7 @@ now()-start)}return times.length>1?Math.min(...times.slice(1)):0}var PAUSE=500;v
 if(mayWait&&this.#timer!==void 0){this.#waits=event;return Promise.resolve(null)}this.#flush();if(mayWait)
 this.#pause();return this.#put(event)}close(){clearTimeout(this.#timer)}#pause(){this.#timer=setTimeout(
 ()=>{if(this.#flush())this.#pause()},PAUSE)}#flush(){clearTimeout(this.#timer);this.#timer=void 0;const event=this.#waits;
-this.#waits=null;if(event)void this.#put(event);return event!==null}};var SAVE_VIEW_AFTER=250;var STILL={release(){},pause:()=>void 0};var Canvas=class{legend=new Legend;notices=new Notices;help=help(
+this.#waits=null;if(event)void this.#put(event);return event!==null}};var SAVE_VIEW_AFTER=250;var STILL={release(){},pause:()=>void 0,reach(){}};var Canvas=class{legend=new Legend;notices=new Notices;help=help(
 HELP);ghosts=new Ghosts;#chosen;#saving;#playing=STILL;#tool;#painted=false;#presses=false;constructor({
 model,el,signal}){this.model=model;this.interactive=model.get("interactive");const paper=make("canva\
 s",{className:"glid-paper"});this.box=make("div",{className:"glid-pad",role:"application","aria-labe\
@@ -777,8 +778,9 @@ if(!Number.isFinite(targets[now]?.[0]))return;if(inSight(this.view,targets[now])
 images[now]))return;this.view.centreOn(targets[now])}pressedAt(){if(!this.shapes.motion)return void 0;
 this.#presses=true;return this.#playing.pause()}#pressed(e){this.#press(e.detail)}#press(key,shift=false){
 const act=this.behaviour.actions[key];if(act)act();else this.pad.press(key,{shiftKey:shift})}#takeFirst(){
-const goBack=e=>{if(!this.shapes.motion)return;e.stopImmediatePropagation();e.preventDefault();this.#playing.
-release()};const capture=true;this.box.addEventListener("pointerdown",e=>e.button===2&&goBack(e),{capture});
+const take=e=>{if(!this.shapes.motion)return false;e.stopImmediatePropagation();e.preventDefault();return true};
+const goBack=e=>take(e)&&this.#playing.release();const capture=true;this.box.addEventListener("point\
+erdown",e=>e.button===2&&take(e),{capture});this.box.addEventListener("contextmenu",take,{capture});
 const ours=e=>!e.ctrlKey&&!e.metaKey&&KEYS.test(keyOf(e));this.box.addEventListener("keydown",e=>ours(
 e)&&goBack(e),{capture});const openedByKeys=e=>{if(e.key!=="F10"||!e.shiftKey)return;e.stopImmediatePropagation();
 e.preventDefault();this.openMenu()};this.box.addEventListener("keydown",openedByKeys,{capture});const followArrow=e=>{
@@ -788,7 +790,7 @@ this.view.centreOn(target);e.stopImmediatePropagation()};this.box.addEventListen
 help.button,iconButton("screen","Full screen (W)",()=>this.room?.fullScreen(),look),iconButton("rect\
 angle","The picture alone (P)",()=>this.room?.alone(),look))}#report(){const{busy,refusal}=this.link;
 if(this.link.idle)this.#showTool(void 0);if(this.#presses&&this.link.idle&&this.pad.mode===null){this.#presses=
-false;this.#playing.release()}if(!busy&&refusal&&refusal!==this.model.get("notice"))this.say(refusal)}#viewMoved(){
+false;this.#playing.reach()}if(!busy&&refusal&&refusal!==this.model.get("notice"))this.say(refusal)}#viewMoved(){
 this.#see();clearTimeout(this.#saving);this.#saving=setTimeout(()=>{const{x,y,unit}=this.view;save(this.
 model,{view:[x,y,unit]})},SAVE_VIEW_AFTER)}#see(){this.shapes.see();this.reference.place();this.redraw()}#drawNumbers(pen){
 const{model,view,pad,marks}=this;const{pressed}=this.behaviour;const drags=pad.mode==="hand"&&pad.path.

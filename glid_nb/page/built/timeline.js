@@ -307,16 +307,17 @@ const time=(e.clientX-left)/width*this.span;const near=SNAP/width*this.span;cons
 find(one=>Math.abs(one.time-time)<near);return key?.time??(framed?Math.round(time*this.rate)/this.rate:
 time)}#up(e){if(this.#scrubbing!==e.pointerId)return;this.drop();this.hand.scrubbed()}};var NUDGE=.1;var Timeline=class{note=make("div",{className:"glid-timeline-note",role:"status","aria-\
 live":"polite"});stage=null;#layers=null;#otherLayers={};#easeBefore=-1;#played=false;#hovered="";#playing={
-release:()=>this.release(),pause:()=>{this.player.pause();return this.player.place}};constructor({model,
-el,signal}){this.model=model;this.root=make("div",{className:"glid-skin glid-timeline",role:"group",
-"aria-label":"Timeline"});this.root.dataset.lmSuppressShortcuts="true";this.link=new Link(model,this.
-root,signal,()=>this.tell());this.player=new Player((floats,time,others)=>this.#show(floats,time,others),
-()=>this.showHead(),()=>this.#selectHere());this.bar=new Bar({play:()=>this.play(),keep:()=>this.keep(),
-act:(type,content)=>void this.act(type,content),edit:(type,content)=>void this.edit(type,content),zoom:by=>this.
-track.zoom.zoom(by),ease:()=>this.#ease()});this.bar.ease.addEventListener("pointerdown",()=>this.#easePressed());
-this.ease=new EaseEditor((index,easing)=>void this.act("set_easing",{index,easing}),index=>this.#easeClosed(
-index));this.track=new Track({scrub:time=>this.#scrub(time),scrubbed:()=>this.#selectHere(),select:index=>this.
-select(index),move:(index,time)=>void this.act("move_pose",{index,time}),rename:(index,name)=>void this.
+release:()=>this.release(),pause:()=>{this.player.pause();return this.player.place},reach:()=>{const{
+keyframes,active}=this.shown;if(keyAt(keyframes,this.player.place)===active)this.release()}};constructor({
+model,el,signal}){this.model=model;this.root=make("div",{className:"glid-skin glid-timeline",role:"g\
+roup","aria-label":"Timeline"});this.root.dataset.lmSuppressShortcuts="true";this.link=new Link(model,
+this.root,signal,()=>this.tell());this.player=new Player((floats,time,others)=>this.#show(floats,time,
+others),()=>this.showHead(),()=>this.#selectHere());this.bar=new Bar({play:()=>this.play(),keep:()=>this.
+keep(),act:(type,content)=>void this.act(type,content),edit:(type,content)=>void this.edit(type,content),
+zoom:by=>this.track.zoom.zoom(by),ease:()=>this.#ease()});this.bar.ease.addEventListener("pointerdow\
+n",()=>this.#easePressed());this.ease=new EaseEditor((index,easing)=>void this.act("set_easing",{index,
+easing}),index=>this.#easeClosed(index));this.track=new Track({scrub:time=>this.#scrub(time),scrubbed:()=>this.#selectHere(),
+select:index=>this.select(index),move:(index,time)=>void this.act("move_pose",{index,time}),rename:(index,name)=>void this.
 act("rename_pose",{index,name}),range:range=>void this.act("set_loop_range",{range}),ease:(index,button)=>this.#openEase(
 index,button),easePressed:()=>this.#easePressed(),hover:text=>{this.#hovered=text;this.tell()},dropped:()=>{
 this.showKeys();this.showHead()}});const parts=[this.bar.element,this.note,legend(),this.track.zoom.
