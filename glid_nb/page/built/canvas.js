@@ -333,9 +333,10 @@ verything"],["P","the picture alone, for lectures; Esc brings the rest back"],["
 rame of what is shown"],["Space","play the motion through the poses, pause; on the canvas too"],["Ar\
 row keys, Home, End","step a frame, with Shift to the next pose; first, last pose"],["Click a curve \
 between poses, Enter","ease the motion there: drag its two handles, or arrow keys"],["Shift+Home, Sh\
-ift+End","play over and over from here, to here; so do the two marks on the ruler"],["Ctrl and wheel",
-"zoom the timeline; then the wheel alone moves along it"],["Double click a pose, F2","type its name"],
-["Alt and arrow keys","move the pose in time; Delete removes it"]]]];var Legend=class{element=make("div",{className:"glid-legend"});show(model,moving){const bars=[model.
+ift+End","play over and over from here, to here; so do the two marks on the ruler, seen below a poin\
+ter"],["Line below the poses","green: proved, the higher the safer; grey hatching: not yet; orange: \
+not proved"],["Ctrl and wheel","zoom the timeline; then the wheel alone moves along it"],["Double cl\
+ick a pose, F2","type its name"],["Alt and arrow keys","move the pose in time; Delete removes it"]]]];var Legend=class{element=make("div",{className:"glid-legend"});show(model,moving){const bars=[model.
 get("legend"),model.get("panel_legend")].filter(bar=>bar.title);this.element.replaceChildren(...bars.
 map(bar=>colorBar(bar,moving)));this.element.hidden=!bars.length;this.element.dataset.corner=model.get(
 "legend_corner")}};function colorBar({title,moving,colors,ticks,about},moves){const gradient=`backgr\
