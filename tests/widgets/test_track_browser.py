@@ -66,7 +66,7 @@ def test_diamonds_curves_proof_and_ruler(open_notebook: OpenNotebook) -> None:
     page.keyboard.press("Enter")
     book.wait_for(f"{EASING}[0][3] == 0.25")
     page.keyboard.press("Escape")
-    assert segments.nth(0).inner_text() == "Curve"
+    segments.nth(0).get_by_text("Curve", exact=True).wait_for()
 
     _assert_a_diamond_is_dragged(timeline)
 
