@@ -37,8 +37,8 @@ class TimelinePanel(Pad):
 
     The user can save, name, move, duplicate and delete poses. The motion is proved in the
     background. The page plays the proved part by itself, from the maps at which the motion bends.
-    The strip's height is the certified bound on sigma_2. The export button calls ``on_export()``.
-    Without it there is no button.
+    The strip is the thicker the larger is the certified bound on sigma_2. The export button calls
+    ``on_export()``. Without it there is no button.
     """
 
     _script = traitlets.Unicode(bundle("timeline")).tag(sync=True)

@@ -176,6 +176,14 @@ def test_a_drag_between_keyframes_is_kept(open_notebook: OpenNotebook) -> None:
     page.mouse.click((first[0] + last[0]) / 2, ruler["y"] + ruler["height"] / 2)
     page.wait_for_function("document.querySelector('.glid-track').dataset.time > 0.3")
     time = float(timeline.locator(".glid-track").get_attribute("data-time") or 0)
+    # A click, and a drag beside the shape, leave the time as it is.
+    hand.click((0, 5))
+    hand.drag(line((0, 5), (2, 5.5), 4))
+    hand.click((0, 5), button="right")
+    page.locator(".glid-pad[data-idle=true]").wait_for()
+    assert hand.pad.locator(".glid-menu").count() == 0
+    assert timeline.locator(".glid-track").get_attribute("data-time") == str(time)
+    assert timeline.locator(".glid-playhead.glid-seen").count() == 1
     start = book.value(f"editor.timeline.animation.at({time})([[6, 0]])[0].tolist()")
     end = [start[0] - 1.5, start[1] + 1.0]
     hand.drag(line(start, end, 8))

@@ -215,10 +215,15 @@ def test_a_walk_cycle_made_by_hand(open_notebook: OpenNotebook) -> None:
     timeline.assert_shows_the_motion()
     assert book.value("id(model.state)") == state
 
-    # The first touch of the canvas only returns to the edited pose.
+    # A click on the canvas leaves the motion where it is and pins nothing. Escape goes back to the
+    # edited pose.
+    before = timeline.time
     hand.click([0.0, 0.0])
-    hand.wait_until_drawn()
+    timeline.assert_shows_the_motion()
+    assert timeline.time == before
     assert len(hand.handles) == 5
+    page.keyboard.press("Escape")
+    hand.wait_until_drawn()
     # A map between poses is kept as a pose, and undo takes it back.
     timeline.scrub([0.5])
     timeline.button("Key this pose")

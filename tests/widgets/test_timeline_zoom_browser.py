@@ -28,14 +28,14 @@ def test_a_timeline_is_read_in_frames_zoomed_and_named(open_notebook: OpenNotebo
 
     def labels() -> list[tuple[str, str]]:
         return ruler.locator("span").evaluate_all(
-            "spans => spans.map(s => [s.firstChild.data, s.querySelector('small')?.textContent])"
+            "all => all.map(s => ['small', 'b'].map(one => s.querySelector(one)?.textContent))"
         )
 
-    # A label has its second and the export's frame, which follow the frame rate in Files.
-    assert ["1", "25"] in labels()
+    # A label has the export's frame and its second, which follow the frame rate in Files.
+    assert ["1 s", "25"] in labels()
     book.value("None", setup="editor.files.motion.rate.value = 10")
     ruler.get_by_text("20", exact=True).wait_for()
-    assert ["1", "10"] in labels()
+    assert ["1 s", "10"] in labels()
     ruler.focus()
     page.keyboard.press("ArrowRight")
     assert float(track.get_attribute("data-time") or "nan") == pytest.approx(0.1)

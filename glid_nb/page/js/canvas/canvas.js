@@ -39,11 +39,12 @@ import { Spacing } from "./spacing.js";
  * @typedef {object} Playing
  * @property {() => void} release goes back to the pose that is edited
  * @property {() => number | undefined} pause returns the time that is shown
+ * @property {() => void} reach goes back to the pose that is edited if that is the one of this time
  */
 
 const SAVE_VIEW_AFTER = 250; // ms
 /** @type {Playing} */
-const STILL = { release() {}, pause: () => undefined };
+const STILL = { release() {}, pause: () => undefined, reach() {} };
 
 export class Canvas {
   legend = new Legend();
@@ -345,18 +346,20 @@ export class Canvas {
     else this.pad.press(key, { shiftKey: shift });
   }
 
-  // Handles two kinds of input before the pad does. While a motion is seen, keys and the right button
-  // go back to the pose that is edited, and so does a click; a drag edits the pose that is seen. A
-  // click on an arrow at the edge brings its pin into view.
+  // Handles two kinds of input before the pad does. While a motion is seen, keys go back to the pose
+  // that is edited, because they act on it. A drag edits the pose that is seen; a click leaves the
+  // time as it is, and there is no menu. A click on an arrow at the edge brings its pin into view.
   #takeFirst() {
-    const goBack = (/** @type {Event} */ e) => {
-      if (!this.shapes.motion) return;
+    const take = (/** @type {Event} */ e) => {
+      if (!this.shapes.motion) return false;
       e.stopImmediatePropagation();
       e.preventDefault();
-      this.#playing.release();
+      return true;
     };
+    const goBack = (/** @type {Event} */ e) => take(e) && this.#playing.release();
     const capture = true;
-    this.box.addEventListener("pointerdown", (e) => e.button === 2 && goBack(e), { capture });
+    this.box.addEventListener("pointerdown", (e) => e.button === 2 && take(e), { capture });
+    this.box.addEventListener("contextmenu", take, { capture });
     const ours = (/** @type {KeyboardEvent} */ e) =>
       !e.ctrlKey && !e.metaKey && KEYS.test(keyOf(e));
     this.box.addEventListener("keydown", (e) => ours(e) && goBack(e), { capture });
@@ -387,13 +390,14 @@ export class Canvas {
     );
   }
 
-  // Shows a refusal as the notice. After a press into a motion, shows the pose that is edited now.
+  // Shows a refusal as the notice. After a press into a motion, shows the pose that is edited, if the
+  // press was a drag and made a keyframe of this time.
   #report() {
     const { busy, refusal } = this.link;
     if (this.link.idle) this.#showTool(undefined);
     if (this.#presses && this.link.idle && this.pad.mode === null) {
       this.#presses = false;
-      this.#playing.release();
+      this.#playing.reach();
     }
     if (!busy && refusal && refusal !== this.model.get("notice")) this.say(refusal);
   }

@@ -75,7 +75,11 @@ export const HELP = [
       ],
       [
         "Shift+Home, Shift+End",
-        "play over and over from here, to here; so do the two marks on the ruler",
+        "play over and over from here, to here; so do the two marks on the ruler, seen below a pointer",
+      ],
+      [
+        "Line below the poses",
+        "green: proved, the higher the safer; grey hatching: not yet; orange: not proved",
       ],
       ["Ctrl and wheel", "zoom the timeline; then the wheel alone moves along it"],
       ["Double click a pose, F2", "type its name"],

@@ -68,7 +68,8 @@ export class PinBehaviour {
    * @param {Found | null} found
    */
   menu(place, found) {
-    this.canvas.openMenu(place, found);
+    // Its rows act on the pose that is edited, which must be the one that is seen.
+    if (!this.canvas.shapes.motion) this.canvas.openMenu(place, found);
   }
 
   pressedAt() {

@@ -27,6 +27,8 @@ const REPEATS = [
   ["loop", "Loop"],
   ["ping-pong", "Ping-pong"],
 ];
+/** Chosen while a part plays over and over, whatever the motion as a whole does. @type {Choice} */
+const OF_RANGE = ["range", "Loop range"];
 const ONION = "Onion skin: outlines of the poses before (blue) and after (orange) the edited pose";
 const KEY =
   "Key this pose and continue with a copy (K); at another time, key the shape that is shown there";
@@ -41,14 +43,17 @@ const EASE = "M2.5 13.5C8 13.5 8 2.5 13.5 2.5"; // an icon
 
 export class Bar {
   recording = false;
+  #repeat = ""; // what the motion does as a whole
   onionOn = false;
+  #range = new Option(OF_RANGE[1], OF_RANGE[0]);
 
   /** @param {Does} does */
   constructor({ play, keep, act, edit, zoom, ease }) {
     this.play = iconButton("play", "Play, pause (Space)", play);
-    this.repeat = menu("Play once, in a loop, or there and back", REPEATS, (repeat) =>
-      act("set_repeat", { repeat }),
-    );
+    this.repeat = menu("Play once, in a loop, or there and back", REPEATS, (repeat) => {
+      if (this.#range.parentElement) act("set_loop_range", { range: null });
+      if (repeat !== this.#repeat) act("set_repeat", { repeat });
+    });
     this.clock = make("span", { className: "glid-time", role: "timer" });
     this.record = iconButton("record", "Record: keep the next drag as keyframes", () =>
       act("record", { on: !this.recording }),
@@ -82,9 +87,12 @@ export class Bar {
   /**
    * @param {Shown} shown
    */
-  update({ keyframes, repeat, recording, onion, exports }) {
+  update({ keyframes, repeat, range, recording, onion, exports }) {
     const alone = keyframes.length < 2;
-    this.repeat.value = repeat;
+    this.#repeat = repeat;
+    if (range) this.repeat.append(this.#range);
+    else this.#range.remove();
+    this.repeat.value = range ? OF_RANGE[0] : repeat;
     this.remove.disabled = alone;
     for (const control of [this.play, this.save, this.repeat, this.ease]) {
       control.disabled = alone;

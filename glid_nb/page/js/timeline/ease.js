@@ -56,6 +56,19 @@ export function pathOf(easing, size) {
 }
 
 /**
+ * The curve as a picture that is stretched over its room; its line stays as thick.
+ *
+ * @param {Easing} easing
+ */
+export function stretchedCurve(easing) {
+  const path = pathOf(easing, 100);
+  return (
+    `<svg viewBox="0 0 100 100" preserveAspectRatio="none" aria-hidden="true">` +
+    `<path vector-effect="non-scaling-stroke" d="${path}"/></svg>`
+  );
+}
+
+/**
  * A curve with one handle elsewhere, in the unit square and at hundredths.
  *
  * @param {Easing} easing

@@ -11,9 +11,17 @@ import { handlesOf, nameOf, PRESETS, pathOf, withHandle } from "./ease.js";
 
 const SIZE = 140; // CSS pixels of the square
 const MARGIN = 14; // around it, for handles at its sides
-const GAP = 6; // to what the panel belongs to
+const GAP = 6; // to the timeline, or to what the panel belongs to
 const STEP = 0.02; // of an arrow key
 const LONG_STEP = 0.1; // with Shift
+
+/** @type {[label: string, title: string][]} */
+const NUMBERS = [
+  ["x1", "How it leaves: share of the time"],
+  ["y1", "How it leaves: share of the way"],
+  ["x2", "How it arrives: share of the time"],
+  ["y2", "How it arrives: share of the way"],
+];
 
 /** @type {Record<string, Point>} */
 const ARROWS = {
@@ -42,6 +50,7 @@ export class EaseEditor {
     this.curve = make("div", { className: "glid-ease-curve" });
     this.drawing = make("div", { className: "glid-ease-drawing" });
     this.handles = [this.#handle(0), this.#handle(1)];
+    this.numbers = NUMBERS.map(([label, title], i) => this.#number(label, title, i));
     this.presets = PRESETS.map(([easing, label]) =>
       make(
         "button",
@@ -60,6 +69,7 @@ export class EaseEditor {
       },
       this.title,
       this.curve,
+      make("div", { className: "glid-ease-numbers" }, ...this.numbers.map((one) => one.field)),
       make("div", { className: "glid-ease-presets", role: "group" }, ...this.presets),
     );
     this.element.addEventListener("keydown", (e) => this.#keydown(e));
@@ -72,7 +82,7 @@ export class EaseEditor {
    * @param {number} index of the segment
    * @param {string} title
    * @param {Easing} easing
-   * @param {HTMLElement} at what it opens above
+   * @param {HTMLElement} at what it belongs to: it opens above the timeline, if there is room
    */
   open(index, title, easing, at) {
     const { element } = this;
@@ -82,10 +92,11 @@ export class EaseEditor {
     element.showPopover();
     const { left, width, top, bottom } = at.getBoundingClientRect();
     const room = element.getBoundingClientRect();
-    const above = top - room.height - GAP;
+    const over = this.element.parentElement?.getBoundingClientRect().top ?? top;
+    const places = [over, top].map((edge) => edge - room.height - GAP);
     const x = Math.min(left + (width - room.width) / 2, window.innerWidth - room.width - GAP);
     element.style.left = `${Math.max(x, GAP)}px`;
-    element.style.top = `${above < 0 ? bottom + GAP : above}px`;
+    element.style.top = `${places.find((one) => one >= 0) ?? bottom + GAP}px`;
     const pressed = this.presets.find((button) => button.ariaPressed === "true");
     (pressed ?? this.handles[0]).focus({ preventScroll: true });
   }
@@ -120,6 +131,10 @@ export class EaseEditor {
       handle.ariaValueNow = `${Math.round(100 * x)}`;
       handle.ariaValueText = `time ${Math.round(100 * x)} %, way ${Math.round(100 * y)} %`;
     });
+    for (const [i, { field, input }] of this.numbers.entries()) {
+      field.hidden = !handles;
+      if (handles) input.value = `${Number(handles[i].toFixed(2))}`;
+    }
     for (const [i, [name]] of PRESETS.entries()) {
       this.presets[i].ariaPressed = String(name === easing);
     }
@@ -130,6 +145,28 @@ export class EaseEditor {
   #choose(easing) {
     this.#draw(easing);
     this.set(this.index, easing);
+  }
+
+  /**
+   * A field for one coordinate of a handle.
+   *
+   * @param {string} label
+   * @param {string} title
+   * @param {number} i which of the four
+   */
+  #number(label, title, i) {
+    const limits = { type: "number", min: "0", max: "1", step: "0.01" };
+    const input = make("input", { ...limits, title, "aria-label": title });
+    input.addEventListener("change", () => {
+      const handles = handlesOf(this.#easing);
+      if (!handles || !Number.isFinite(input.valueAsNumber)) return this.#draw(this.#easing);
+      const which = /** @type {Which} */ (i >> 1);
+      const place = /** @type {Point} */ (handles.slice(2 * which, 2 * which + 2));
+      place[i % 2] = input.valueAsNumber;
+      this.#draw(withHandle(this.#easing, which, place));
+      this.set(this.index, this.#easing);
+    });
+    return { input, field: make("label", {}, label, input) };
   }
 
   /** @param {Which} which */
@@ -213,7 +250,7 @@ export class EaseEditor {
  *
  * @param {Easing} easing
  */
-export function curveIcon(easing) {
+function curveIcon(easing) {
   const path = pathOf(easing, 12);
   return `<svg viewBox="-2 -2 16 16" aria-hidden="true"><path d="${path}"/></svg>`;
 }

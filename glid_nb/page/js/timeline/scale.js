@@ -5,7 +5,7 @@
 const LATER = 0.15; // room behind the last keyframe, for the next one, as a share of its time
 const LEAST = 1.15; // s, of this room
 const MOST_LABELS = 12;
-const LABEL = 38; // CSS pixels that a label needs
+const LABEL = 48; // CSS pixels that a label needs
 const STEPS = [0.02, 0.04, 0.1, 0.2, 0.5, 1, 2, 5, 10, 30, 60, 300, 600]; // s between labels
 const LONGEST_STEP = 1800;
 const SAME = 1e-9; // s

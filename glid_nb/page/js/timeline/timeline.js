@@ -34,6 +34,10 @@ export class Timeline {
       this.player.pause();
       return this.player.place;
     },
+    reach: () => {
+      const { keyframes, active } = this.shown;
+      if (keyAt(keyframes, this.player.place) === active) this.release();
+    },
   };
 
   /** @param {Context<TimelineTraits>} context */

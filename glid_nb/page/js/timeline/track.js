@@ -5,8 +5,7 @@
 import { heightOf } from "../motion/strip.js";
 import { make } from "../pad/dom.js";
 import { scaleOf } from "../pad/place.js";
-import { nameOf } from "./ease.js";
-import { curveIcon } from "./ease_editor.js";
+import { nameOf, stretchedCurve } from "./ease.js";
 import { nameField } from "./name_field.js";
 import { RangeMarks } from "./range.js";
 import { frameAt, labelledTimes, landing, roomAt, spanOf, withReturn } from "./scale.js";
@@ -46,6 +45,7 @@ const LEAST_FRAME = 6; // width of a frame that gets a tick
 export class Track {
   span = 1; // s, what it shows
   rate = 25; // frames in a second of an export
+  diamonds = make("div", { className: "glid-diamonds", "aria-hidden": true });
   keys = make("div", { className: "glid-keys" });
   eases = make("div", { className: "glid-eases" });
   head = make("div", { className: "glid-playhead" });
@@ -81,7 +81,8 @@ export class Track {
       hover: (text) => hand.hover(text),
     });
     const { elements } = this.range;
-    const parts = [this.ruler, this.keys, this.eases, this.strip, ...elements, this.head];
+    const rows = [this.ruler, this.diamonds, this.keys, this.eases, this.strip];
+    const parts = [...rows, ...elements, this.head];
     this.element = make("div", { className: "glid-track" }, ...parts);
     this.zoom = new Zoom(this.element, () => this.#label());
     new ResizeObserver(() => this.#label()).observe(this.ruler);
@@ -190,13 +191,34 @@ export class Track {
     );
     const key = this.keys.children[focused];
     if (key instanceof HTMLElement) key.focus();
+    this.#showDiamonds(all);
     this.#showEases(all);
     const { time: end } = all[all.length - 1];
     this.range.show(shown.range, all.length > 1 ? [all[0].time, end] : null);
   }
 
   /**
-   * The curves of the segments, where there is room between their keyframes.
+   * A diamond at the exact time of each keyframe, which is dragged as its picture is.
+   *
+   * @param {Keyframe[]} all
+   */
+  #showDiamonds(all) {
+    this.diamonds.replaceChildren(
+      ...all.map(({ time }, i) => {
+        const { title, ariaPressed } = /** @type {HTMLElement} */ (this.keys.children[i]);
+        const diamond = make("i", {
+          title,
+          style: `left: ${this.#at(time)}`,
+          onpointerdown: (/** @type {PointerEvent} */ e) => this.#grab(e, i, time),
+        });
+        diamond.dataset.selected = ariaPressed ?? "false";
+        return diamond;
+      }),
+    );
+  }
+
+  /**
+   * The curves of the segments, each from one keyframe's picture to the next, where there is room.
    *
    * @param {Keyframe[]} all
    */
@@ -211,8 +233,8 @@ export class Track {
           title,
           "aria-label": title,
           "aria-haspopup": "dialog",
-          innerHTML: curveIcon(start.easing),
-          style: `left: ${this.#at((start.time + time) / 2)}`,
+          innerHTML: `${stretchedCurve(start.easing)}<span>${nameOf(start.easing)}</span>`,
+          style: `left: ${this.#at(start.time)}; width: calc(${this.#wide(time - start.time)})`,
           onpointerdown: (/** @type {PointerEvent} */ e) => {
             e.stopPropagation(); // the track would scrub
             this.hand.easePressed();
@@ -220,7 +242,6 @@ export class Track {
           onclick: () => this.hand.ease(i, button),
         });
         button.dataset.seconds = `${time - start.time}`;
-        button.dataset.even = String(start.easing === "linear");
         return button;
       }),
     );
@@ -251,9 +272,9 @@ export class Track {
     const width = Math.max(ruler.clientWidth - 2 * INSET, 0);
     const labels = labelledTimes(span, width, this.zoom.factor).map((time) => {
       const frame = frameAt(time, rate);
-      const number = frame === null ? [] : [make("small", {}, `${frame}`)];
-      const text = `${Number(time.toFixed(2))}`;
-      return make("span", { style: `left: ${this.#at(time)}` }, text, ...number);
+      const number = frame === null ? [] : [make("b", {}, `${frame}`)];
+      const second = make("small", {}, `${Number(time.toFixed(2))} s`);
+      return make("span", { style: `left: ${this.#at(time)}` }, ...number, second);
     });
     const frame = width / (span * rate);
     const ticks = make("i", { className: "glid-frames", hidden: frame < LEAST_FRAME });
@@ -267,7 +288,7 @@ export class Track {
     const proved = sigma2.map((bound, i) => {
       const when = `from ${seconds(times[i])} to ${seconds(times[i + 1])}`;
       const height = heightOf(bound);
-      const text = `σ₂ ≥ ${bound.toFixed(3)} ${when}`;
+      const text = `Proved ${when}: σ₂ ≥ ${bound.toFixed(3)}`;
       return this.#piece(times[i], times[i + 1], "proved", text, height);
     });
     if (status === "proved") return proved;
@@ -323,7 +344,7 @@ export class Track {
   #grab(e, index, time) {
     if (e.button !== 0) return;
     e.stopPropagation();
-    const button = /** @type {HTMLButtonElement} */ (e.currentTarget);
+    const button = /** @type {HTMLButtonElement} */ (this.keys.children[index]);
     this.#drag = { index, from: time, x: e.clientX, time: null };
     button.setPointerCapture(e.pointerId);
     button.focus({ preventScroll: true }); // so that Escape is heard
@@ -342,7 +363,9 @@ export class Track {
     if (drag.time === null && Math.abs(moved) <= STILL) return;
     const time = drag.from + (moved / this.#inside().width) * this.span;
     drag.time = this.landing(drag.index, time);
+    const diamond = /** @type {HTMLElement} */ (this.diamonds.children[drag.index]);
     button.style.left = this.#at(drag.time);
+    diamond.style.left = this.#at(drag.time);
     this.head.style.left = this.#at(drag.time);
     this.hand.hover(`to ${seconds(drag.time)}`);
   }
