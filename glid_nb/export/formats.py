@@ -42,9 +42,7 @@ MOTION_FORMATS = {  # a motion's name without one of these is a folder of frames
 }
 
 
-OF_ONE_SHAPE = frozenset(
-    {".svg", ".live.html", ".html", ".py", ".proof.json", ".motion.json", ".glb", ".obj"}
-)
+OF_ONE_SHAPE = frozenset({".svg", ".html", ".py", ".proof.json", ".motion.json", ".glb", ".obj"})
 """Formats that hold one shape. A session with several parts exports a file for each."""
 
 

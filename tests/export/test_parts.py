@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import re
 import zipfile
 from collections.abc import Iterator
 from pathlib import Path
@@ -152,3 +153,32 @@ def test_a_session_with_parts_is_animated_from_the_command_line(
         frame = np.asarray(gif.convert("RGB")).astype(int)
     assert ((frame[..., 0] - frame[..., 2]) > 100).any()
     assert ((frame[..., 2] - frame[..., 0]) > 100).any()
+
+
+def test_a_live_page_has_all_visible_parts(model: EditorModel, tmp_path: Path) -> None:
+    (path,) = exporting.export(model, tmp_path / "two.html", live=True)
+    assert path.name == "two.html"
+    assert len(re.findall('<img id="source', path.read_text(encoding="utf-8"))) == 2
+    assert exporting.written_names(model, tmp_path / "a.live.html", moving=False) == (
+        "a.live.html",
+    )
+    try:
+        model.deformation.show_part(0, False)
+        (path,) = exporting.export(model, tmp_path / "one.live.html")
+        assert len(re.findall('<img id="source', path.read_text(encoding="utf-8"))) == 1
+    finally:
+        model.deformation.undo()
+
+
+def test_a_session_becomes_a_live_page_from_the_command_line(
+    model: EditorModel, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    session, page = tmp_path / "two.glid", tmp_path / "two.html"
+    save_document(model.document, session)
+    assert main(["page", str(session), "--out", str(page), "--title", "Both"]) in (0, None)
+    text = page.read_text(encoding="utf-8")
+    assert "<title>Both</title>" in text
+    assert len(re.findall('<img id="source', text)) == 2
+    for flags in (["--energy", "arap"], ["--max-vertices", "40"]):
+        assert main(["page", str(session), "--out", str(page), *flags])
+        assert "a session, with its own outlines" in capsys.readouterr().err
