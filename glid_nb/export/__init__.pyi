@@ -12,6 +12,8 @@ from .mesh import mesh_glb as mesh_glb
 from .mesh import mesh_obj as mesh_obj
 from .mesh import motion_glb as motion_glb
 from .mesh import parts_glb as parts_glb
+from .mesh import parts_motion_glb as parts_motion_glb
+from .mesh import parts_obj as parts_obj
 from .mesh import textured_mesh as textured_mesh
 from .motion import animate as animate
 from .motion import animate_parts as animate_parts

@@ -20,6 +20,7 @@ from glid_nb.export.formats import (
     OF_ONE_SHAPE,
     ExportError,
     file_names,
+    obj_names,
     part_name,
     suffix_of,
 )
@@ -84,8 +85,10 @@ def written_names(model: EditorModel, path: Path, *, moving: bool) -> tuple[str,
     formats = MOTION_FORMATS if moving else FORMATS
     suffix = suffix_of(path.name, formats)
     shapes = shown_shapes(model)
-    if len(shapes) == 1 or suffix not in OF_ONE_SHAPE or (suffix == ".glb" and not moving):
+    if len(shapes) == 1 or suffix not in OF_ONE_SHAPE | {".obj"}:
         return file_names(path.name, formats)
+    if suffix == ".obj":
+        return obj_names(path.name, [shape.name for shape in shapes])
     each = (part_name(path.name, suffix, shape.name) for shape in shapes)
     return tuple(name for one in each for name in file_names(one, formats))
 
@@ -155,11 +158,13 @@ def exported(
         return {path.name: to.parts_png(still, size, view, model.background)}
     if suffix == ".live.html":
         return {path.name: live_page(shapes, model.background, path.name)}
-    if suffix == ".glb" and len(shapes) > 1:
+    if suffix in (".glb", ".obj") and len(shapes) > 1:
         meshes = {
             s.name: to.textured_mesh(s.layers.image, s.state.map, pose=s.state.pose) for s in shapes
         }
-        return {path.name: to.parts_glb(meshes)}
+        if suffix == ".glb":
+            return {path.name: to.parts_glb(meshes)}
+        return to.parts_obj(meshes, path.name[: -len(suffix)])
     files: dict[str, bytes] = {}
     for own, shape in _own_paths(path, suffix, shapes):
         files |= _files_of(shape, _document_of(model, shape), own, suffix, model.background)
