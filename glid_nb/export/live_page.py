@@ -93,7 +93,7 @@ def live_page_html(
     part = _Prepared.of(LivePart(image, shown, pose, energy, p2p_weight))
     data = {"title": title, **_common([part]), **part.data()}
     picture = _picture(part.texture, "source")
-    most = _MOST - len(template("live_page")) - len(_picture(None, "source")) - len(title)
+    most = _MOST - len(_template()) - len(_picture(None, "source")) - len(title)
     for n_vertices in _VERTICES:
         deflated = _deflated({**data, **part.mesh(n_vertices)}, _code("live_page"))
         if len(_lettered(deflated)) <= most:
@@ -222,7 +222,12 @@ def _page(title: str, deflated: bytes, pictures: str, background: Background) ->
         "pictures": pictures,
     }
     # Replace in one pass, so that inserted text is not searched for placeholders.
-    return re.sub(r"\{\{(\w+)\}\}", lambda found: parts[found[1]], template("live_page"))
+    return re.sub(r"\{\{(\w+)\}\}", lambda found: parts[found[1]], _template())
+
+
+def _template() -> str:
+    """The page's frame, in one line. All statements of its script end with a semicolon."""
+    return _plain(template("live_page")).replace("\n", "")
 
 
 def _check_poses(shown: Domain | HarmonicMap | Motion, poses: Sequence[Pose | None]) -> None:
@@ -323,7 +328,7 @@ def page_domain(domain: Domain) -> Domain:
         return domain
 
 
-def _plain(shader: str) -> str:
-    """A shader without comments and indentation."""
-    lines = (re.sub(r"//.*", "", line).strip() for line in shader.splitlines())
+def _plain(code: str) -> str:
+    """A shader, or the page's frame, without comments and indentation."""
+    lines = (re.sub(r"//.*", "", line).strip() for line in code.splitlines())
     return "\n".join(line for line in lines if line)

@@ -195,7 +195,7 @@ test("a change that no part has to solve is settled at once", async () => {
 
 test("a press finds the foremost part that is seen there; undo covers the pins of all parts", () => {
   const { joint, solvers } = startedPair();
-  const clear = [() => true, ([x]) => x > 0.5];
+  const clear = [() => true, (/** @type {Point} */ [x]) => x > 0.5];
   const shapes = clear.map((isSeen) => ({ mesh: SQUARE, isSeen }));
   const editing = new PartsEditing(joint, shapes, joint.newest, chained(RESTS));
   assert.deepEqual(editing.sourceAt([0.75, 0.5]), [0.75, 0.5, 1]);

@@ -1,9 +1,8 @@
 // Opens the live page: unpacks its data, starts the solver, and measures how to draw.
 
 import { identityOf } from "../live/wire.js";
-import { View } from "../pad/view.js";
 import { Editing } from "./editing.js";
-import { byId, byKind } from "./elements.js";
+import { byKind } from "./elements.js";
 import { TAKEN } from "./files.js";
 import {
   contextOf,
@@ -13,11 +12,12 @@ import {
   startedSolver,
   tellReady,
   unpackedReel,
+  viewOf,
 } from "./opening.js";
 import { LivePage } from "./page.js";
-import { fitted, roomOn } from "./room.js";
 import { Stage } from "./stage.js";
 
+/** @import { View } from "../pad/view.js" */
 /** @import { LiveData } from "./data.js" */
 
 /**
@@ -36,9 +36,7 @@ async function open() {
     loadedMesh(data),
     loadedPicture("source"),
   ]);
-  const view = new View(() => {}, { nearest: 1e-4, farthest: 1 });
-  Object.assign(view, roomOn(byId("pad")).size);
-  Object.assign(view, fitted(mesh.source, roomOn(byId("pad")), data.margin));
+  const view = viewOf(mesh.source, data.margin);
   const stage = new Stage(canvas, gl, data, mesh, picture);
   const frame = await stage.choose(solving, view);
   const editing = new Editing(solving, mesh, frame, identityOf(data.outline));

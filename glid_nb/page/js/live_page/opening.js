@@ -4,8 +4,10 @@ import { CannotShow } from "../exported/renderer.js";
 import { cornersOf, restored, unpacked } from "../exported/unpack.js";
 import { Solving, startedWorker } from "../live/solving.js";
 import { coefficientsOf, identityOf } from "../live/wire.js";
+import { View } from "../pad/view.js";
 import { byId, byKind } from "./elements.js";
 import { poseOf } from "./pins.js";
+import { fitted, roomOn } from "./room.js";
 
 /** @import { LiveData } from "./data.js" */
 
@@ -44,13 +46,20 @@ export async function loadedPicture(id) {
 
 /** @param {HTMLCanvasElement} canvas */
 export function contextOf(canvas) {
-  const gl = canvas.getContext("webgl2", {
-    antialias: true,
-    premultipliedAlpha: true,
-    preserveDrawingBuffer: true,
-  });
+  const gl = canvas.getContext("webgl2", { preserveDrawingBuffer: true });
   if (!gl) throw new CannotShow("This page needs WebGL 2 and a browser of 2023 or later.");
   return gl;
+}
+
+/**
+ * The view in which points fill the page.
+ * @param {ArrayLike<number>} points x and y in turn
+ * @param {number} margin
+ */
+export function viewOf(points, margin) {
+  const view = new View(() => {}, { nearest: 1e-4, farthest: 1 });
+  const room = roomOn(byId("pad"));
+  return Object.assign(view, room.size, fitted(points, room, margin));
 }
 
 /**
@@ -76,9 +85,7 @@ export async function unpackedReel(
  */
 export function tellReady({ mover, frameTime }) {
   const { dataset } = document.documentElement;
-  dataset.mover = mover;
-  dataset.frame = frameTime.toFixed(1);
-  dataset.ready = "true";
+  Object.assign(dataset, { mover, frame: frameTime.toFixed(1), ready: true });
 }
 
 /**

@@ -2,7 +2,7 @@
 // solver of its own, whose certificates are joined.
 
 import { identityOf } from "../live/wire.js";
-import { byId, byKind } from "../live_page/elements.js";
+import { byKind } from "../live_page/elements.js";
 import {
   contextOf,
   fail,
@@ -11,10 +11,9 @@ import {
   startedSolver,
   tellReady,
   unpackedReel,
+  viewOf,
 } from "../live_page/opening.js";
 import { LivePage } from "../live_page/page.js";
-import { fitted, roomOn } from "../live_page/room.js";
-import { View } from "../pad/view.js";
 import { chained } from "./joint_map.js";
 import { JointSolving } from "./joint_solving.js";
 import { PartsEditing, seenIn } from "./parts_editing.js";
@@ -22,6 +21,7 @@ import { takenOf } from "./parts_files.js";
 import { PartsStage } from "./parts_stage.js";
 import { jointReel } from "./reel.js";
 
+/** @import { View } from "../pad/view.js" */
 /** @import { LiveData, Pin } from "../live_page/data.js" */
 /** @import { PartsData } from "./data.js" */
 
@@ -75,10 +75,7 @@ async function open() {
     Promise.all(parts.map(loadedMesh)),
     Promise.all(parts.map((_, i) => loadedPicture(`source${i}`))),
   ]);
-  const view = new View(() => {}, { nearest: 1e-4, farthest: 1 });
-  Object.assign(view, roomOn(byId("pad")).size);
-  const places = chained(meshes.map(({ source }) => source));
-  Object.assign(view, fitted(places, roomOn(byId("pad")), data.margin));
+  const view = viewOf(chained(meshes.map(({ source }) => source)), data.margin);
   const stage = new PartsStage(canvas, gl, parts, meshes, pictures);
   const solving = new JointSolving(solvers, rests, await stage.choose(solvers, view));
   const shapes = meshes.map((mesh, i) => ({ mesh, isSeen: seenIn(pictures[i], data.frame) }));
