@@ -24,11 +24,15 @@ const WIDGETS = {
   tracer: "tracer/main.js",
 };
 const SCRIPTS = { exported: "exported/main.js" };
-// The live page and its worker are minified, because the page has to stay below 60 kB. So is what
-// every figure with sliders contains.
+// The live page and its worker are minified, because the page has to stay below 60 kB. So are the page
+// of several shapes, and what every figure with sliders contains.
 const FRAMES = { frames: "frames/main.js" };
 const FRAMES_STYLES = { frames: "frames/frames.css" };
-const SMALL = { live: "live/main.js", live_page: "live_page/main.js" };
+const SMALL = {
+  live: "live/main.js",
+  live_page: "live_page/main.js",
+  live_parts: "live_parts/main.js",
+};
 const SMALL_STYLES = { live_page: "live_page/live_page.css" };
 const STYLES = {
   canvas: "canvas/canvas.css",

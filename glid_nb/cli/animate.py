@@ -22,11 +22,10 @@ from glid_nb.cli.many import refuse_standard_output
 from glid_nb.cli.output import check_files, check_folder, step
 from glid_nb.export.moving import MovingPart
 from glid_nb.imaging.backdrop import WHITE, Background
-from glid_nb.session.document import Document
-from glid_nb.session.look import background_behind
-from glid_nb.session.timeline import Timeline
-from glid_nb.session.tracing import layers_of
+from glid_nb.session.posed_shapes import shapes_of
 from glid_nb.session.unsolved import solved_document
+
+_Range = tuple[float, float]
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -37,8 +36,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     size = "pixels of the longer side (default: %(default)s); not for .html and .glb"
     add("--size", type=int, default=480, metavar="N", help=size)
     add("--fps", type=float, default=25.0, metavar="N", help="frames per second, 0 to 100")
-    seconds = "total length (default: that of the timeline or of the saved motion)"
+    seconds = "length of the whole motion (default: that of the timeline or of the saved motion)"
     add("--seconds", type=float, metavar="S", help=seconds)
+    part = "only this part, on the way forth, which then repeats; in seconds, after --seconds"
+    range_ = parser.add_mutually_exclusive_group()
+    range_.add_argument("--range", type=float, nargs=2, metavar=("START", "END"), help=part)
+    marked = "only the session's loop range, between the two marks on the timeline's ruler"
+    range_.add_argument("--loop-range", action="store_true", help=marked)
     loop = "after the last pose: go to the first one, go back, or stop (default: as saved)"
     add("--loop", choices=("loop", "ping-pong", "once"), help=loop)
     color = "a name, #rrggbb, or `transparent`, but not for .gif and .mp4 (default: that of the "
@@ -55,13 +59,16 @@ def run(chosen: argparse.Namespace) -> None:
         files = map(out.with_name, glid_nb.export.file_names(out.name))
         check_files(list(files), [chosen.source, chosen.picture])
     glid_nb.enable_compilation_cache()
-    parts, behind = _read(chosen)
+    parts, behind, marked = _read(chosen)
+    within = _within(chosen, marked)
+    if within is not None:
+        parts = [part.between(*within) for part in parts]
     motion = parts[0].motion
     with step("proving and drawing (Ctrl-C stops, and nothing is written)") as detail:
         how: Any = {"size": chosen.size, "frames_per_second": chosen.fps}
         how |= {
             "background": getattr(chosen, "background", behind),
-            "loop": motion.repeat != "once",
+            "loop": within is not None or motion.repeat != "once",
         }
         how |= {"progress": lambda done, total: detail(f"frame {done} of {total}")}
         if len(parts) > 1:
@@ -72,8 +79,8 @@ def run(chosen: argparse.Namespace) -> None:
     print(f"{written}; {motion.duration:g} s. {motion.certificate.reason}")
 
 
-def _read(chosen: argparse.Namespace) -> tuple[list[MovingPart], Background]:
-    """The visible shapes with their motions, and what lies behind them."""
+def _read(chosen: argparse.Namespace) -> tuple[list[MovingPart], Background, _Range | None]:
+    """The visible shapes with their motions, what lies behind them, and the loop range."""
     if chosen.source.suffix.lower() != ".json":
         document = glid_nb.io.load_document(chosen.source)
         if (count := len(document.poses)) < 2:
@@ -83,12 +90,14 @@ def _read(chosen: argparse.Namespace) -> tuple[list[MovingPart], Background]:
         if document.unsolved:  # saved while the solver was paused, or by an older version
             with step("solving the poses that were saved unsolved") as detail:
                 document = solved_document(document, detail)
-        timeline = document.timeline or replace(Timeline.even(count), repeat="loop")
+        shapes, behind = shapes_of(document)
+        timeline = shapes[0].timeline
         timeline = replace(timeline, repeat=chosen.loop or timeline.repeat)
         if chosen.seconds is not None:
             there = 2 if timeline.repeat == "ping-pong" else 1
             timeline = timeline.lasting(_seconds(chosen) / there)
-        return _parts_of(document, timeline)
+        parts = [replace(shape, timeline=timeline).moving for shape in shapes]
+        return parts, WHITE if behind is None else behind, timeline.played_range
     motion = glid_nb.Motion.load(chosen.source)
     if chosen.picture is None or chosen.loop not in (None, motion.repeat):
         advice = "name its picture with --picture, and leave out --loop: it has its own setting"
@@ -100,28 +109,17 @@ def _read(chosen: argparse.Namespace) -> tuple[list[MovingPart], Background]:
     if chosen.seconds is not None:
         times = [_seconds(chosen) / motion.duration * time for time in motion.times]
         motion = glid_nb.Motion(motion.keyframes, times, **motion.settings)
-    return [MovingPart(glid_nb.read_image(chosen.picture), motion)], WHITE
+    return [MovingPart(glid_nb.read_image(chosen.picture), motion)], WHITE, None
 
 
-def _parts_of(document: Document, timeline: Timeline) -> tuple[list[MovingPart], Background]:
-    shapes = [document.of_part(i) for i in range(max(len(document.parts), 1))]
-    names = [part.name for part in document.parts] or [""]
-    visible = [part.visible for part in document.parts] or [True]
-    layers = [layers_of(shape) for shape in shapes]
-    parts = [
-        MovingPart(
-            layer.image,
-            timeline.motion([pose.map for pose in shape.poses]),
-            [pose.pose for pose in shape.poses],
-            name,
-        )
-        for shape, layer, name, seen in zip(shapes, layers, names, visible, strict=True)
-        if seen
-    ]
-    if not parts:
-        raise InputFileError("all parts of the session are hidden; show one in the editor")
-    behind = layers[0].background if len(layers) == 1 else background_behind(layers)
-    return parts, WHITE if behind is None else behind
+def _within(chosen: argparse.Namespace, marked: _Range | None) -> _Range | None:
+    """The part of the motion that is asked for; None for all of it."""
+    if not chosen.loop_range:
+        return None if chosen.range is None else (chosen.range[0], chosen.range[1])
+    if marked is None:
+        what = f"{chosen.source} has no loop range; set it on the timeline in the editor"
+        raise InputError(f"{what}, or give times with --range")
+    return marked
 
 
 def _seconds(chosen: argparse.Namespace) -> float:

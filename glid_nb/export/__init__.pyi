@@ -4,12 +4,16 @@ from .formats import MOTION_FORMATS as MOTION_FORMATS
 from .formats import ExportError as ExportError
 from .formats import file_names as file_names
 from .formats import suffix_of as suffix_of
+from .live_page import LivePart as LivePart
 from .live_page import live_page_html as live_page_html
 from .live_page import page_domain as page_domain
+from .live_page import parts_live_html as parts_live_html
 from .mesh import mesh_glb as mesh_glb
 from .mesh import mesh_obj as mesh_obj
 from .mesh import motion_glb as motion_glb
 from .mesh import parts_glb as parts_glb
+from .mesh import parts_motion_glb as parts_motion_glb
+from .mesh import parts_obj as parts_obj
 from .mesh import textured_mesh as textured_mesh
 from .motion import animate as animate
 from .motion import animate_parts as animate_parts

@@ -1,6 +1,6 @@
 """Tables of the export formats, one for maps and one for motions, by the endings of file names."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
@@ -42,9 +42,7 @@ MOTION_FORMATS = {  # a motion's name without one of these is a folder of frames
 }
 
 
-OF_ONE_SHAPE = frozenset(
-    {".svg", ".live.html", ".html", ".py", ".proof.json", ".motion.json", ".glb", ".obj"}
-)
+OF_ONE_SHAPE = frozenset({".svg", ".html", ".py", ".proof.json", ".motion.json"})
 """Formats that hold one shape. A session with several parts exports a file for each."""
 
 
@@ -52,6 +50,18 @@ def part_name(name: str, suffix: str, part: str) -> str:
     """The name of a part's file: that of the export, with the part's name before the suffix."""
     stem, ending = name[: len(name) - len(suffix)], name[len(name) - len(suffix) :]
     return f"{stem}-{portable_name(part) or 'part'}{ending}"
+
+
+def obj_names(name: str, parts: Sequence[str]) -> tuple[str, ...]:
+    """The files of an OBJ with several parts: the named one, its materials, and their textures.
+
+    Materials have the names of their textures, in which programs do not expect spaces.
+    """
+    stem, texture = name[: -len(".obj")], "-texture.png"
+    names = ["_".join(part.split()) for part in parts]
+    alike = [names[:i].count(one) for i, one in enumerate(names)]
+    unlike = (f"{one}-{n + 1}" if n else one for one, n in zip(names, alike, strict=True))
+    return (name, f"{stem}.mtl", *(part_name(stem + texture, texture, one) for one in unlike))
 
 
 def suffix_of(name: str, formats: Mapping[str, Format] = MOTION_FORMATS) -> str:

@@ -7,10 +7,11 @@ import math
 import re
 import zlib
 from collections.abc import Sequence
-from typing import Any
+from dataclasses import dataclass
+from typing import Any, Self
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from glid_nb._arguments import check_type
 from glid_nb._errors import InputError
@@ -58,6 +59,18 @@ _RANGES = {2: [1, 2], 3: [1, 0.4], 4: [0, 0.5]}
 """The ends of the colour map for each overlay, by its number in ``picture.frag``."""
 
 
+@dataclass(frozen=True, eq=False)
+class LivePart:
+    """A shape of a live page. The fields are the arguments of `live_page_html`."""
+
+    image: ArrayLike
+    shown: Domain | HarmonicMap | Motion
+    pose: Pose | Sequence[Pose] | None = None
+    energy: Energy | None = None
+    p2p_weight: float = 1e5
+    name: str = ""  # of one of several
+
+
 def live_page_html(
     image: ArrayLike,
     shown: Domain | HarmonicMap | Motion,
@@ -77,52 +90,144 @@ def live_page_html(
 
     Raises an InputError for an energy that the page's solver does not have.
     """
-    check_type("shown", shown, Domain | HarmonicMap | Motion, "pass a domain or a map", InputError)
-    energy = SymmetricDirichlet() if energy is None else energy
-    if energy.name not in ENERGIES or isinstance(energy, CustomEnergy):
-        known = ", ".join(ENERGIES)
-        raise InputError(f"a live page has no energy {energy.name!r}; choose one of {known}")
-    texture = as_rgba8(image)
-    domain = page_domain(shown if isinstance(shown, Domain) else shown.domain)
-    start = HarmonicMap.identity(domain) if isinstance(shown, Domain) else shown
-    check_picture((texture.shape[1], texture.shape[0]), start)
-    poses = list(pose) if isinstance(pose, Sequence) else [pose]
-    _check_poses(shown, poses)
-    first = poses[0]
-    texture = bled(texture)
-    painted = None if first is None else first.stiffness
-    stiff = painted if painted and painted.within(domain.cage) else None
-    data = {
-        "title": title,
-        "outline": outline_of(domain),
-        "options": {
-            "energy": energy.name,
-            "s": float(getattr(energy, "s", 1.0)),
-            "weight": float(p2p_weight),
-            "stiff": None if stiff is None else stiff_nodes(domain, stiff),
-        },
-        "stiffness": None if stiff is None else stiff.to_list(),
-        "start": _start(start),
-        "poses": [pins_of(one) for one in poses],
-        "motion": _motion(start) if isinstance(start, Motion) else None,
-        **_shaders(domain),
-        "frame": [*PixelFrame(*texture.shape[1::-1]).bounds],
+    part = _Prepared.of(LivePart(image, shown, pose, energy, p2p_weight))
+    data = {"title": title, **_common([part]), **part.data()}
+    picture = _picture(part.texture, "source")
+    most = _MOST - len(_template()) - len(_picture(None, "source")) - len(title)
+    for n_vertices in _VERTICES:
+        deflated = _deflated({**data, **part.mesh(n_vertices)}, _code("live_page"))
+        if len(_lettered(deflated)) <= most:
+            break
+    return _page(title, deflated, picture, background)
+
+
+def parts_live_html(
+    parts: Sequence[LivePart], title: str = "Live picture", background: Background = None
+) -> str:
+    """Like `live_page_html` for several shapes, the rearmost first: one canvas, pins on all of
+    them, one undo and one timeline.
+
+    Each part has a solver and a proof of its own. The page shows the worst of their bounds, and
+    draws a frame of a motion only when it is proved for all. The pictures have the same size. The
+    motions, if there are any, have the same times.
+    """
+    if len(parts) == 1:
+        one = parts[0]
+        shape = one.image, one.shown, one.pose, one.energy, one.p2p_weight
+        return live_page_html(*shape, title, background)
+    _check_parts(parts)
+    prepared = [_Prepared.of(part) for part in parts]
+    each = [{**one.data(), **one.mesh(_VERTICES[0])} for one in prepared]
+    data = {"title": title, **_common(prepared), "parts": each}
+    pictures = [_picture(one.texture, f"source{i}") for i, one in enumerate(prepared)]
+    deflated = _deflated(data, _code("live_parts"))
+    return _page(title, deflated, "\n".join(pictures), background)
+
+
+def _check_parts(parts: Sequence[LivePart]) -> None:
+    if not parts:
+        raise InputError("there are no parts; a live page needs at least one")
+    for part in parts:
+        check_type("a part", part, LivePart, "make one of a picture and its map", InputError)
+    sizes = {as_rgba8(part.image).shape[:2] for part in parts}
+    if len(sizes) > 1:
+        raise InputError("the pictures of the parts have different sizes; they share one frame")
+    times = {part.shown.times if isinstance(part.shown, Motion) else None for part in parts}
+    if len(times) > 1:
+        raise InputError("the motions of the parts have different times; all share one timeline")
+
+
+@dataclass(frozen=True, eq=False)
+class _Prepared:
+    """A checked part, with the digits that a page has."""
+
+    part: LivePart
+    texture: NDArray[np.uint8]
+    domain: Domain
+    start: HarmonicMap | Motion
+    poses: Sequence[Pose | None]
+
+    @classmethod
+    def of(cls, part: LivePart) -> Self:
+        shown, energy = part.shown, part.energy or SymmetricDirichlet()
+        kinds = Domain | HarmonicMap | Motion
+        check_type("shown", shown, kinds, "pass a domain or a map", InputError)
+        if energy.name not in ENERGIES or isinstance(energy, CustomEnergy):
+            known = ", ".join(ENERGIES)
+            raise InputError(f"a live page has no energy {energy.name!r}; choose one of {known}")
+        texture = as_rgba8(part.image)
+        domain = page_domain(shown if isinstance(shown, Domain) else shown.domain)
+        start = HarmonicMap.identity(domain) if isinstance(shown, Domain) else shown
+        check_picture((texture.shape[1], texture.shape[0]), start)
+        poses: list[Pose | None] = (
+            list(part.pose) if isinstance(part.pose, Sequence) else [part.pose]
+        )
+        _check_poses(shown, poses)
+        return cls(part, bled(texture), domain, start, poses)
+
+    def data(self) -> dict[str, Any]:
+        """What the page needs of this part alone, without its mesh."""
+        domain, energy = self.domain, self.part.energy or SymmetricDirichlet()
+        painted = None if self.poses[0] is None else self.poses[0].stiffness
+        stiff = painted if painted and painted.within(domain.cage) else None
+        return {
+            **({"name": self.part.name} if self.part.name else {}),
+            "outline": outline_of(domain),
+            "options": {
+                "energy": energy.name,
+                "s": float(getattr(energy, "s", 1.0)),
+                "weight": float(self.part.p2p_weight),
+                "stiff": None if stiff is None else stiff_nodes(domain, stiff),
+            },
+            "stiffness": None if stiff is None else stiff.to_list(),
+            "start": _start(self.start),
+            "poses": [pins_of(one) for one in self.poses],
+            "motion": _motion(self.start) if isinstance(self.start, Motion) else None,
+            **_shader(domain),
+        }
+
+    def mesh(self, n_vertices: int) -> dict[str, Any]:
+        return _mesh(self.domain, self.poses[0], n_vertices)
+
+
+def _common(parts: Sequence[_Prepared]) -> dict[str, Any]:
+    """What all parts of a page share."""
+    size = parts[0].texture.shape[1::-1]
+    painting, fragment = webgl2_shaders("picture", None, len(COLORS))
+    return {
+        "painting": _plain(painting),
+        "fragment": _plain(fragment),
+        "frame": [*PixelFrame(*size).bounds],
         "margin": MARGIN,
-        "grid": domain.cage.longer_side / GRID_LINES,
+        "grid": max(part.domain.cage.longer_side for part in parts) / GRID_LINES,
         "colors": rgb(COLORS).ravel().round(4).tolist(),
         "ranges": _RANGES,
-        "size": [*texture.shape[1::-1]],
+        "size": [*size],
     }
-    page = template("live_page")
-    packed_data = _packed(data, domain, first, _MOST - len(page) - len(title))
+
+
+def _picture(texture: NDArray[np.uint8] | None, name: str) -> str:
+    """The element with a picture; without one, the letters around it."""
+    data = b"" if texture is None else base64.b64encode(png(texture))
+    address = "" if texture is None else "data:image/png;base64," + data.decode("ascii")
+    return f'<img id="{name}" alt="" hidden src="{address}">'
+
+
+def _page(title: str, deflated: bytes, pictures: str, background: Background) -> str:
     parts = {
         "title": html.escape(title),
-        **packed_data,
+        "packed": _lettered(deflated),
+        "size": str(len(deflated)),
         "behind": behind_canvas(background),
-        "picture": "data:image/png;base64," + base64.b64encode(png(texture)).decode("ascii"),
+        "pictures": pictures,
     }
     # Replace in one pass, so that inserted text is not searched for placeholders.
-    return re.sub(r"\{\{(\w+)\}\}", lambda found: parts[found[1]], page)
+    return re.sub(r"\{\{(\w+)\}\}", lambda found: parts[found[1]], _template())
+
+
+def _template() -> str:
+    """The page's frame, in one line. All statements of its script end with a semicolon."""
+    return _plain(template("live_page")).replace("\n", "")
 
 
 def _check_poses(shown: Domain | HarmonicMap | Motion, poses: Sequence[Pose | None]) -> None:
@@ -142,15 +247,9 @@ def _start(start: HarmonicMap | Motion) -> list[float]:
     return coefficients_of(map)
 
 
-def _packed(data: Any, domain: Domain, pose: Pose | None, most: int) -> dict[str, str]:
-    """Data, mesh and code of the page, if possible in at most this many letters."""
-    code = [bundle("live"), bundle("live_page"), stylesheet("live_page")]
-    for n_vertices in _VERTICES:
-        deflated = _deflated({**data, **_mesh(domain, pose, n_vertices)}, code)
-        letters = _lettered(deflated)
-        if len(letters) <= most:
-            break
-    return {"packed": letters, "size": str(len(deflated))}
+def _code(page: str) -> list[str]:
+    """The scripts and the style sheet of a page."""
+    return [bundle("live"), bundle(page), stylesheet("live_page")]
 
 
 def _mesh(domain: Domain, pose: Pose | None, n_vertices: int) -> dict[str, Any]:
@@ -168,16 +267,12 @@ def _mesh(domain: Domain, pose: Pose | None, n_vertices: int) -> dict[str, Any]:
     }
 
 
-def _shaders(domain: Domain) -> dict[str, Any]:
-    """Two vertex shaders: one evaluates the map, the other takes vertices that are moved."""
+def _shader(domain: Domain) -> dict[str, Any]:
+    """The vertex shader that evaluates the map; empty if the cage is too large for it."""
     shader = ShaderMap(domain)
-    vertex, fragment = webgl2_shaders("picture", shader, len(COLORS))
-    painting, _ = webgl2_shaders("picture", None, len(COLORS))
-    fits = shader.n_chain <= LONGEST_CHAIN
+    vertex, _ = webgl2_shaders("picture", shader, len(COLORS))
     return {
-        "vertex": _plain(vertex) if fits else "",
-        "painting": _plain(painting),
-        "fragment": _plain(fragment),
+        "vertex": _plain(vertex) if shader.n_chain <= LONGEST_CHAIN else "",
         "chain": shader.n_chain,
         "shaderHoles": shader.n_holes,
     }
@@ -233,7 +328,7 @@ def page_domain(domain: Domain) -> Domain:
         return domain
 
 
-def _plain(shader: str) -> str:
-    """A shader without comments and indentation."""
-    lines = (re.sub(r"//.*", "", line).strip() for line in shader.splitlines())
+def _plain(code: str) -> str:
+    """A shader, or the page's frame, without comments and indentation."""
+    lines = (re.sub(r"//.*", "", line).strip() for line in code.splitlines())
     return "\n".join(line for line in lines if line)

@@ -4,7 +4,7 @@ import functools
 import io
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -13,7 +13,8 @@ from PIL import Image
 from glid_nb._arguments import check_type
 from glid_nb._arrays import Array
 from glid_nb._errors import InputError
-from glid_nb.export.moving import MovingMesh, check_picture
+from glid_nb.export.formats import obj_names
+from glid_nb.export.moving import MovingMesh, MovingPart, check_picture
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging import PixelFrame, as_rgba8, png
 from glid_nb.imaging.bleed import bled
@@ -97,6 +98,42 @@ def mesh_obj(mesh: TexturedMesh, name: str = "shape") -> dict[str, bytes]:
     return {f"{name}.obj": text.encode("utf-8"), **files, **texture}
 
 
+def parts_obj(meshes: Mapping[str, TexturedMesh], name: str = "shape") -> dict[str, bytes]:
+    """Several meshes as one Wavefront OBJ, with an object and a material for each by its name.
+
+    The files, by name, are ``name.obj``, ``name.mtl`` and a texture for each part
+    (`formats.obj_names`). The first mesh is the rearmost; each lies a little in front of the one
+    before, as in `parts_glb`. The files must stay in one folder.
+    """
+    textures = obj_names(f"{name}.obj", list(meshes))[2:]
+    materials = [texture.removesuffix("-texture.png") for texture in textures]
+    lines, first = ["# glid_nb", f"mtllib {name}.mtl"], 1
+    for part, mesh, material in zip(meshes, _stacked(meshes).values(), materials, strict=True):
+        lines += [f"o {' '.join(part.split())}", f"usemtl {material}"]
+        lines += [f"v {x:.8f} {y:.8f} {z:.8f}" for x, y, z in mesh.positions.tolist()]
+        lines += [f"vt {u:.8f} {v:.8f}" for u, v in mesh.texture_coordinates.tolist()]
+        corners = (mesh.triangles + first).tolist()
+        lines += [f"f {a}/{a} {b}/{b} {c}/{c}" for a, b, c in corners]
+        first += len(mesh.positions)
+    look = "Ka 1 1 1\nKd 1 1 1\nKs 0 0 0\nNs 0"
+    pairs = zip(materials, textures, strict=True)
+    library = [f"newmtl {material}\n{look}\nmap_Kd {file}\n" for material, file in pairs]
+    texts = {f"{name}.obj": "\n".join(lines) + "\n", f"{name}.mtl": "\n".join(library)}
+    pictures = (png(mesh.texture) for mesh in meshes.values())
+    return {
+        **{file: text.encode("utf-8") for file, text in texts.items()},
+        **dict(zip(textures, pictures, strict=True)),
+    }
+
+
+def _stacked(meshes: Mapping[str, TexturedMesh]) -> dict[str, TexturedMesh]:
+    """The meshes, each a little in front of the one before, as sheets of one shape are."""
+    return {
+        name: replace(mesh, positions=mesh.positions + np.array([0, 0, 2 * _RELIEF * number]))
+        for number, (name, mesh) in enumerate(meshes.items())
+    }
+
+
 def mesh_glb(mesh: TexturedMesh, edit: Callable[..., None] | None = None) -> bytes:
     """A mesh as binary glTF 2.0 (.glb), with its texture. ``edit(buffers, tree)`` may change it."""
     from trimesh.visual.material import PBRMaterial  # noqa: PLC0415
@@ -110,11 +147,11 @@ def mesh_glb(mesh: TexturedMesh, edit: Callable[..., None] | None = None) -> byt
     return data
 
 
-def parts_glb(meshes: Mapping[str, TexturedMesh]) -> bytes:
+def parts_glb(meshes: Mapping[str, TexturedMesh], edit: Callable[..., None] | None = None) -> bytes:
     """Several meshes as binary glTF 2.0, with a node for each by its name.
 
     The first is the rearmost. Each lies a little in front of the one before, as sheets of one shape
-    do.
+    do. ``edit(buffers, tree)`` may change the file.
     """
     from trimesh import Scene  # noqa: PLC0415
     from trimesh.visual.material import PBRMaterial  # noqa: PLC0415
@@ -122,17 +159,15 @@ def parts_glb(meshes: Mapping[str, TexturedMesh]) -> bytes:
     scene = Scene()
     matt: Any = {"metallicFactor": 0.0, "roughnessFactor": 1.0}
     look: Any = {**matt, "alphaMode": "BLEND", "doubleSided": True}
-    for number, (name, mesh) in enumerate(meshes.items()):
-        raised = mesh.positions + np.array([0, 0, 2 * _RELIEF * number])
+    for name, mesh in _stacked(meshes).items():
         material = PBRMaterial(name, baseColorTexture=Image.fromarray(mesh.texture), **look)
-        shape = _trimesh(replace(mesh, positions=raised), material)
-        scene.add_geometry(shape, node_name=name, geom_name=name)
-    data = scene.export(file_type="glb", buffer_postprocessor=_finish_all)
+        scene.add_geometry(_trimesh(mesh, material), node_name=name, geom_name=name)
+    data = scene.export(file_type="glb", buffer_postprocessor=functools.partial(_finish_all, edit))
     assert isinstance(data, bytes)
     return data
 
 
-def _finish_all(buffers: Any, tree: Any) -> None:
+def _finish_all(edit: Callable[..., None] | None, buffers: Any, tree: Any) -> None:
     """Like `_finish`, for all textures of a glTF."""
     for image in tree["images"]:
         name = list(buffers)[image["bufferView"]]
@@ -140,6 +175,8 @@ def _finish_all(buffers: Any, tree: Any) -> None:
             data = png(np.asarray(picture.convert("RGBA")))
         buffers[name] = data + bytes(-len(data) % 4)
     _clamp(tree)
+    if edit is not None:
+        edit(buffers, tree)
 
 
 def _finish(texture: Array, edit: Callable[..., None] | None, buffers: Any, tree: Any) -> None:
@@ -177,11 +214,51 @@ def motion_glb(
     holds at all times.
     """
     report(progress, 0, 2)
-    image = as_rgba8(image)
+    first, track = _track(MovingPart(image, motion, poses), n_vertices, tolerance)
+    report(progress, 1, 2)
+    data = mesh_glb(first, functools.partial(_animate, [track]))
+    report(progress, 2, 2)
+    return data
+
+
+def parts_motion_glb(
+    parts: Sequence[MovingPart],
+    n_vertices: int = 3000,
+    tolerance: float | None = 0.02,
+    progress: Progress | None = None,
+) -> bytes:
+    """Like `motion_glb` for several shapes, the rearmost first: a node for each by its name, which
+    must differ, and one animation that moves all of them."""
+    count = len(parts) + 1
+    report(progress, 0, count)
+    meshes, tracks = {}, []
+    for done, part in enumerate(parts, 1):
+        meshes[part.name], track = _track(part, n_vertices, tolerance)
+        tracks.append(track)
+        report(progress, done, count)
+    if len(meshes) < len(parts):
+        raise InputError("two parts have the same name; give each a name of its own")
+    data = parts_glb(meshes, functools.partial(_animate, tracks))
+    report(progress, count, count)
+    return data
+
+
+class _Track(NamedTuple):
+    """How the vertices of a mesh move in a glTF file."""
+
+    moved: Array  # (m, v, 3) morph targets
+    times: NDArray[np.float32]  # (k,) seconds
+    weights: Array  # (k, m) of the targets at these times
+
+
+def _track(
+    part: MovingPart, n_vertices: int, tolerance: float | None
+) -> tuple[TexturedMesh, _Track]:
+    """The mesh at the motion's start, and how it moves from there."""
+    image, motion = as_rgba8(part.image), part.motion
     check_type("motion", motion, Motion, "make one of certified maps", InputError)
     check_picture((image.shape[1], image.shape[0]), motion)
-    mesh = MovingMesh.of(motion, poses, n_vertices, tolerance)
-    report(progress, 1, 2)
+    mesh = MovingMesh.of(motion, part.poses, n_vertices, tolerance)
     first, positions = _at_knots(image, mesh)
     # A loop ends with its first map.
     n = len(positions) - (motion.repeat == "loop")
@@ -192,14 +269,11 @@ def motion_glb(
         weights = np.concatenate([weights, weights[-2::-1]])
     times = times.astype(np.float32)  # the file's precision
     last = np.append(np.diff(times) > 0, True)  # of times that are equal in single precision
-    moved = positions[1:n] - positions[0]
-    data = mesh_glb(first, functools.partial(_animate, moved, times[last], weights[last, 1:]))
-    report(progress, 2, 2)
-    return data
+    return first, _Track(positions[1:n] - positions[0], times[last], weights[last, 1:])
 
 
-def _animate(moved: Array, times: Array, weights: Array, buffers: Any, tree: Any) -> None:
-    """Add morph targets (m, v, 3) to glTF's only mesh, and their weights (k, m) at (k,) times."""
+def _animate(tracks: Sequence[_Track], buffers: Any, tree: Any) -> None:
+    """Add morph targets to glTF's meshes, and one animation of their weights."""
 
     def accessor(values: Array, kind: str) -> int:
         rows = values.astype("<f4").reshape(-1, 3 if kind == "VEC3" else 1)
@@ -210,14 +284,16 @@ def _animate(moved: Array, times: Array, weights: Array, buffers: Any, tree: Any
         buffers[name] = rows.tobytes()
         return len(tree["accessors"]) - 1
 
-    mesh = tree["meshes"][0]
-    mesh["primitives"][0]["targets"] = [{"POSITION": accessor(m, "VEC3")} for m in moved]
-    mesh["weights"] = [0.0] * len(moved)
-    sampler = {"input": accessor(times, "SCALAR"), "output": accessor(weights, "SCALAR")}
-    node = next(i for i, node in enumerate(tree["nodes"]) if "mesh" in node)
-    channel = {"sampler": 0, "target": {"node": node, "path": "weights"}}
-    linear = [{**sampler, "interpolation": "LINEAR"}]
-    tree["animations"] = [{"name": "motion", "samplers": linear, "channels": [channel]}]
+    samplers, channels = [], []
+    for i, (mesh, track) in enumerate(zip(tree["meshes"], tracks, strict=True)):
+        mesh["primitives"][0]["targets"] = [{"POSITION": accessor(m, "VEC3")} for m in track.moved]
+        mesh["weights"] = [0.0] * len(track.moved)
+        ends = {"input": accessor(track.times, "SCALAR")}
+        ends["output"] = accessor(track.weights, "SCALAR")
+        samplers.append({**ends, "interpolation": "LINEAR"})
+        node = next(n for n, node in enumerate(tree["nodes"]) if node.get("mesh") == i)
+        channels.append({"sampler": i, "target": {"node": node, "path": "weights"}})
+    tree["animations"] = [{"name": "motion", "samplers": samplers, "channels": channels}]
 
 
 def _trimesh(mesh: TexturedMesh, material: "Material") -> "Trimesh":

@@ -11,7 +11,7 @@ from glid_nb._errors import InputError
 from glid_nb._files import write_atomically
 from glid_nb.export import encode
 from glid_nb.export.formats import OF_ONE_SHAPE, file_names, part_name, suffix_of
-from glid_nb.export.mesh import motion_glb
+from glid_nb.export.mesh import motion_glb, parts_motion_glb
 from glid_nb.export.moving import MovingPart, check_picture, frames
 from glid_nb.export.page import page_html
 from glid_nb.imaging import as_rgba8
@@ -120,7 +120,7 @@ def motion_files(
     """
     suffix, fps = suffix_of(name), frames_per_second
     check_type("motion", motion, Motion, _MAKE_ONE, InputError)
-    if suffix not in OF_ONE_SHAPE:
+    if suffix not in OF_ONE_SHAPE | {".glb"}:
         how: dict[str, Any] = {"size": size, "frames_per_second": fps, "background": background}
         how |= {"loop": loop, "progress": progress}
         return parts_motion_files(name, [MovingPart(image, motion, poses)], **how)
@@ -158,9 +158,9 @@ def parts_motion_files(
 ) -> dict[str, bytes]:
     """Like `motion_files` for several shapes, the rearmost first.
 
-    Their motions have the same times. Frames show all shapes; later ones cover earlier ones. The
-    formats in `OF_ONE_SHAPE` hold one shape. So there are files for each part, with its name in
-    theirs (`part_name`).
+    Their motions have the same times. Frames show all shapes; later ones cover earlier ones. A
+    glTF file has a node for each. The formats in `OF_ONE_SHAPE` hold one shape. So there are files
+    for each part, with its name in theirs (`part_name`).
     """
     suffix, fps = suffix_of(name), frames_per_second
     if suffix in OF_ONE_SHAPE:
@@ -179,8 +179,11 @@ def parts_motion_files(
         height, width = as_rgba8(part.image).shape[:2]
         _check_motion((width, height), part.motion, part.name)
     try:
-        drawn = frames(parts, size, fps, ground, progress)
-        contents = encode.encoded(drawn, name, suffix, fps, ground, loop)
+        if suffix == ".glb":
+            contents = [parts_motion_glb(parts, progress=progress)]
+        else:
+            drawn = frames(parts, size, fps, ground, progress)
+            contents = encode.encoded(drawn, name, suffix, fps, ground, loop)
     except Stopped:
         return {}
     return _named(name, suffix, contents)

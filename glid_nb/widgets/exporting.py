@@ -20,19 +20,20 @@ from glid_nb.export.formats import (
     OF_ONE_SHAPE,
     ExportError,
     file_names,
+    obj_names,
     part_name,
     suffix_of,
 )
 from glid_nb.imaging.backdrop import WHITE, Backdrop
 from glid_nb.imaging.read import png
 from glid_nb.imaging.render import View
-from glid_nb.motion import unlike_turns
-from glid_nb.session.animation import Animation, motion_of
+from glid_nb.session.animation import Animation
 from glid_nb.session.document import Document
 from glid_nb.session.document_file import document_bytes
 from glid_nb.session.edit_state import EditError
 from glid_nb.session.editor_model import EditorModel, Shape
 from glid_nb.session.look import FILLED, WHOLE_CAGE, Look
+from glid_nb.session.posed_shapes import PosedShape, live_parts
 from glid_nb.session.script import python_code
 from glid_nb.session.worker import LatestWins, weakly
 from glid_nb.widgets.closing import ClosingWidget
@@ -84,8 +85,10 @@ def written_names(model: EditorModel, path: Path, *, moving: bool) -> tuple[str,
     formats = MOTION_FORMATS if moving else FORMATS
     suffix = suffix_of(path.name, formats)
     shapes = shown_shapes(model)
-    if len(shapes) == 1 or suffix not in OF_ONE_SHAPE or (suffix == ".glb" and not moving):
+    if len(shapes) == 1 or suffix not in OF_ONE_SHAPE | {".obj"}:
         return file_names(path.name, formats)
+    if suffix == ".obj":
+        return obj_names(path.name, [shape.name for shape in shapes])
     each = (part_name(path.name, suffix, shape.name) for shape in shapes)
     return tuple(name for one in each for name in file_names(one, formats))
 
@@ -118,11 +121,7 @@ def export(
         if not path.name.lower().endswith(".html"):
             raise ExportError(f"{path.name!r:.200}: the name of a live page must end in .html")
         model.deformation.solved_state()
-        suffix = ".live.html" if path.name.lower().endswith(".live.html") else ".html"
-        files = {
-            own.name: live_page(shape, model.background, own.name)
-            for own, shape in _own_paths(path, suffix, shown_shapes(model))
-        }
+        files = {path.name: live_page(shown_shapes(model), model.background, path.name)}
     elif path.name.lower().endswith(tuple(MOTION_FORMATS.keys() - FORMATS.keys())):
         moving = _moving_parts(model)
         how: dict[str, Any] = {"size": max(size)} if size else {}
@@ -157,11 +156,15 @@ def exported(
     if suffix == ".png":
         still = [to.StillPart(s.layers.image, s.state.map, s.state.pose) for s in shapes]
         return {path.name: to.parts_png(still, size, view, model.background)}
-    if suffix == ".glb" and len(shapes) > 1:
+    if suffix == ".live.html":
+        return {path.name: live_page(shapes, model.background, path.name)}
+    if suffix in (".glb", ".obj") and len(shapes) > 1:
         meshes = {
             s.name: to.textured_mesh(s.layers.image, s.state.map, pose=s.state.pose) for s in shapes
         }
-        return {path.name: to.parts_glb(meshes)}
+        if suffix == ".glb":
+            return {path.name: to.parts_glb(meshes)}
+        return to.parts_obj(meshes, path.name[: -len(suffix)])
     files: dict[str, bytes] = {}
     for own, shape in _own_paths(path, suffix, shapes):
         files |= _files_of(shape, _document_of(model, shape), own, suffix, model.background)
@@ -187,8 +190,6 @@ def _files_of(
     layers, map_, pose = shape.layers, shape.state.map, shape.state.pose
     names = [file.name for file in files_of(path)]
     match suffix:
-        case ".live.html":
-            contents = [live_page(shape, background, path.name)]
         case ".obj":
             files = to.mesh_obj(to.textured_mesh(layers.image, map_, pose=pose), path.stem)
             contents = [files[path.stem + rest] for rest in (".obj", *FORMATS[".obj"].beside)]
@@ -209,27 +210,18 @@ def _files_of(
     return dict(zip(names, contents, strict=True))
 
 
-def live_page(shape: Shape, background: Backdrop, name: str) -> bytes:
-    """A page with a solver of its own, at the edited pose; with several poses, with their motion.
+def live_page(shapes: Sequence[Shape], background: Backdrop, name: str) -> bytes:
+    """A page with solvers of its own, at the edited pose; with several poses, with their motion.
 
     Raises an InputError for an energy of one's own.
     """
+    title = re.sub(r"(\.live)?\.html$", "", name, flags=re.IGNORECASE)
+    return to.parts_live_html(live_parts(list(map(_posed, shapes))), title, background).encode()
+
+
+def _posed(shape: Shape) -> PosedShape:
     state = shape.state
-    current = state.current
-    shown, pose = state.map, state.pose
-    turns = [certificate_of(one.map) for one in state.poses]
-    if len(turns) > 1 and not any(unlike_turns(turns[0], one) for one in turns[1:]):
-        shown, pose = motion_of(state), [one.pose for one in state.poses]
-    page = to.live_page_html(
-        shape.layers.image,
-        shown,
-        pose,
-        current.energy,
-        current.options.p2p_weight,
-        title=re.sub(r"(\.live)?\.html$", "", name, flags=re.IGNORECASE),
-        background=background,
-    )
-    return page.encode()
+    return PosedShape(shape.layers.image, state.poses, state.active, state.timeline, shape.name)
 
 
 def write(
@@ -253,15 +245,7 @@ def _moving_parts(model: EditorModel) -> list["to.MovingPart"]:
     Raises a MotionError if a motion cannot be made, an EditError if a pose cannot be solved.
     """
     model.deformation.solved_state()
-    return [
-        to.MovingPart(
-            shape.layers.image,
-            motion_of(shape.state),
-            [pose.pose for pose in shape.state.poses],
-            shape.name,
-        )
-        for shape in shown_shapes(model)
-    ]
+    return [_posed(shape).moving for shape in shown_shapes(model)]
 
 
 def _motion_files(

@@ -80,6 +80,34 @@ def test_the_timeline_of_a_session_is_followed(run: Any, tmp_path: Path) -> None
     assert replace(timeline, repeat="loop").lasting(3).closed_times == pytest.approx((0, 1, 3))
 
 
+@pytest.mark.parametrize(
+    ("words", "seconds"),
+    [
+        (("--loop-range",), "0.75"),
+        (("--loop-range", "--seconds", 4), "1.5"),
+        (("--range", 0.5, 1), "0.5"),
+    ],
+)
+def test_a_part_of_the_timeline_becomes_a_gif_that_repeats(
+    run: Any, tmp_path: Path, words: tuple, seconds: str
+) -> None:
+    timeline = replace(Timeline.even(2), repeat="loop", loop_range=(0.25, 1.0))
+    save_document(document(timeline), tmp_path / "walk.glid")
+    outcome = run("animate", tmp_path / "walk.glid", "--out", tmp_path / "a.gif", *SMALL, *words)
+    assert outcome.code == 0, outcome.err
+    assert f"; {seconds} s." in outcome.out
+    assert opened(tmp_path / "a.gif")[2]
+
+
+def test_a_part_that_is_not_there_is_refused(run: Any, session: Path, tmp_path: Path) -> None:
+    words = ("animate", session, "--out", tmp_path / "a.gif", *SMALL)
+    outcome = run(*words, "--loop-range")
+    assert (outcome.code, "has no loop range" in outcome.err) == (1, True)
+    outcome = run(*words, "--range", 0.5, 9)
+    assert (outcome.code, "there is no motion from 0.5 to 9 s" in outcome.err) == (1, True)
+    assert not (tmp_path / "a.gif").exists()
+
+
 @pytest.mark.parametrize("name", ["a.webm", "a.sheet.png", "a"])
 def test_the_suffix_says_the_format(run: Any, session: Path, tmp_path: Path, name: str) -> None:
     outcome = run("animate", session, "--out", tmp_path / name, *SMALL, "--background", "#204060")

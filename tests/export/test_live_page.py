@@ -12,11 +12,13 @@ import pytest
 
 from glid_nb import Cage, Domain, HarmonicMap, InputError, Motion, Pose, samples, trace
 from glid_nb.energies import AMIPS, CustomEnergy
-from glid_nb.export import live_page_html
+from glid_nb.export import LivePart, live_page_html, parts_live_html
 
 from ..support.shapes import bent, domain, picture, pose
 
 MOST = 60_000  # bytes beside the picture
+MOST_OF_SECOND = 10_000  # bytes that the second shape of a page adds, with the code for several
+MOST_OF_FURTHER = 6_000  # bytes that each further one adds, beside its picture
 
 
 def unpacked(page: str) -> dict[str, Any]:
@@ -106,3 +108,62 @@ def test_a_motion_comes_with_its_knots_and_its_poses() -> None:
     assert len(data["poses"]) == 2
     assert data["motion"]["width"] == 4 * domain().n_coefficients
     assert len(page.encode()) - len(picture_of(page)) <= MOST
+
+
+def beside_pictures(page: str) -> int:
+    return len(re.sub(r'src="data:image/png;base64,[^"]+"', "", page).encode())
+
+
+def parts_of(motion: bool = False, count: int = 2) -> list[LivePart]:
+    shown = Motion([HarmonicMap.identity(domain()), bent()]) if motion else bent()
+    poses = [pose(), pose()] if motion else pose()
+    return [LivePart(picture(), shown, poses, name=f"part {i}") for i in range(count)]
+
+
+def test_a_page_of_several_shapes_has_the_outline_the_pins_and_the_picture_of_each() -> None:
+    page = parts_live_html(parts_of(), "Two", background=(1, 2, 3))
+    assert len(re.findall(r'<img id="source\d" alt="" hidden src="data:image/png', page)) == 2
+    assert "rgb(1 2 3)" in page
+    data = unpacked(page)["data"]
+    assert [part["name"] for part in data["parts"]] == ["part 0", "part 1"]
+    for part in data["parts"]:
+        cage = Domain.from_dict(part["outline"]).cage
+        np.testing.assert_allclose(cage.exterior, domain().cage.exterior, atol=2e-5)
+        assert [pin["target"] for pin in part["poses"][0]] == pose().targets.tolist()
+        assert len(part["start"]) == 4 * domain().n_coefficients
+
+
+def test_a_page_of_one_part_is_the_page_of_a_shape() -> None:
+    (one,) = parts_of(count=1)
+    assert parts_live_html([one], "A") == live_page_html(picture(), bent(), pose(), title="A")
+
+
+@pytest.mark.slow
+def test_the_second_part_adds_at_most_10_kb_and_each_further_one_6_kb() -> None:
+    """Parts of different outlines: equal ones would be packed into nothing."""
+    gecko = samples.image("gecko")
+    images = [gecko, gecko[:, ::-1], gecko[::-1]]
+    shapes = [Domain.from_cage(trace(image).cage) for image in images]
+    parts = [LivePart(image, shape) for image, shape in zip(images, shapes, strict=True)]
+    sizes = [beside_pictures(parts_live_html(parts[:count])) for count in (1, 2, 3)]
+    second, third = np.diff(sizes)
+    assert 1000 < second <= MOST_OF_SECOND
+    assert 1000 < third <= MOST_OF_FURTHER
+
+
+@pytest.mark.slow
+def test_the_motions_of_all_parts_are_in_the_page() -> None:
+    data = unpacked(parts_live_html(parts_of(motion=True)))["data"]
+    assert [part["motion"]["keyframes"] for part in data["parts"]] == [[0, 1], [0, 1]]
+    assert [len(part["poses"]) for part in data["parts"]] == [2, 2]
+
+
+def test_parts_that_do_not_fit_together_are_refused() -> None:
+    (one,) = parts_of(count=1)
+    (moving,) = parts_of(motion=True, count=1)
+    with pytest.raises(InputError, match="different times"):
+        parts_live_html([one, moving])
+    with pytest.raises(InputError, match="different sizes"):
+        parts_live_html([one, LivePart(np.zeros((50, 300, 4), np.uint8), bent())])
+    with pytest.raises(InputError, match="no parts"):
+        parts_live_html([])

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import io
+import json
+import re
 import zipfile
 from collections.abc import Iterator
 from pathlib import Path
@@ -17,6 +19,7 @@ from glid_nb.imaging.backdrop import WHITE
 from glid_nb.session.document import Document
 from glid_nb.session.document_file import save_document
 from glid_nb.session.editor_model import EditorModel
+from glid_nb.session.posed_shapes import shapes_of
 from glid_nb.widgets import exporting
 
 RED, BLUE = (220, 30, 30), (30, 30, 220)
@@ -152,3 +155,91 @@ def test_a_session_with_parts_is_animated_from_the_command_line(
         frame = np.asarray(gif.convert("RGB")).astype(int)
     assert ((frame[..., 0] - frame[..., 2]) > 100).any()
     assert ((frame[..., 2] - frame[..., 0]) > 100).any()
+
+
+def test_a_live_page_has_all_visible_parts(model: EditorModel, tmp_path: Path) -> None:
+    (path,) = exporting.export(model, tmp_path / "two.html", live=True)
+    assert path.name == "two.html"
+    assert len(re.findall('<img id="source', path.read_text(encoding="utf-8"))) == 2
+    assert exporting.written_names(model, tmp_path / "a.live.html", moving=False) == (
+        "a.live.html",
+    )
+    try:
+        model.deformation.show_part(0, False)
+        (path,) = exporting.export(model, tmp_path / "one.live.html")
+        assert len(re.findall('<img id="source', path.read_text(encoding="utf-8"))) == 1
+    finally:
+        model.deformation.undo()
+
+
+def test_a_session_becomes_a_live_page_from_the_command_line(
+    model: EditorModel, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    session, page = tmp_path / "two.glid", tmp_path / "two.html"
+    save_document(model.document, session)
+    assert main(["page", str(session), "--out", str(page), "--title", "Both"]) in (0, None)
+    text = page.read_text(encoding="utf-8")
+    assert "<title>Both</title>" in text
+    assert len(re.findall('<img id="source', text)) == 2
+    for flags in (["--energy", "arap"], ["--max-vertices", "40"]):
+        assert main(["page", str(session), "--out", str(page), *flags])
+        assert "a session, with its own outlines" in capsys.readouterr().err
+
+
+def test_a_moving_gltf_file_has_a_node_and_a_channel_for_each_part(
+    model: EditorModel, tmp_path: Path
+) -> None:
+    parts = [shape.moving for shape in shapes_of(model.document)[0]]
+    data = glid.export.parts_motion_files("a.glb", parts)["a.glb"]
+    assert exporting.written_names(model, tmp_path / "a.glb", moving=True) == ("a.glb",)
+    length = int.from_bytes(data[12:16], "little")
+    tree, binary = json.loads(data[20 : 20 + length]), data[28 + length :]
+
+    def array(index: int) -> np.ndarray:
+        accessor = tree["accessors"][index]
+        view = tree["bufferViews"][accessor["bufferView"]]
+        rows = np.frombuffer(binary, "<f4", view["byteLength"] // 4, view.get("byteOffset", 0))
+        return rows.reshape(accessor["count"], -1)
+
+    (animation,) = tree["animations"]
+    moved = {}
+    for channel in animation["channels"]:
+        node = tree["nodes"][channel["target"]["node"]]
+        sampler = animation["samplers"][channel["sampler"]]
+        (primitive,) = tree["meshes"][node["mesh"]]["primitives"]
+        targets = np.array([array(one["POSITION"]) for one in primitive["targets"]])
+        weights = array(sampler["output"]).reshape(len(array(sampler["input"])), -1)
+        start = array(primitive["attributes"]["POSITION"])
+        moved[node["name"]] = np.einsum("t,tvx->vx", weights[-1], targets).mean(axis=0)
+        assert weights.shape[1] == len(targets)
+        assert targets.shape[1:] == start.shape
+    assert set(moved) == {"red", "blue"}
+    assert moved["red"][0] == pytest.approx(6, abs=0.2)  # the red disk was dragged so far
+    assert np.abs(moved["blue"]).max() < 0.01
+
+
+def test_an_obj_file_has_an_object_and_a_texture_for_each_part(
+    model: EditorModel, tmp_path: Path
+) -> None:
+    trimesh = pytest.importorskip("trimesh")
+    written = exporting.export(model, tmp_path / "a.obj")
+    names = ("a.obj", "a.mtl", "a-red-texture.png", "a-blue-texture.png")
+    assert tuple(path.name for path in written) == names
+    assert exporting.written_names(model, tmp_path / "a.obj", moving=False) == names
+    lines = (tmp_path / "a.obj").read_text(encoding="utf-8").splitlines()
+    assert [line for line in lines if line.startswith("o ")] == ["o red", "o blue"]
+    loaded = trimesh.load(tmp_path / "a.obj").geometry  # by the materials' names
+    meshes = {name: loaded[f"a-{name}"] for name in ("red", "blue")}
+    heights = {name: mesh.vertices[:, 2] for name, mesh in meshes.items()}
+    assert heights["red"].max() < heights["blue"].min()
+    for name, shape in zip(("red", "blue"), model.shapes, strict=True):
+        own = shape.state.map(shape.state.domain.cage.exterior)[:, 0]
+        low, high = meshes[name].vertices[:, 0].min(), meshes[name].vertices[:, 0].max()
+        assert (low, high) == pytest.approx((own.min(), own.max()), abs=0.05)
+        texture = np.asarray(meshes[name].visual.material.image.convert("RGB"))
+        assert tuple(texture[45, 30 if name == "red" else 85]) == (RED if name == "red" else BLUE)
+
+
+def test_names_of_parts_give_files_of_their_own() -> None:
+    names = glid.export.formats.obj_names("a.obj", ["left arm", "left_arm", "x/y"])
+    assert names[2:] == ("a-left_arm-texture.png", "a-left_arm-2-texture.png", "a-x_y-texture.png")

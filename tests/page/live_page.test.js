@@ -22,6 +22,7 @@ import { pythonCode } from "../../glid_nb/page/js/live_page/python.js";
 import { spokenOf } from "../../glid_nb/page/js/live_page/report.js";
 
 /** @import { LiveAnswer, LiveMap, LiveRequest } from "../../glid_nb/page/js/live/types.js" */
+/** @import { Handle } from "../../glid_nb/page/js/live_page/data.js" */
 /** @import { Point } from "../../glid_nb/page/js/types.js" */
 /** @import { Mesh } from "../../glid_nb/page/js/exported/renderer.js" */
 
@@ -86,7 +87,7 @@ test("scales stay in their limits; the next pin goes round", () => {
 test("on the way between poses, a pin of one of them follows the shape in the other", () => {
   const first = [pinAt([0, 0], [1, 1])];
   const second = [{ ...pinAt([0, 0], [3, 5]), angle: 1 }, pinAt([4, 4], [5, 5])];
-  const image = (/** @type {Point} */ [x, y]) => /** @type {Point} */ ([x + 10, y]);
+  const image = (/** @type {Handle} */ [x, y]) => /** @type {Point} */ ([x + 10, y]);
   const [leaving, arriving] = joined(first, second, image, image);
   assert.deepEqual(leaving[1].target, [14, 4]);
   const half = between(leaving, arriving, 0.5);

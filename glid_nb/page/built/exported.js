@@ -66,19 +66,19 @@ pixelStorei(gl.UNPACK_COLORSPACE_CONVERSION_WEBGL,gl.NONE);gl.texImage2D(gl.TEXT
 RGBA,gl.UNSIGNED_BYTE,picture);gl.generateMipmap(gl.TEXTURE_2D);gl.texParameteri(gl.TEXTURE_2D,gl.TEXTURE_MIN_FILTER,
 gl.LINEAR_MIPMAP_LINEAR);gl.texParameteri(gl.TEXTURE_2D,gl.TEXTURE_WRAP_S,gl.CLAMP_TO_EDGE);gl.texParameteri(
 gl.TEXTURE_2D,gl.TEXTURE_WRAP_T,gl.CLAMP_TO_EDGE)}draw({width,height,unit,x,y,overlay,coefficients,heights,
-sharpness=1}){const gl=this.#gl;const ratio=(window.devicePixelRatio||1)*sharpness;this.#resize(Math.
-round(width*ratio),Math.round(height*ratio));gl.clear(gl.COLOR_BUFFER_BIT|gl.DEPTH_BUFFER_BIT);const projection=projectionMatrix(
-width,height,unit,x,y);gl.uniformMatrix4fv(this.#uniform("projectionMatrix"),false,projection);gl.uniform1f(
-this.#uniform("pixel"),unit/ratio);gl.uniform1f(this.#uniform("overlay"),Number(overlay));gl.uniform2fv(
-this.#uniform("color_range"),this.ranges[overlay]??[0,1]);if(heights)this.#lift(heights);this.#move(
-coefficients);gl.drawElements(gl.TRIANGLES,this.#count,this.#index,0);const[left,bottom,right,top]=this.#frame;
-const{style}=this.canvas;style.backgroundSize=`${(right-left)/unit}px ${(top-bottom)/unit}px`;style.
-backgroundPosition=`${(left-x)/unit+width/2}px ${(y-top)/unit+height/2}px`}#resize(width,height){const{
-canvas}=this;if(canvas.width!==width||canvas.height!==height){canvas.width=width;canvas.height=height}
-this.#gl.viewport(0,0,width,height)}#lift(heights){heights.forEach((height,i)=>{this.#position[3*i+2]=
-height});this.#put(this.#gl.ARRAY_BUFFER,this.#points,this.#position)}#movedByShader(cage){const gl=this.#gl;
-const[,coefficients,holes]=["cage","coefficients","holes"].map((name,i)=>{const block=gl.getUniformBlockIndex(
-this.#program,`${name}_block`);gl.uniformBlockBinding(this.#program,block,i);const buffer=this.#buffer(
+sharpness=1,above}){const gl=this.#gl;const ratio=(window.devicePixelRatio||1)*sharpness;this.#resize(
+Math.round(width*ratio),Math.round(height*ratio));gl.clear(gl.DEPTH_BUFFER_BIT|(above?0:gl.COLOR_BUFFER_BIT));
+const projection=projectionMatrix(width,height,unit,x,y);gl.uniformMatrix4fv(this.#uniform("projecti\
+onMatrix"),false,projection);gl.uniform1f(this.#uniform("pixel"),unit/ratio);gl.uniform1f(this.#uniform(
+"overlay"),Number(overlay));gl.uniform2fv(this.#uniform("color_range"),this.ranges[overlay]??[0,1]);
+if(heights)this.#lift(heights);this.#move(coefficients);gl.drawElements(gl.TRIANGLES,this.#count,this.#index,
+0);const[left,bottom,right,top]=this.#frame;const{style}=this.canvas;style.backgroundSize=`${(right-
+left)/unit}px ${(top-bottom)/unit}px`;style.backgroundPosition=`${(left-x)/unit+width/2}px ${(y-top)/
+unit+height/2}px`}#resize(width,height){const{canvas}=this;if(canvas.width!==width||canvas.height!==
+height){canvas.width=width;canvas.height=height}this.#gl.viewport(0,0,width,height)}#lift(heights){heights.
+forEach((height,i)=>{this.#position[3*i+2]=height});this.#put(this.#gl.ARRAY_BUFFER,this.#points,this.#position)}#movedByShader(cage){
+const gl=this.#gl;const[,coefficients,holes]=["cage","coefficients","holes"].map((name,i)=>{const block=gl.
+getUniformBlockIndex(this.#program,`${name}_block`);gl.uniformBlockBinding(this.#program,block,i);const buffer=this.#buffer(
 gl.UNIFORM_BUFFER,cage);gl.bindBufferBase(gl.UNIFORM_BUFFER,i,buffer);return buffer});return mixed=>{
 this.#put(gl.UNIFORM_BUFFER,coefficients,mixed.subarray(0,cage.length));this.#put(gl.UNIFORM_BUFFER,
 holes,mixed.subarray(cage.length))}}#movedByBuffer(){const gl=this.#gl;const images=gl.createBuffer();

@@ -30,6 +30,7 @@
  * @property {Float32Array} coefficients of the map
  * @property {Float32Array | null} heights of the vertices, where they move
  * @property {number} [sharpness] pixels per pixel of the display, along a side; 1 if not given
+ * @property {boolean} [above] whether it covers what is drawn already, which stays
  */
 
 const FLOAT = 4; // bytes
@@ -103,11 +104,11 @@ export class Renderer {
   }
 
   /** @param {Frame} frame */
-  draw({ width, height, unit, x, y, overlay, coefficients, heights, sharpness = 1 }) {
+  draw({ width, height, unit, x, y, overlay, coefficients, heights, sharpness = 1, above }) {
     const gl = this.#gl;
     const ratio = (window.devicePixelRatio || 1) * sharpness;
     this.#resize(Math.round(width * ratio), Math.round(height * ratio));
-    gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
+    gl.clear(gl.DEPTH_BUFFER_BIT | (above ? 0 : gl.COLOR_BUFFER_BIT));
     const projection = projectionMatrix(width, height, unit, x, y);
     gl.uniformMatrix4fv(this.#uniform("projectionMatrix"), false, projection);
     gl.uniform1f(this.#uniform("pixel"), unit / ratio);

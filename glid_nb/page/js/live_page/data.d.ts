@@ -4,9 +4,12 @@ import type { Box, Factored, MotionData, Packed } from "../exported/data.d.ts";
 import type { Coefficients, LiveMap, Outline, SolverOptions } from "../live/types.d.ts";
 import type { Point } from "../types.d.ts";
 
+/** A point of the undeformed shape; on a page of several, with the number of its part. */
+export type Handle = Point | [x: number, y: number, part: number];
+
 /** A point that is held. */
 export interface Pin {
-  handle: Point;
+  handle: Handle;
   target: Point;
   /** Radians, counter-clockwise; null where the shape may turn freely. */
   angle: number | null;

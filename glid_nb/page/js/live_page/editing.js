@@ -8,8 +8,8 @@ import { allowedScale, changed, nextPin, pinAt, poseOf, without, wrapped } from 
 /** @import { Marks, Ring } from "../canvas/traits.js" */
 /** @import { LiveMap } from "../live/types.js" */
 /** @import { Point } from "../types.js" */
-/** @import { Edit, Pin } from "./data.js" */
-/** @import { Solving } from "../live/solving.js" */
+/** @import { Edit, Handle, Pin } from "./data.js" */
+/** @import { Solver } from "../live/solving_types.js" */
 
 /** World units between a target and the shape, above which the pin is not reached. */
 const MISSED = 0.15;
@@ -28,7 +28,7 @@ export class Editing {
   #aimed = 0; // the number of the last request
 
   /**
-   * @param {Solving} solving
+   * @param {Solver} solving
    * @param {Mesh} mesh for the points below a pointer
    * @param {LiveMap} frame the map to begin with
    * @param {Edit["coefficients"]} rest those of the undeformed shape
@@ -135,6 +135,7 @@ export class Editing {
   /**
    * The point of the undeformed shape at a place; null beside the shape.
    * @param {Point} place
+   * @returns {Handle | null}
    */
   sourceAt(place) {
     return sourceAt(this.mesh, this.frame.images ?? [], place);

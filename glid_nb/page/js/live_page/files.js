@@ -7,10 +7,13 @@ import { proofFiles } from "./proof_file.js";
 import { pythonCode } from "./python.js";
 
 /** @import { Solving } from "../live/solving.js" */
-/** @import { LiveMap } from "../live/types.js" */
 /** @import { LiveData } from "./data.js" */
-/** @import { Editing } from "./editing.js" */
-/** @import { Stage } from "./stage.js" */
+/** @import { LivePage } from "./page.js" */
+
+/**
+ * What may be taken from a page, by the labels of its menu. Returns what is to be said.
+ * @typedef {Record<string, (page: LivePage) => Promise<string> | void>} Taken
+ */
 
 const MOST_PIXELS = 4096; // of a side of the picture
 const KEPT = 60_000; // ms for which the browser may still read a file
@@ -26,24 +29,29 @@ export function nameOf({ title }) {
   return words.join("-").slice(0, LONGEST);
 }
 
+/** @type {Taken} of a page with one shape */
+export const TAKEN = {
+  "Copy the pose as Python": ({ data, editing: { pins } }) =>
+    copy(pythonCode(pins, data, `${nameOf(data)}.png`)),
+  "Download the picture": downloadPicture,
+  "Download the map and its proof": async (page) =>
+    downloadProof(page.data, /** @type {Solving} */ (await page.solverOfShown())),
+};
+
 /**
- * Copies the pose as Python; returns what is to be said.
- * @param {LiveData} data
- * @param {Editing} editing
+ * Copies text; returns what is to be said.
+ * @param {string} text
  */
-export async function copyPython(data, { pins }) {
-  const text = pythonCode(pins, data, `${nameOf(data)}.png`);
+export async function copy(text) {
   const allowed = await copied(text);
   return allowed ? "The lines are in the clipboard." : "The browser did not allow copying.";
 }
 
 /**
  * Saves the deformed picture, with the pixels of the original.
- * @param {LiveData} data
- * @param {Stage} stage
- * @param {LiveMap} shown
+ * @param {LivePage} page
  */
-export function downloadPicture(data, stage, shown) {
+export function downloadPicture({ data, stage, shown }) {
   const [left, bottom, right, top] = boxOf(shown.images ?? []);
   const perUnit = data.size[0] / (data.frame[2] - data.frame[0]); // pixels
   const most = MOST_PIXELS / Math.max(right - left, top - bottom);
@@ -57,8 +65,8 @@ export function downloadPicture(data, stage, shown) {
 
 /**
  * Saves the map that a solver has, and its proof; returns what is to be said.
- * @param {LiveData} data
- * @param {Solving} solving
+ * @param {Pick<LiveData, "title" | "outline">} data
+ * @param {Pick<Solving, "ask">} solving
  */
 export async function downloadProof(data, solving) {
   const answer = await solving.ask({ type: "claim" });

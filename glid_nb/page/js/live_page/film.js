@@ -11,7 +11,7 @@ import { wayBetween } from "./way.js";
 /** @import { Course } from "../exported/course.js" */
 /** @import { LiveMap } from "../live/types.js" */
 /** @import { Kept, Pin } from "./data.js" */
-/** @import { Solving } from "../live/solving.js" */
+/** @import { Solver } from "../live/solving_types.js" */
 /** @import { Knot } from "./way.js" */
 /** @import { Repeat } from "../motion/motion.js" */
 
@@ -63,7 +63,7 @@ export class Film {
   /** @type {(Course & { began: number }) | null} */
   #course = null;
   #due = 0;
-  /** @type {Promise<Solving> | null} */
+  /** @type {Promise<Solver> | null} */
   #solving = null;
   #asking = false; // for a frame
   /** @type {number | null} the time of the next frame to ask for */
@@ -75,7 +75,7 @@ export class Film {
   #poses = null;
 
   /**
-   * @param {() => Promise<Solving>} start starts a solver of the motion's own, so that the edited
+   * @param {() => Promise<Solver>} start starts a solver of the motion's own, so that the edited
    *   pose stays where it is
    * @param {Screen} screen
    */

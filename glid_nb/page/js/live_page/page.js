@@ -1,7 +1,6 @@
 // The live page: the picture under the newest certified map, its pins, and the controls around them.
 
 import { drawLasso, drawMarks } from "../canvas/draw.js";
-import { identityOf } from "../live/wire.js";
 import { make } from "../pad/dom.js";
 import { help } from "../pad/help.js";
 import { iconButton } from "../pad/icons.js";
@@ -9,7 +8,6 @@ import { undoOrRedo } from "../pad/keys.js";
 import { Pad } from "../pad/pad.js";
 import { painter } from "../pad/pen.js";
 import { byId } from "./elements.js";
-import { copyPython, downloadPicture, downloadProof } from "./files.js";
 import { Film } from "./film.js";
 import { Hand } from "./hand.js";
 import { HELP } from "./help_table.js";
@@ -23,8 +21,20 @@ import { fitted, roomOn } from "./room.js";
 /** @import { View } from "../pad/view.js" */
 /** @import { LiveData } from "./data.js" */
 /** @import { Editing } from "./editing.js" */
-/** @import { Solving } from "../live/solving.js" */
+/** @import { Taken } from "./files.js" */
+/** @import { Solver } from "../live/solving_types.js" */
 /** @import { Stage } from "./stage.js" */
+
+/** @typedef {Omit<LiveData, "motion" | "source" | "heights" | "triangles">} Shown */
+
+/**
+ * What a page shows and edits, and what may be taken from it.
+ * @typedef {object} Parts
+ * @property {Pick<Stage, "canvas" | "paint">} stage
+ * @property {Editing} editing
+ * @property {View} view
+ * @property {Taken} taken
+ */
 
 /** @type {Record<string, string>} the overlays, by their numbers in picture.frag */
 const OVERLAYS = {
@@ -55,11 +65,11 @@ export class LivePage {
   #paintPins;
 
   /**
-   * @param {LiveData} data
-   * @param {{ stage: Stage, editing: Editing, view: View }} parts
-   * @param {() => Promise<Solving>} startSecond starts a solver for the motion
+   * @param {Shown} data
+   * @param {Parts} parts
+   * @param {() => Promise<Solver>} startSecond starts a solver for the motion
    */
-  constructor(data, { stage, editing, view }, startSecond) {
+  constructor(data, { stage, editing, view, taken }, startSecond) {
     this.data = data;
     this.stage = stage;
     this.editing = editing;
@@ -90,16 +100,17 @@ export class LivePage {
       this.report.plot(editing.frame);
       this.redraw();
     };
-    this.#arrange();
+    this.#arrange(taken);
     this.#hear();
     this.redraw();
   }
 
-  #arrange() {
+  /** @param {Taken} taken */
+  #arrange(taken) {
     for (const [value, label] of Object.entries(OVERLAYS)) {
       this.#overlay.append(new Option(label, value));
     }
-    const menu = make("div", { id: "menu", popover: "auto" }, ...this.#menuRows());
+    const menu = make("div", { id: "menu", popover: "auto" }, ...this.#menuRows(taken));
     menu.addEventListener("click", () => menu.hidePopover());
     const more = iconButton("export", "Copy, download, reset", undefined);
     more.popoverTargetElement = menu;
@@ -116,26 +127,26 @@ export class LivePage {
     document.documentElement.style.setProperty("--colors", colors.join());
   }
 
-  #menuRows() {
-    const { data, editing, report } = this;
+  /** @param {Taken} taken */
+  #menuRows(taken) {
     const row = (/** @type {string} */ label, /** @type {() => unknown} */ onclick) =>
       make("button", { onclick }, label);
-    return [
-      row("Copy the pose as Python", async () => report.say(await copyPython(data, editing))),
-      row("Download the picture", () => {
-        downloadPicture(data, this.stage, this.shown);
+    const files = Object.entries(taken).map(([label, take]) =>
+      row(label, async () => {
+        const said = await take(this);
+        if (said) this.report.say(said);
         this.redraw();
       }),
-      row("Download the map and its proof", async () => {
-        report.say(await downloadProof(data, await this.#solverOfShown()));
-      }),
+    );
+    return [
+      ...files,
       row("Fit the window", () => this.fit()),
       row("Back to the undeformed shape", () => this.#reset()),
     ];
   }
 
   /** A solver that has the map that is shown. */
-  async #solverOfShown() {
+  async solverOfShown() {
     const frame = this.#moving;
     if (!frame) return this.editing.solving;
     const solving = await this.film.solver();
@@ -195,7 +206,7 @@ export class LivePage {
 
   #reset() {
     this.film.release();
-    this.editing.replace([], identityOf(this.data.outline));
+    this.editing.replace([], this.editing.rest);
   }
 
   #keepPose() {

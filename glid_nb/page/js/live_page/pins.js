@@ -2,14 +2,14 @@
 
 /** @import { Pose } from "../live/types.js" */
 /** @import { Point } from "../types.js" */
-/** @import { Pin } from "./data.js" */
+/** @import { Handle, Pin } from "./data.js" */
 
 const LEAST_SCALE = 0.05;
 const LARGEST_SCALE = 20;
 
 /**
  * A pin that holds a point where it is.
- * @param {Point} handle
+ * @param {Handle} handle
  * @param {Point} target
  * @returns {Pin}
  */
@@ -24,7 +24,7 @@ export function pinAt(handle, target) {
  */
 export function poseOf(pins) {
   return {
-    handles: pins.map(({ handle }) => handle),
+    handles: /** @type {Point[]} */ (pins.map(({ handle }) => handle)),
     targets: pins.map(({ target }) => target),
     weights: pins.map(({ weight }) => weight),
     angles: pins.map(({ angle }) => angle),
@@ -80,13 +80,13 @@ export function nextPin(count, last, step) {
  * Both poses with the pins of either. A pin that one of them lacks follows the shape there.
  * @param {readonly Pin[]} first
  * @param {readonly Pin[]} second
- * @param {(handle: Point) => Point} firstImage where the first pose's map takes a point
- * @param {(handle: Point) => Point} secondImage
+ * @param {(handle: Handle) => Point} firstImage where the first pose's map takes a point
+ * @param {(handle: Handle) => Point} secondImage
  * @returns {[Pin[], Pin[]]}
  */
 export function joined(first, second, firstImage, secondImage) {
-  const inFirst = new Map(first.map((pin) => [keyOf(pin), pin]));
-  const inSecond = new Map(second.map((pin) => [keyOf(pin), pin]));
+  const inFirst = new Map(first.map((pin) => [keyOf(pin.handle), pin]));
+  const inSecond = new Map(second.map((pin) => [keyOf(pin.handle), pin]));
   const keys = [...new Set([...inFirst.keys(), ...inSecond.keys()])];
   /** @type {[Pin[], Pin[]]} */
   const both = [[], []];
@@ -121,7 +121,7 @@ export function between(first, second, share) {
   });
 }
 
-/** @param {Pin} pin */
-function keyOf({ handle }) {
+/** @param {Handle} handle */
+export function keyOf(handle) {
   return handle.join();
 }

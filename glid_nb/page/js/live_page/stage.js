@@ -14,7 +14,10 @@ const COARSE = 1; // how often the mesh is divided where drawing is slow
 const FINE = 2;
 const TRIALS = 5;
 
-/** @typedef {{ width: number, height: number, unit: number, x: number, y: number }} Seen */
+/**
+ * The part of the world that is drawn; `above` what is drawn already.
+ * @typedef {{ width: number, height: number, unit: number, x: number, y: number, above?: boolean }} Seen
+ */
 
 export class Stage {
   /** @type {"shader" | "module"} who moves the mesh's vertices */

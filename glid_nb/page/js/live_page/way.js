@@ -1,12 +1,12 @@
 // From one kept pose to the next: the pins move on straight lines, and the solver follows, certified step
 // by step. Where it has got to at even times are the knots of the motion.
 
-import { between, joined, poseOf } from "./pins.js";
+import { between, joined, keyOf, poseOf } from "./pins.js";
 
 /** @import { Coefficients } from "../live/types.js" */
 /** @import { Point } from "../types.js" */
-/** @import { Kept, Pin } from "./data.js" */
-/** @import { Solving } from "../live/solving.js" */
+/** @import { Handle, Kept, Pin } from "./data.js" */
+/** @import { Solver } from "../live/solving_types.js" */
 
 export const KNOTS = 12; // of an interval
 
@@ -14,7 +14,7 @@ export const KNOTS = 12; // of an interval
 
 /**
  * The knots after a pose, up to the next one. The last knot is what the solver has reached there.
- * @param {Solving} solving
+ * @param {Solver} solving
  * @param {Kept} first
  * @param {Kept} second
  * @param {Coefficients} start where the way begins, near the first pose's map
@@ -38,17 +38,18 @@ export async function wayBetween(solving, first, second, start) {
 
 /**
  * Where a map takes the handles of pins.
- * @param {Solving} solving
+ * @param {Solver} solving
  * @param {Pin[]} pins
  * @param {Coefficients} coefficients
- * @returns {Promise<(handle: Point) => Point>}
+ * @returns {Promise<(handle: Handle) => Point>}
  */
 async function imagesAt(solving, pins, coefficients) {
   const handles = pins.map(({ handle }) => handle);
-  const held = { handles, targets: handles };
+  const places = /** @type {Point[]} */ (handles);
+  const held = { handles: places, targets: places };
   const { pins: found } = await solving.map({ type: "place", pose: held, coefficients });
   return (handle) => {
-    const i = handles.findIndex(([x, y]) => x === handle[0] && y === handle[1]);
+    const i = handles.findIndex((one) => keyOf(one) === keyOf(handle));
     return [found.images[2 * i], found.images[2 * i + 1]];
   };
 }
