@@ -53,14 +53,19 @@ export:"M8 2v8 M4.8 6.8L8 10l3.2-3.2 M3 13.5h10",trash:"M3 4.5h10 M6.5 4.5v-2h3v
 6 16" aria-hidden="true"><path d="${path}"/></svg>`}function iconButton(name,title,onclick,className="\
 glid-icon"){return drawnButton(PATHS[name],title,onclick,className)}function drawnButton(path,title,onclick,className="\
 glid-icon"){return make("button",{title,"aria-label":title,className,onclick,innerHTML:drawn(path)})}var KERNEL="Played by the kernel (too large for shaders). ";function seconds(time){return`${time.toFixed(
-2)} s`}function noteOn({keyframes,recording,kernel},spans){const bad=spans.find(({reason})=>reason);
-const note=state(keyframes.length,recording,bad?.reason,spans);return kernel&&spans.length&&!bad?KERNEL+
-note:note}function state(count,recording,reason,spans){if(recording)return"Recording: drag a pin; it\
-s movement becomes keyframes.";if(reason)return reason;if(spans.some(({status})=>status==="computing"))
-return"Proving the motion between poses…";const last=spans.at(-1);if(!last)return count<2?"Key (K)\
- a second pose to see the motion between them.":"";const least=Math.min(...spans.flatMap(({sigma2})=>sigma2));
-const lasts=seconds(last.end-spans[0].start);return`Proved at every instant of ${lasts}: σ₂ ≥ ${least.
-toFixed(3)}.`}function scaleOf(element){const{width,height}=element.getBoundingClientRect();const across=width/element.
+2)} s`}function noteOn({keyframes,recording,kernel},segments){if(recording){const text="Recording: d\
+rag a pin; its movement becomes keyframes.";return{text,kind:"recording"}}const bad=segments.find(({
+reason})=>reason);if(bad)return{text:reasonOf(bad),kind:"bad"};if(!segments.length){const alone=keyframes.
+length<2;const text=alone?"Key (K) a second pose to see the motion between them.":"";return{text,kind:"\
+advice"}}return{text:(kernel?KERNEL:"")+proofOf(segments),kind:"state"}}function reasonOf({start,end,
+reason,part}){const text=reason||`Not proved yet from ${seconds(start)} to ${seconds(end)}`;return part?
+`${part}: ${text}`:text}function boundOf({start,end,sigma2,part}){const text=`σ₂ ≥ ${sigma2.toFixed(
+3)} from ${seconds(start)} to ${seconds(end)}`;return part?`${text}; the worst part is ${part}`:text}
+function proofOf(segments){if(segments.some(({status})=>status==="computing")){return"Proving the mo\
+tion between poses…"}const pieces=segments.flatMap(segment=>segment.pieces);const{sigma2,part}=pieces.
+reduce((a,b)=>b.sigma2<a.sigma2?b:a);const lasts=seconds(segments[segments.length-1].end-segments[0].
+start);const where=part?` (${part})`:"";return`Proved at every instant of ${lasts}: σ₂ ≥ ${sigma2.
+toFixed(3)}${where}.`}function scaleOf(element){const{width,height}=element.getBoundingClientRect();const across=width/element.
 offsetWidth||1;return{across,down:height/element.offsetHeight||across}}function placeIn(element,{clientX,
 clientY}){const{left,top}=element.getBoundingClientRect();const{across,down}=scaleOf(element);return[
 (clientX-left)/across,(clientY-top)/down]}var WHEEL_LINE=33;var LINES=1;function turnOf(e){return e.deltaMode===LINES?e.deltaY*WHEEL_LINE:e.deltaY}var INSET=34;var STEP=1.5;var MOST=40;var WHEEL_SPEED=.004;var LEADS=.25;function scrolledTo(share,at,width){
@@ -273,116 +278,136 @@ hand.ease(i,button2)});button2.dataset.seconds=`${time-start.time}`;button2.data
 easing==="linear");return button2}));this.#hideNarrow();const button=this.eases.children[focused];if(button instanceof
 HTMLElement)button.focus()}#hideNarrow(){const perSecond=Math.max(this.ruler.clientWidth-2*INSET,0)/
 this.span;for(const button of this.eases.children){button.hidden=Number(button.dataset.seconds)*perSecond<
-WIDE+EASE2}}showSpans(spans,label){this.strip.replaceChildren(...spans.flatMap(span=>this.#pieces(span)));
-this.strip.setAttribute("aria-label",label);this.#label()}#label(){const{ruler,span,rate}=this;const width=Math.
-max(ruler.clientWidth-2*INSET,0);const labels=labelledTimes(span,width,this.zoom.factor).map(time=>{
-const frame2=frameAt(time,rate);const number=frame2===null?[]:[make("small",{},`${frame2}`)];const text=`${Number(
-time.toFixed(2))}`;return make("span",{style:`left: ${this.#at(time)}`},text,...number)});const frame=width/
-(span*rate);const ticks=make("i",{className:"glid-frames",hidden:frame<LEAST_FRAME});ticks.style.setProperty(
-"--glid-frame",`${frame}px`);ruler.replaceChildren(ticks,...labels);this.#hideNarrow()}#pieces({start,
-end,status,reason,times,sigma2}){const proved=sigma2.map((bound,i)=>{const when=`from ${seconds(times[i])}\
- to ${seconds(times[i+1])}`;const height=heightOf(bound);const text2=`σ₂ ≥ ${bound.toFixed(3)} ${when}`;
-return this.#piece(times[i],times[i+1],"proved",text2,height)});if(status==="proved")return proved;const from=status===
-"fails"?times.at(-1)??start:start;const text=reason||`Not proved yet from ${seconds(start)} to ${seconds(
-end)}`;return[...proved,this.#piece(from,end,status,text,1)]}#piece(start,end,kind,text,height){const width=`\
-calc(${this.#wide(end-start)})`;return make("div",{className:`glid-piece glid-${kind}`,title:text,onpointerenter:()=>this.
-hand.hover(text),style:`left: ${this.#at(start)}; width: ${width}; --glid-height: ${height}`})}#wide(time){
-return`${time/this.span} * (100% - 2 * var(--glid-inset))`}#at(time){return`calc(var(--glid-inset) +\
- ${this.#wide(time)})`}#inside(){const{left,width}=this.element.getBoundingClientRect();const length=getComputedStyle(
-this.element).getPropertyValue("--glid-inset");const inset=Number.parseFloat(length)*scaleOf(this.element).
-across;return{left:left+inset,width:width-2*inset}}#grab(e,index,time){if(e.button!==0)return;e.stopPropagation();
-const button=e.currentTarget;this.#drag={index,from:time,x:e.clientX,time:null};button.setPointerCapture(
-e.pointerId);button.focus({preventScroll:true});button.onpointermove=move=>this.#dragged(move,button);
-button.onlostpointercapture=()=>this.#letGo()}#dragged(e,button){const drag=this.#drag;if(!drag)return;
-const moved=e.clientX-drag.x;if(drag.time===null&&Math.abs(moved)<=STILL)return;const time=drag.from+
-moved/this.#inside().width*this.span;drag.time=this.landing(drag.index,time);button.style.left=this.#at(
-drag.time);this.head.style.left=this.#at(drag.time);this.hand.hover(`to ${seconds(drag.time)}`)}#letGo(){
-if(!this.#drag)return;const{index,time}=this.#drag;this.drop();if(time!==null){this.focus();this.hand.
-move(index,time)}else if(index<(this.#shown?.keyframes.length??0)){this.#clicked(index)}}#clicked(index){
-const now=performance.now();const last=this.#last;this.#last={index,at:now};if(last.index===index&&now-
-last.at<DOUBLE_CLICK)this.rename(index);else this.hand.select(index)}#down(e){if(e.button!==0)return;
-this.#scrubbing=e.pointerId;this.element.setPointerCapture(e.pointerId);this.#scrub(e)}#scrub(e){if(this.#scrubbing===
-e.pointerId)this.hand.scrub(this.#timeNear(e))}#timeNear(e,framed=false){const{left,width}=this.#inside();
-const time=(e.clientX-left)/width*this.span;const near=SNAP/width*this.span;const key=this.#shown?.keyframes.
-find(one=>Math.abs(one.time-time)<near);return key?.time??(framed?Math.round(time*this.rate)/this.rate:
-time)}#up(e){if(this.#scrubbing!==e.pointerId)return;this.drop();this.hand.scrubbed()}};var NUDGE=.1;var Timeline=class{note=make("div",{className:"glid-timeline-note",role:"status","aria-\
-live":"polite"});stage=null;#layers=null;#otherLayers={};#easeBefore=-1;#played=false;#hovered="";#playing={
-release:()=>this.release(),pause:()=>{this.player.pause();return this.player.place}};constructor({model,
-el,signal}){this.model=model;this.root=make("div",{className:"glid-skin glid-timeline",role:"group",
-"aria-label":"Timeline"});this.root.dataset.lmSuppressShortcuts="true";this.link=new Link(model,this.
-root,signal,()=>this.tell());this.player=new Player((floats,time,others)=>this.#show(floats,time,others),
-()=>this.showHead(),()=>this.#selectHere());this.bar=new Bar({play:()=>this.play(),keep:()=>this.keep(),
-act:(type,content)=>void this.act(type,content),edit:(type,content)=>void this.edit(type,content),zoom:by=>this.
-track.zoom.zoom(by),ease:()=>this.#ease()});this.bar.ease.addEventListener("pointerdown",()=>this.#easePressed());
-this.ease=new EaseEditor((index,easing)=>void this.act("set_easing",{index,easing}),index=>this.#easeClosed(
-index));this.track=new Track({scrub:time=>this.#scrub(time),scrubbed:()=>this.#selectHere(),select:index=>this.
-select(index),move:(index,time)=>void this.act("move_pose",{index,time}),rename:(index,name)=>void this.
-act("rename_pose",{index,name}),range:range=>void this.act("set_loop_range",{range}),ease:(index,button)=>this.#openEase(
-index,button),easePressed:()=>this.#easePressed(),hover:text=>{this.#hovered=text;this.tell()},dropped:()=>{
-this.showKeys();this.showHead()}});const parts=[this.bar.element,this.note,legend(),this.track.zoom.
-box];this.root.append(make("div",{className:"glid-timeline-parts"},...parts),this.ease.element);this.
-root.addEventListener("keydown",e=>this.#keydown(e));this.root.addEventListener("keyup",e=>{if(e.key===
-" "&&!this.#typing(e))e.preventDefault()});this.bar.element.addEventListener("click",e=>{const target=e.
-target;if(e.detail&&target.closest("button"))this.track.focus()});el.classList.add("glid-host");el.append(
-this.root)}get shown(){return this.model.get("shown")}get spans(){return this.model.get("motion").spans}get active(){
+WIDE+EASE2}}showSegments(segments,label){this.strip.replaceChildren(...segments.flatMap(segment=>this.#pieces(
+segment)));this.strip.setAttribute("aria-label",label);this.#label()}#label(){const{ruler,span,rate}=this;
+const width=Math.max(ruler.clientWidth-2*INSET,0);const labels=labelledTimes(span,width,this.zoom.factor).
+map(time=>{const frame2=frameAt(time,rate);const number=frame2===null?[]:[make("small",{},`${frame2}`)];
+const text=`${Number(time.toFixed(2))}`;return make("span",{style:`left: ${this.#at(time)}`},text,...number)});
+const frame=width/(span*rate);const ticks=make("i",{className:"glid-frames",hidden:frame<LEAST_FRAME});
+ticks.style.setProperty("--glid-frame",`${frame}px`);ruler.replaceChildren(ticks,...labels);this.#hideNarrow()}#pieces(segment){
+const{end,status,until,pieces}=segment;const proved=pieces.map(piece=>{const height=heightOf(piece.sigma2);
+return this.#piece(piece.start,piece.end,"proved",boundOf(piece),height)});if(status==="proved")return proved;
+return[...proved,this.#piece(until,end,status,reasonOf(segment),1)]}#piece(start,end,kind,text,height){
+const width=`calc(${this.#wide(end-start)})`;return make("div",{className:`glid-piece glid-${kind}`,
+title:text,onpointerenter:()=>this.hand.hover(text),style:`left: ${this.#at(start)}; width: ${width}\
+; --glid-height: ${height}`})}#wide(time){return`${time/this.span} * (100% - 2 * var(--glid-inset))`}#at(time){
+return`calc(var(--glid-inset) + ${this.#wide(time)})`}#inside(){const{left,width}=this.element.getBoundingClientRect();
+const length=getComputedStyle(this.element).getPropertyValue("--glid-inset");const inset=Number.parseFloat(
+length)*scaleOf(this.element).across;return{left:left+inset,width:width-2*inset}}#grab(e,index,time){
+if(e.button!==0)return;e.stopPropagation();const button=e.currentTarget;this.#drag={index,from:time,
+x:e.clientX,time:null};button.setPointerCapture(e.pointerId);button.focus({preventScroll:true});button.
+onpointermove=move=>this.#dragged(move,button);button.onlostpointercapture=()=>this.#letGo()}#dragged(e,button){
+const drag=this.#drag;if(!drag)return;const moved=e.clientX-drag.x;if(drag.time===null&&Math.abs(moved)<=
+STILL)return;const time=drag.from+moved/this.#inside().width*this.span;drag.time=this.landing(drag.index,
+time);button.style.left=this.#at(drag.time);this.head.style.left=this.#at(drag.time);this.hand.hover(
+`to ${seconds(drag.time)}`)}#letGo(){if(!this.#drag)return;const{index,time}=this.#drag;this.drop();
+if(time!==null){this.focus();this.hand.move(index,time)}else if(index<(this.#shown?.keyframes.length??
+0)){this.#clicked(index)}}#clicked(index){const now=performance.now();const last=this.#last;this.#last=
+{index,at:now};if(last.index===index&&now-last.at<DOUBLE_CLICK)this.rename(index);else this.hand.select(
+index)}#down(e){if(e.button!==0)return;this.#scrubbing=e.pointerId;this.element.setPointerCapture(e.
+pointerId);this.#scrub(e)}#scrub(e){if(this.#scrubbing===e.pointerId)this.hand.scrub(this.#timeNear(
+e))}#timeNear(e,framed=false){const{left,width}=this.#inside();const time=(e.clientX-left)/width*this.
+span;const near=SNAP/width*this.span;const key=this.#shown?.keyframes.find(one=>Math.abs(one.time-time)<
+near);return key?.time??(framed?Math.round(time*this.rate)/this.rate:time)}#up(e){if(this.#scrubbing!==
+e.pointerId)return;this.drop();this.hand.scrubbed()}};var BADNESS={proved:0,computing:1,fails:2,refused:2};function worstOf([own,...others]){return own.spans.
+map((span,i)=>{const all=[{name:own.name,span}];for(const{name,spans}of others){all.push({name,span:spans[i]??
+untold(span)})}return worst(all)})}function untold(span){return{...span,status:"computing",reason:"",
+until:span.start,sigma2:[]}}function worst(all){const until=Math.min(...all.map(({span})=>provedUntil(
+span)));const bad=all.reduce((one,next)=>isWorse(next.span,one.span)?next:one);const{start,end,status,
+reason}=bad.span;const part=status==="proved"?"":bad.name;return{start,end,status,reason,until,part,
+pieces:piecesOf(all,until)}}function isWorse(span,other){const more=BADNESS[span.status]-BADNESS[other.
+status];return more>0||more===0&&provedUntil(span)<provedUntil(other)}function provedUntil({status,end,
+until}){return status==="proved"?end:until}function piecesOf(all,until){const knots=all.flatMap(({span})=>span.
+times.slice(0,span.sigma2.length+1));const known=new Set([...knots.filter(time=>time<=until),until]);
+const times=[...known].sort((a,b)=>a-b);return times.slice(1).flatMap((end,i)=>{const start=times[i];
+const bounds=all.map(({name:name2,span})=>({name:name2,sigma2:boundAt(span,(start+end)/2)}));const{name,
+sigma2}=bounds.reduce((a,b)=>b.sigma2<a.sigma2?b:a);return sigma2>0?[{start,end,sigma2,part:name}]:[]})}
+function boundAt({times,sigma2},time){const piece=times.findIndex((knot,i)=>knot<=time&&time<=times[i+
+1]);return sigma2[piece]??0}var NUDGE=.1;var Timeline=class{note=make("div",{className:"glid-timeline-note",role:"status"});stage=null;#layers=null;#otherLayers={};#easeBefore=-1;#goal=null;#played=false;#hovered="";#playing={
+release:()=>this.release(),pause:()=>{this.player.pause();this.#goal=this.player.place;return this.player.
+place}};constructor({model,el,signal}){this.model=model;this.root=make("div",{className:"glid-skin g\
+lid-timeline",role:"group","aria-label":"Timeline"});this.root.dataset.lmSuppressShortcuts="true";this.
+link=new Link(model,this.root,signal,()=>this.tell());this.player=new Player((floats,time,others)=>this.#show(
+floats,time,others),()=>this.showHead(),()=>this.#selectHere());this.bar=new Bar({play:()=>this.play(),
+keep:()=>this.keep(),act:(type,content)=>void this.act(type,content),edit:(type,content)=>void this.
+edit(type,content),zoom:by=>this.track.zoom.zoom(by),ease:()=>this.#ease()});this.bar.ease.addEventListener(
+"pointerdown",()=>this.#easePressed());this.ease=new EaseEditor((index,easing)=>void this.act("set_e\
+asing",{index,easing}),index=>this.#easeClosed(index));this.track=new Track({scrub:time=>this.#scrub(
+time),scrubbed:()=>this.#selectHere(),select:index=>this.select(index),move:(index,time)=>void this.
+act("move_pose",{index,time}),rename:(index,name)=>void this.act("rename_pose",{index,name}),range:range=>void this.
+act("set_loop_range",{range}),ease:(index,button)=>this.#openEase(index,button),easePressed:()=>this.#easePressed(),
+hover:text=>{this.#hovered=text;this.tell()},dropped:()=>{this.showKeys();this.showHead()}});const parts=[
+this.bar.element,this.note,legend(),this.track.zoom.box];this.root.append(make("div",{className:"gli\
+d-timeline-parts"},...parts),this.ease.element);this.root.addEventListener("keydown",e=>this.#keydown(
+e));this.root.addEventListener("keyup",e=>{if(e.key===" "&&!this.#typing(e))e.preventDefault()});this.
+bar.element.addEventListener("click",e=>{const target=e.target;if(e.detail&&target.closest("button"))
+this.track.focus()});el.classList.add("glid-host");el.append(this.root)}get shown(){return this.model.
+get("shown")}get spans(){return this.model.get("motion").spans}get segments(){const others=this.model.
+get("part_motions");return worstOf([{name:this.shown.part??"",spans:this.spans},...others])}get active(){
 return this.shown.keyframes[this.shown.active]}act(type,content={}){return this.link.put({type,...content})}edit(type,content={}){
-return this.act(type,{index:this.shown.active,...content})}release=()=>{this.player.release(this.active.
-time)};select(index){if(index===this.shown.active)this.release();else this.act("go_to_pose",{index})}tell(){
-const{refusal}=this.link;const bad=this.spans.some(({reason})=>reason);const text=refusal||this.#hovered||
-noteOn(this.shown,this.spans);this.note.textContent=text;this.note.title=text;this.note.dataset.tone=
-refusal||bad&&!this.#hovered?"bad":""}showHead(){const{keyframes}=this.shown;if(!keyframes)return;const{
-place,seen,playing}=this.player;const end=this.spans.at(-1)?.end??keyframes[keyframes.length-1].time;
-this.track.showHead(place,seen);this.bar.showTime(place,end,playing)}showRate(){this.track.showRate(
+return this.act(type,{index:this.shown.active,...content})}release=()=>{this.#goal=null;this.player.
+release(this.active.time)};edited(){if(this.player.seen)this.player.release(this.#goal??this.active.
+time)}select(index){if(index===this.shown.active)this.release();else this.#go("go_to_pose",{index},this.
+shown.keyframes[index].time)}async#go(type,content,time){this.#goal=time;await this.act(type,content);
+if(this.#goal===time)this.#goal=null}tell(){const{note}=this;const{text,kind}=this.#told();note.ariaLive=
+kind==="state"||kind==="hover"?"off":"polite";if(note.textContent!==text)note.textContent=text;note.
+title=text;note.dataset.kind=kind;note.dataset.tone=kind==="bad"?"bad":""}#told(){const{refusal}=this.
+link;if(refusal)return{text:refusal,kind:"bad"};if(this.#hovered)return{text:this.#hovered,kind:"hov\
+er"};return noteOn(this.shown,this.segments)}showHead(){const{keyframes}=this.shown;if(!keyframes)return;
+const{place,seen,playing}=this.player;const end=this.spans.at(-1)?.end??keyframes[keyframes.length-1].
+time;this.track.showHead(place,seen);this.bar.showTime(place,end,playing)}showRate(){this.track.showRate(
 this.model.get("rate"))}showKeys(){this.track.showKeys(this.shown,this.model.get("thumbnails"));const segment=this.#segment(
 this.ease.index);if(segment)this.ease.show(segment.title,segment.easing);else this.ease.close()}showState(){
 const{keyframes,active}=this.shown;const now=`${active}/${keyframes.length}`;const moved=this.root.dataset.
 active!==now;this.root.dataset.active=now;this.bar.update(this.shown);this.showKeys();this.showMotion();
-if(moved||!this.player.seen)this.release()}showMotion(){const{player,shown,spans}=this;player.only=shown.
-keyframes?.[0].time??0;player.range=shown.range??null;player.set(intervalsOf(spans),shown.repeat,this.#others);
-const computing=spans.some(({status})=>status==="computing");if(shown.kernel&&!player.playing&&player.
-seen&&computing)this.release();this.tell();this.track.showSpans(spans,this.note.textContent??"");this.
-showHead()}get#others(){const motions=this.model.get("part_motions");return Object.fromEntries(motions.
-map(({key,spans})=>[key,intervalsOf(spans)]))}showOthers(){const layers=this.model.get("part_motions").
-map(one=>[one.key,layersOf(one.heights)]);this.#otherLayers=Object.fromEntries(layers);this.showMotion()}showHeights(){
-this.#layers=layersOf(this.model.get("heights"))}#show(floats,time,others={}){const{stage}=this;if(!stage)
-return;const moving=time!==void 0;const heights=moving?this.#layers?.at(time)??null:null;const parts=Object.
-entries(others).map(([key,theirs])=>{return[key,{floats:theirs,heights:this.#otherLayers[key]?.at(time??
-0)??null}]});const seen=moving?floats??true:null;stage.trigger("glid:motion",seen,this.#playing,heights,
-Object.fromEntries(parts));if(this.shown.kernel)return this.act("frame",{time:time??null,replaces:"f\
-rame"})}play(){this.player.play();if(!this.player.playing||this.#played)return;this.#played=true;void this.
-act("played")}keep(){const{player}=this;this.act("keep",{time:player.seen?player.place:this.active.time})}#segment(index){
-const[start,end]=withReturn(this.shown).slice(index,index+2);return index>=0&&end?{title:`${start.name}\
- → ${end.name}`,easing:start.easing}:null}#ease(){const{active,keyframes}=this.shown;const last=withReturn(
-this.shown).length-2;const{bar,track}=this;const index=Math.min(active,last);const own=track.eases.children[index];
-if(keyframes.length>1)this.#openEase(index,own&&!own.hidden?own:bar.ease)}#easePressed(){this.#easeBefore=
-this.ease.index}#openEase(index,at){const segment=this.#segment(index);if(segment&&this.#easeBefore!==
-index){this.ease.open(index,segment.title,segment.easing,at)}this.#easeBefore=-1}#easeClosed(index){
-const{activeElement}=document;const lost=!activeElement||activeElement===document.body;if(!lost&&!this.
-ease.element.contains(activeElement))return;const button=this.track.eases.children[index];if(button instanceof
-HTMLElement&&!button.hidden)button.focus({preventScroll:true});else this.track.focus()}#scrub(time){
-this.player.scrub(Math.min(time,this.track.span))}#selectHere(){const index=keyAt(this.shown.keyframes,
-this.player.place);if(index>=0)this.select(index)}#typing(e){return this.bar.element.contains(e.target)}#keydown(e){
-const history=undoOrRedo(e);if(!history&&(e.ctrlKey||e.metaKey))return;e.stopPropagation();const does=this.#typing(
-e)?null:this.#keyDoes(e);if(!history&&!does)return;e.preventDefault();if(history)this.act(history);else
-does?.()}#rangeEnd(which){const{player}=this;this.track.range.key(which,player.seen?player.place:this.
-active.time)}#keyDoes(e){const{keyframes}=this.shown;switch(e.key){case" ":return()=>void(e.repeat||
-this.play());case"ArrowLeft":return()=>this.#step(e,-1);case"ArrowRight":return()=>this.#step(e,1);case"\
-Enter":return e.target===this.track.ruler?()=>this.#ease():null;case"F2":return()=>this.track.rename();case"\
-Delete":case"Backspace":return()=>void this.edit("delete_pose");case"Home":return()=>e.shiftKey?this.#rangeEnd(
-0):this.select(0);case"End":return()=>e.shiftKey?this.#rangeEnd(1):this.select(keyframes.length-1);case"\
-Escape":return()=>{this.track.drop();this.release()};default:return null}}#step(e,sign){const{player,
-track}=this;const{keyframes,active}=this.shown;if(e.altKey){const time=track.landing(active,this.active.
-time+sign*NUDGE);this.edit("move_pose",{time})}else if(e.shiftKey){this.select(nextKey(keyframes,player.
-place,sign)??active)}else{this.#scrub(player.place+sign/track.rate)}}};function intervalsOf(spans){return spans.
-map(span=>({...span,floats:toFloats(span.floats)}))}function layersOf({times,floats}){return times.length?
-new Motion({times,repeat:"once"},toFloats(floats)):null}function render(context){const{model,el,signal}=context;const timeline=new Timeline(context);const{player}=timeline;
+if(moved)this.release();else if(!this.player.seen)this.player.release(this.#goal??this.active.time)}showMotion(){
+const{player,shown,spans}=this;player.only=shown.keyframes?.[0].time??0;player.range=shown.range??null;
+player.set(intervalsOf(spans),shown.repeat,this.#others);const computing=spans.some(({status})=>status===
+"computing");if(shown.kernel&&!player.playing&&player.seen&&computing)this.release();this.tell();this.
+track.showSegments(this.segments,noteOn(shown,this.segments).text);this.showHead()}get#others(){const motions=this.
+model.get("part_motions");return Object.fromEntries(motions.map(({key,spans})=>[key,intervalsOf(spans)]))}showOthers(){
+const layers=this.model.get("part_motions").map(one=>[one.key,layersOf(one.heights)]);this.#otherLayers=
+Object.fromEntries(layers);this.showMotion()}showHeights(){this.#layers=layersOf(this.model.get("hei\
+ghts"))}#show(floats,time,others={}){const{stage}=this;if(!stage)return;const moving=time!==void 0;const heights=moving?
+this.#layers?.at(time)??null:null;const parts=Object.entries(others).map(([key,theirs])=>{return[key,
+{floats:theirs,heights:this.#otherLayers[key]?.at(time??0)??null}]});const seen=moving?floats??true:
+null;stage.trigger("glid:motion",seen,this.#playing,heights,Object.fromEntries(parts));if(this.shown.
+kernel)return this.act("frame",{time:time??null,replaces:"frame"})}play(){this.player.play();if(!this.
+player.playing||this.#played)return;this.#played=true;void this.act("played")}keep(){const{player}=this;
+if(player.seen)this.#go("keep",{time:player.place},player.place);else this.act("keep",{time:this.active.
+time})}#segment(index){const[start,end]=withReturn(this.shown).slice(index,index+2);return index>=0&&
+end?{title:`${start.name} → ${end.name}`,easing:start.easing}:null}#ease(){const{active,keyframes}=this.
+shown;const last=withReturn(this.shown).length-2;const{bar,track}=this;const index=Math.min(active,last);
+const own=track.eases.children[index];if(keyframes.length>1)this.#openEase(index,own&&!own.hidden?own:
+bar.ease)}#easePressed(){this.#easeBefore=this.ease.index}#openEase(index,at){const segment=this.#segment(
+index);if(segment&&this.#easeBefore!==index){this.ease.open(index,segment.title,segment.easing,at)}this.#easeBefore=
+-1}#easeClosed(index){const{activeElement}=document;const lost=!activeElement||activeElement===document.
+body;if(!lost&&!this.ease.element.contains(activeElement))return;const button=this.track.eases.children[index];
+if(button instanceof HTMLElement&&!button.hidden)button.focus({preventScroll:true});else this.track.
+focus()}#scrub(time){this.player.scrub(Math.min(time,this.track.span))}#selectHere(){const index=keyAt(
+this.shown.keyframes,this.player.place);if(index>=0)this.select(index)}#typing(e){return this.bar.element.
+contains(e.target)}#keydown(e){const history=undoOrRedo(e);if(!history&&(e.ctrlKey||e.metaKey))return;
+e.stopPropagation();const does=this.#typing(e)?null:this.#keyDoes(e);if(!history&&!does)return;e.preventDefault();
+if(history)this.act(history);else does?.()}#rangeEnd(which){const{player}=this;this.track.range.key(
+which,player.seen?player.place:this.active.time)}#keyDoes(e){const{keyframes}=this.shown;switch(e.key){case"\
+ ":return()=>void(e.repeat||this.play());case"ArrowLeft":return()=>this.#step(e,-1);case"ArrowRight":
+return()=>this.#step(e,1);case"Enter":return e.target===this.track.ruler?()=>this.#ease():null;case"\
+F2":return()=>this.track.rename();case"Delete":case"Backspace":return()=>void this.edit("delete_pose");case"\
+Home":return()=>e.shiftKey?this.#rangeEnd(0):this.select(0);case"End":return()=>e.shiftKey?this.#rangeEnd(
+1):this.select(keyframes.length-1);case"Escape":return()=>{this.track.drop();this.release()};default:
+return null}}#step(e,sign){const{player,track}=this;const{keyframes,active}=this.shown;if(e.altKey){
+const time=track.landing(active,this.active.time+sign*NUDGE);this.edit("move_pose",{time})}else if(e.
+shiftKey){this.select(nextKey(keyframes,player.place,sign)??active)}else{this.#scrub(player.place+sign/
+track.rate)}}};function intervalsOf(spans){return spans.map(span=>({...span,floats:toFloats(span.floats)}))}
+function layersOf({times,floats}){return times.length?new Motion({times,repeat:"once"},toFloats(floats)):
+null}function render(context){const{model,el,signal}=context;const timeline=new Timeline(context);const{player}=timeline;
 const tapped=e=>{const target=e.target;if(target.closest(".glid-editor")===el.closest(".glid-editor"))
 timeline.play()};window.addEventListener("glid:play",tapped,{signal});const keyed=e=>{const target=e.
 target;if(target.closest(".glid-editor")===el.closest(".glid-editor"))timeline.keep()};window.addEventListener(
 "glid:key",keyed,{signal});follow(model,{"change:shown":()=>timeline.showState(),"change:rate":()=>timeline.
 showRate(),"change:motion":()=>timeline.showMotion(),"change:heights":()=>timeline.showHeights(),"ch\
-ange:part_motions":()=>timeline.showOthers(),"change:thumbnails":()=>timeline.showKeys()});const edited=()=>{
-if(player.seen)timeline.release()};findStage(context,timeline).then(()=>timeline.stage?.on("change:c\
-oefficients",edited));return()=>{player.pause();timeline.stage?.off("change:coefficients",edited)}}async function findStage({
-model,signal},timeline){const found=await model.widget_manager.get_model(model.get("stage"));if(!signal.
-aborted)timeline.stage=found}var main_default={render};export{main_default as default};
+ange:part_motions":()=>timeline.showOthers(),"change:thumbnails":()=>timeline.showKeys()});const edited=()=>timeline.
+edited();findStage(context,timeline).then(()=>timeline.stage?.on("change:coefficients",edited));return()=>{
+player.pause();timeline.stage?.off("change:coefficients",edited)}}async function findStage({model,signal},timeline){
+const found=await model.widget_manager.get_model(model.get("stage"));if(!signal.aborted)timeline.stage=
+found}var main_default={render};export{main_default as default};
