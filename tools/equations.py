@@ -10,6 +10,7 @@ from latex2mathml.converter import convert
 _ARG = re.compile(r"\\arg\b")  # which latex2mathml does not know
 _BAR = '<mo stretchy="false">|</mo>'  # of a modulus, without an operator's spaces
 _LINES = ("\u00af", "\u2015")  # over conjugates: too short or too long, as letters
+_INTEGRALS = ("\u222b", "\u222e")  # lean over what follows, if nothing keeps it away
 _MATHML = "http://www.w3.org/1998/Math/MathML"
 
 ElementTree.register_namespace("", _MATHML)
@@ -26,13 +27,31 @@ def mathml(latex: str, display: str) -> str:
         raise ValueError(f"latex2mathml cannot read {latex!r}: {error!r}") from error
     if unknown := re.findall(r">(\\\w+)", made):
         raise ValueError(f"latex2mathml does not know {', '.join(unknown)} in {latex!r}")
-    made = with_borders(made)
+    made = arranged(made)
     return made.replace(_BAR, _BAR.replace(">", ' lspace="0" rspace="0">', 1))
 
 
-def with_borders(math: str) -> str:
-    """Draw the line over a conjugate as a border, which is as wide as what is below it."""
+def pieces(latex: str) -> list[str]:
+    """The formulas between wide spaces. On a narrow page each can have a line of its own."""
+    found = re.split(r"\\q?quad(?![a-zA-Z])", latex)
+    return found if all(map(_is_whole, found)) else [latex]
+
+
+def _is_whole(latex: str) -> bool:
+    """Whether nothing in a piece begins or ends in another one."""
+    braces = latex.count("{") == latex.count("}")
+    pairs = (r"\begin", r"\end"), (r"\left", r"\right")
+    counts = ([len(re.findall(re.escape(one) + r"(?![a-z])", latex)) for one in p] for p in pairs)
+    return bool(latex.strip()) and braces and all(first == last for first, last in counts)
+
+
+def arranged(math: str) -> str:
+    """Draw the line over a conjugate as a border, which is as wide as what is below it, and leave
+    room after integrals."""
     tree = ElementTree.fromstring(math)
+    for operator in tree.iter(f"{{{_MATHML}}}mo"):
+        if operator.text in _INTEGRALS:
+            operator.set("rspace", "0.25em")
     for over in list(tree.iter(f"{{{_MATHML}}}mover")):
         if over[1].text in _LINES:
             over.tag, over.attrib = f"{{{_MATHML}}}mrow", {"class": "conjugate"}

@@ -20,7 +20,7 @@ from nbformat import NotebookNode
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 
-from tools.equations import mathml
+from tools.equations import mathml, pieces
 
 NOTEBOOKS = Path(__file__).resolve().parent.parent / "notebooks"
 LECTURES = {
@@ -69,8 +69,10 @@ def rendered(markdown: str) -> str:
             made.append(mathml(inline, "inline"))
         else:
             number = _NUMBER.search(latex)
-            made.append(mathml(_NUMBER.sub("", latex).strip().rstrip("."), "block"))
+            formulas = pieces(_NUMBER.sub("", latex).strip().rstrip("."))
+            made.append("".join(mathml(one, "block") for one in formulas))
             made[-1] += f"<small>({number[1]})</small>" if number else ""
+            made[-1] = f'<span class="formulas">{made[-1]}</span>'
         return f"QMATH{len(made) - 1}Q"
 
     text = _MATH.sub(kept, markdown)

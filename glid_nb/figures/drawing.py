@@ -24,6 +24,7 @@ from glid_nb.pose import Pose
 _MISS = 0.004  # of the axes' size: handles farther from their target get a line
 _SHOWN_DPI = 150.0  # resolution of a figure in a notebook
 CSS_DPI = 108.0  # its size there: CSS pixels per inch
+COLOR_BAR = "<colorbar>"  # matplotlib's label of its axes
 MANY = 256  # a collection with more values than this is a field
 _ROUND, _COARSE = (1, 1.1, 1.2, 1.5, 2, 2.5, 3, 4, 5, 7), (1, 2, 5)  # ticks of a decade
 

@@ -25,14 +25,14 @@ from numpy.typing import ArrayLike
 from PIL import Image
 
 from glid_nb._errors import InputError
-from glid_nb.figures.drawing import CSS_DPI, MANY, figure_png, notebook_png
+from glid_nb.figures.drawing import COLOR_BAR, CSS_DPI, MANY, figure_png, notebook_png
+from glid_nb.figures.parts import parts
 from glid_nb.geometry import as_points
 from glid_nb.page.files import bundle, stylesheet
 
 _PIXELS_PER_INCH = 120.0  # of the fields and pictures in a frame
 _QUALITY = 70  # of their WebP files
 _MOST = 200  # frames of one figure
-_COLOR_BAR = "<colorbar>"  # matplotlib's label of its axes
 _PNG = re.compile(r'data:image/png;base64,([^"]+)')
 
 
@@ -64,7 +64,7 @@ def live(
     check box. ``draw`` returns a figure of this package or of matplotlib. It is called once for
     each combination of them, now, so the page needs no kernel. ``start`` has the values to begin
     with, in the same order; the default is the first of each. All frames have the same axes: the
-    limits contain those of every frame.
+    limits contain those of every frame. On a phone, panels side by side come below each other.
 
     ``point`` takes the same arguments and returns a place (x, y) in the first axes, or a complex
     number. The page shows a ring there. Dragging the ring moves the sliders to neighbouring
@@ -95,6 +95,7 @@ def live(
         ],
         **_in_lines([_svg(figure) for figure in figures]),
         "titles": [_titles(figure) for figure in figures],
+        "parts": parts(figures),
     }
     if point is not None:
         places = [point(**one) for one in combinations]
@@ -178,7 +179,7 @@ def _hold_still(figures: Sequence[Figure]) -> None:
     if len({len(figure.axes) for figure in figures}) > 1:
         return
     for same in zip(*(figure.axes for figure in figures), strict=True):
-        if same[0].get_label() == _COLOR_BAR:
+        if same[0].get_label() == COLOR_BAR:
             continue
         x, y = _union(same, Axes.get_xlim), _union(same, Axes.get_ylim)
         for axes in same:

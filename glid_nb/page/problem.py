@@ -31,6 +31,7 @@ def pins_of(pose: Pose | None) -> list[dict[str, Any]]:
             "angle": _number(pose.angles[i]),
             "scale": _number(pose.scales[i]),
             "weight": float(pose.weights[i]),
+            "depth": float(pose.depths[i]),
             "name": str(pose.names[i]),
         }
         for i in range(len(pose))

@@ -128,17 +128,15 @@ class LiveEditor(ClosingWidget, anywidget.AnyWidget):
         def column(key: str) -> list[Any]:
             return [np.nan if pin[key] is None else pin[key] for pin in pins]
 
-        before = self._pose
-        depths = dict(zip(map(tuple, before.handles.tolist()), before.depths, strict=True))
         return Pose(
             column("handle"),
             column("target"),
-            [depths.get(tuple(handle), 0.0) for handle in column("handle")],
+            column("depth"),
             angles=column("angle"),
             scales=column("scale"),
             weights=column("weight"),
             names=column("name"),
-            stiffness=before.stiffness,
+            stiffness=self._pose.stiffness,
         )
 
 

@@ -190,10 +190,11 @@ class SolverMonitor(ClosingWidget, ipywidgets.VBox):
 
 def _line(status: StatusLine, hint: str) -> str:
     """The status in one line: what is proved first, if all is well. Then what to try next."""
-    text = html.escape(status.text)
+    text = f"<span>{html.escape(status.text)}</span>"
     advice = f'<span class="glid-next" role="status">{html.escape(hint)}</span>' if hint else ""
     if status.level == "good" and status.proved:
-        text = f'<b>{html.escape(status.proved)}</b> <span class="glid-detail">{text}</span>'
+        detail = f'<span class="glid-detail">{html.escape(status.text)}</span>'
+        text = f"<b>{html.escape(status.proved)}</b> {detail}"
     return (
         f'<div style="display:flex;align-items:center;gap:2px 8px;line-height:1.4" '
         f'title="{html.escape(status.text)}">'

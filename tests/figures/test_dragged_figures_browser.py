@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import io
 from collections.abc import Iterator
 from pathlib import Path
 
+import numpy as np
 import pytest
+from PIL import Image
 from playwright.sync_api import Browser, Locator, Page
 
 from glid_nb import figures
@@ -95,3 +98,44 @@ def test_a_finger_drags_the_ring_on_a_phone_and_the_page_stays(
     assert values(page) == ["1", "3"]
     assert page.evaluate("window.scrollY") == 0
     context.close()
+
+
+def in_planes(x: float, y: float) -> NotebookFigure:
+    circle = np.exp(1j * np.linspace(0, 2 * np.pi, 60))
+    return figures.planes(
+        {"circle": 2 * circle, "z": x + 1j * y}, {"z circle": (x + 1j * y) * circle}
+    )
+
+
+def test_on_a_phone_panels_are_below_each_other_and_the_ring_stays_on_its_dot(
+    browser: Browser, tmp_path: Path
+) -> None:
+    steps = [-1, 0, 1]
+    drawn = figures.live(in_planes, 1, 1, point=lambda x, y: x + 1j * y, x=steps, y=steps)
+    path = tmp_path / "planes.html"
+    phone = '<meta name="viewport" content="width=device-width">'
+    body = drawn._repr_mimebundle_()[0]["text/html"]
+    path.write_text(f"<!doctype html><meta charset='utf-8'>{phone}{body}", encoding="utf-8")
+    page = opened(browser.new_page(viewport={"width": 390, "height": 844}), path)
+    picture = page.locator(".glid-frames img")
+    narrow = picture.bounding_box()
+    assert narrow is not None
+    assert narrow["height"] > 1.2 * narrow["width"]
+    assert page.evaluate("document.documentElement.scrollWidth") <= 390
+    low, high = place(page, 0, 0), place(page, 2, 2)
+    page.mouse.move(*high)
+    page.mouse.down()
+    page.mouse.move(*low)
+    page.mouse.up()
+    assert values(page) == ["-1", "-1"]
+    picture.evaluate("(picture) => picture.decode()")
+    shot = Image.open(io.BytesIO(page.screenshot())).convert("RGB")
+    at = tuple(round(one) for one in middle(page.locator(".glid-ring")))
+    orange = np.array([230, 159, 0])  # mixed with the white of the ring's inside
+    assert (np.array(shot.getpixel(at)) - orange <= [10, 60, 100]).all()
+    page.set_viewport_size({"width": 800, "height": 600})
+    page.wait_for_function("document.querySelector('.glid-frames img').clientWidth > 500")
+    wide = picture.bounding_box()
+    assert wide is not None
+    assert wide["height"] < wide["width"]
+    page.close()

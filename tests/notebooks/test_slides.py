@@ -138,3 +138,28 @@ def test_every_slide_fits_a_projector_and_rings_are_dragged_on_slides(lectures: 
             for number in rings:
                 page.evaluate("go", number)
                 assert moved_by_ring(page.locator("section.now .glid-frames")), f"{name}, {number}"
+
+
+_WIDE = """() => [...document.querySelectorAll('section')].flatMap((slide, i) => {
+  go(i);
+  return slide.scrollWidth <= slide.clientWidth + 1 ? [] : [`slide ${i + 1}`];
+})"""
+_SMALLEST = """() => Math.min(...[...document.querySelectorAll('section')].map((slide, i) => {
+  go(i);
+  const shown = slide.querySelector('div');
+  return Number(shown.style.zoom || 1) * parseFloat(getComputedStyle(shown).fontSize);
+}))"""
+
+
+@pytest.mark.browser
+@pytest.mark.slow
+@pytest.mark.parametrize("size", [(844, 390), (390, 844), (1024, 768)])
+def test_slides_on_small_screens_have_legible_letters_and_scroll_only_downwards(
+    lectures: Path, size: tuple[int, int]
+) -> None:
+    with launched_chromium() as browser:
+        page = browser.new_page(viewport={"width": size[0], "height": size[1]})
+        page.goto((lectures / "2-the-space-of-maps.html").as_uri())
+        page.wait_for_function(_LIVE)
+        assert page.evaluate(_WIDE) == []
+        assert page.evaluate(_SMALLEST) >= 13

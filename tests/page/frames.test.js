@@ -22,6 +22,7 @@ const DATA = {
     [0, 2, 2, 1],
   ],
   titles: ["", "a", "b", "a, b", "b, a", "a, a"],
+  parts: [],
 };
 
 test("each position of the controls has a frame of its own, and the last control changes first", () => {

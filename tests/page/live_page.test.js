@@ -126,7 +126,7 @@ test("a pose in Python names only what was asked for", () => {
   const code = pythonCode(pins, { options: { energy: "amips", s: 0.5 } }, "cat.png");
   assert.match(code, /handles=\[\[0, 0\], \[3, 0\]\]/);
   assert.match(code, /angles=\[None, 0.5\]/);
-  assert.doesNotMatch(code, /scales|weights|p2p_weight/);
+  assert.doesNotMatch(code, /scales|weights|depths|names|p2p_weight/);
   assert.match(code, /solve\(domain, pose, glid.energies.AMIPS\(0.5\)\)/);
 });
 
@@ -285,6 +285,14 @@ test("the lines of Python have the stiff areas", () => {
   ];
   const code = pythonCode([], { options: {}, stiffness }, "cat.png");
   assert.match(code, /stiffness=\[\{"points":\[\[0,1\],\[2,3\]\],"radius":0\.5,"strength":1\}\],/);
+});
+
+test("a pose in Python has the pins' depths and names, quoted", () => {
+  const named = { ...pinAt([3, 0], [3, 0]), weight: 2, depth: -1, name: 'the "tail"' };
+  const code = pythonCode([pinAt([0, 0], [0, 0]), named], { options: {} }, "cat.png");
+  assert.match(code, /depths=\[0, -1\],\n/);
+  assert.match(code, /weights=\[1, 2\],\n/);
+  assert.match(code, /names=\["", "the \\"tail\\""\],\n/);
 });
 
 test("files have the title's letters, and no command takes their names for options", () => {

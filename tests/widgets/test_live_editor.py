@@ -37,7 +37,7 @@ def from_page(live: LiveEditor, pins: list[dict[str, Any]], map: HarmonicMap) ->
 
 
 def pin(handle: list[float], target: list[float], **more: Any) -> dict[str, Any]:
-    free = {"angle": None, "scale": None, "weight": 1.0, "name": ""}
+    free = {"angle": None, "scale": None, "weight": 1.0, "depth": 0.0, "name": ""}
     return {"handle": handle, "target": target, **free, **more}
 
 
@@ -54,12 +54,13 @@ def mirrored(live: LiveEditor) -> HarmonicMap:
 def test_a_pose_of_the_page_and_its_map_are_taken(live: LiveEditor) -> None:
     heard: list[Pose] = []
     live.observe(lambda _: heard.append(live.pose), ["edit"])
-    pins = [pin(PINS[1], [6.0, 0.0], angle=0.1, name="hand"), pin([0.0, 3.0], [0.0, 6.0])]
+    hand = pin(PINS[1], [6.0, 0.0], angle=0.1, depth=-1.0, name="hand")
+    pins = [hand, pin([0.0, 3.0], [0.0, 6.0])]
     from_page(live, pins, scaled(live, 2))
     assert heard == [live.pose]
     np.testing.assert_array_equal(live.pose.targets, [[6, 0], [0, 6]])
     np.testing.assert_array_equal(live.pose.angles, [0.1, np.nan])
-    assert live.pose.depths.tolist() == [-1, 0]  # the page has none; they stay with their pins
+    assert live.pose.depths.tolist() == [-1, 0]
     assert live.pose.names.tolist() == ["hand", ""]
     assert len(live.pose.stiffness.strokes) == 1
     np.testing.assert_allclose(live.map([[3, 0]]), [[6, 0]], atol=1e-12)

@@ -157,7 +157,7 @@ def test_the_bar_does_what_the_keys_do(open_notebook: OpenNotebook) -> None:
     book.wait_for("model.selection == (0,)")
     page.locator(".glid-view-button").focus()
     page.keyboard.press("Enter")
-    page.locator(".glid-view-menu").wait_for()
+    page.locator(".glid-view-menu [aria-checked=true]:focus").wait_for()
     page.keyboard.press("ArrowDown")
     page.keyboard.press("Enter")
     book.wait_for("canvas.overlay == 'mesh'")

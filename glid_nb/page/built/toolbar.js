@@ -35,9 +35,10 @@ overlays){const chosen=item.dataset.value===overlay;item.ariaChecked=String(chos
 textContent=item.textContent}const{firstElementChild:label}=this.reference;const has=this.model.get(
 "referenced");if(label)label.textContent=has?"Remove the reference":"Reference picture…";for(const item of this.
 checks)item.ariaChecked=String(shows[item.dataset.value??""])}#place(){const{left,bottom}=this.button.
-getBoundingClientRect();const lowest=window.innerHeight-this.menu.offsetHeight-BELOW;this.menu.style.
-left=`${left}px`;this.menu.style.top=`${Math.max(BELOW,Math.min(bottom+BELOW,lowest))}px`}#opened({newState}){
-this.button.ariaExpanded=String(newState==="open");if(newState!=="open")return;this.#place();this.overlays.
+getBoundingClientRect();const lowest=window.innerHeight-this.menu.offsetHeight-BELOW;const rightmost=window.
+innerWidth-this.menu.offsetWidth-BELOW;this.menu.style.left=`${Math.max(BELOW,Math.min(left,rightmost))}\
+px`;this.menu.style.top=`${Math.max(BELOW,Math.min(bottom+BELOW,lowest))}px`}#opened({newState}){this.
+button.ariaExpanded=String(newState==="open");if(newState!=="open")return;this.#place();this.overlays.
 find(item=>item.ariaChecked==="true")?.focus({preventScroll:true})}#step(e){const by={ArrowDown:1,ArrowUp:-1}[e.
 key];if(!by)return;e.preventDefault();e.stopPropagation();const items=[...this.menu.querySelectorAll(
 "button")];const focused=items.indexOf(document.activeElement);items.at((focused+by)%items.length)?.

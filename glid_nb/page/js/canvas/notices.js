@@ -4,7 +4,7 @@
 import { make } from "../pad/dom.js";
 
 const FIRST = "Click the shape to pin a point, then drag the pin · ? shows all keys";
-const PAINT = "Paint areas that should stay stiff · E erases · Esc when done";
+const PAINT = "Paint stiff areas · E erases · Esc when done";
 
 export class Notices {
   notice = make("div", { className: "glid-notice", role: "status" });

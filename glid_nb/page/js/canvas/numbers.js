@@ -96,7 +96,8 @@ export function drawNumbers(pen, view, { at, words }) {
   pen.font = FONT;
   const width = Math.max(...words.map((text) => pen.measureText(text).width)) + 2 * PADDING;
   const height = LINE * words.length + PADDING;
-  const left = x + BESIDE + width <= view.width ? x + BESIDE : x - BESIDE - width;
+  const beside = x + BESIDE + width <= view.width ? x + BESIDE : x - BESIDE - width;
+  const left = Math.max(beside, 2); // a narrow canvas has no room at either side
   const top = Math.min(Math.max(y - BESIDE - height, 2), view.height - height - 2);
   pen.beginPath();
   pen.roundRect(left, top, width, height, 4);

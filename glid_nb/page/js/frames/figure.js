@@ -1,8 +1,12 @@
 // The sliders of a figure, and the point that is dragged. Each position has its own picture.
 
 import { dragged, frameAt, svgOf, wordsOf } from "./frames.js";
+import { arranged, heightOf, moved, rearranged } from "./narrow.js";
 
-/** @import { Control, Frames } from "./data.js" */
+/** @import { Control, Frames, Placed } from "./data.js" */
+
+const NARROW = matchMedia("(max-width: 600px)"); // a phone
+const VISIBLE = 0.7; // of the window's height: the rest has the sliders and the browser's own bars
 
 /**
  * A slider, or a check box, with its name before it and its value after it.
@@ -67,6 +71,18 @@ function ringOn(picture, moved) {
 }
 
 /**
+ * Where the parts of the picture are in a figure of this width; null as long as the whole picture
+ * is shown.
+ *
+ * @param {Frames} data
+ * @param {number} width
+ */
+function layout({ parts }, width) {
+  if (!parts?.length || !NARROW.matches || !width) return null;
+  return arranged(parts, width, VISIBLE * innerHeight);
+}
+
+/**
  * Puts the sliders above the picture, and the ring on it.
  *
  * @param {HTMLElement} figure
@@ -75,16 +91,25 @@ function ringOn(picture, moved) {
 export function addControls(figure, data) {
   const { controls, points } = data;
   const picture = /** @type {HTMLImageElement} */ (figure.querySelector("img"));
+  /** @type {[width: number, height: number]} */
+  const size = [Number(picture.getAttribute("width")), Number(picture.getAttribute("height"))];
   let positions = controls.map(({ start }) => start);
+  let width = figure.clientWidth;
+  /** @type {Placed[] | null} */
+  let placed = layout(data, width);
   const rows = controls.map((control, i) =>
     controlled(control, (position) => show(positions.with(i, position))),
   );
+  const places = () => {
+    const all = points ?? [];
+    return placed ? moved(all, placed, size, width) : all;
+  };
   const ring =
     points &&
-    ringOn(picture, (hand, [width, height]) => {
+    ringOn(picture, (hand, [wide, high]) => {
       /** @type {[x: number, y: number][]} */
-      const places = points.map(([x, y]) => [width * x, height * y]);
-      const next = dragged(controls, places, positions, hand);
+      const now = places().map(([x, y]) => [wide * x, high * y]);
+      const next = dragged(controls, now, positions, hand);
       if (next !== positions) show(next);
     });
 
@@ -92,16 +117,25 @@ export function addControls(figure, data) {
   function show(next) {
     positions = next;
     const at = frameAt(controls, positions);
-    picture.src = `data:image/svg+xml,${encodeURIComponent(svgOf(data, at))}`;
+    const whole = svgOf(data, at);
+    const svg = placed ? rearranged(whole, placed, size, width) : whole;
+    picture.src = `data:image/svg+xml,${encodeURIComponent(svg)}`;
     picture.alt = wordsOf(data, positions);
+    [picture.width, picture.height] = placed ? [width, Math.round(heightOf(placed))] : size;
     rows.forEach((row, i) => {
       row.show(positions[i]);
     });
-    if (points && ring) {
-      const [left, top] = points[at];
+    if (ring) {
+      const [left, top] = places()[at];
       Object.assign(ring.style, { left: `${100 * left}%`, top: `${100 * top}%` });
     }
   }
   show(positions);
   figure.prepend(...rows.map(({ row }) => row));
+  new ResizeObserver(() => {
+    if (figure.clientWidth === width) return;
+    width = figure.clientWidth;
+    placed = layout(data, width);
+    show(positions);
+  }).observe(figure);
 }

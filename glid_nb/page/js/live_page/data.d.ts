@@ -12,6 +12,8 @@ export interface Pin {
   angle: number | null;
   scale: number | null;
   weight: number;
+  /** Where the shape overlaps, what is higher is in front. The page leaves it as it is. */
+  depth: number;
   name: string;
 }
 

@@ -14,7 +14,7 @@ const LARGEST_SCALE = 20;
  * @returns {Pin}
  */
 export function pinAt(handle, target) {
-  return { handle, target, angle: null, scale: null, weight: 1, name: "" };
+  return { handle, target, angle: null, scale: null, weight: 1, depth: 0, name: "" };
 }
 
 /**

@@ -28,10 +28,12 @@ export function pythonCode(pins, { options, stiffness }, picture) {
     "pose = glid.Pose(",
     `    handles=${listOf(pins.map(({ handle }) => listOf(handle.map(numberText))))},`,
     `    targets=${listOf(pins.map(({ target }) => listOf(target.map(numberText))))},`,
+    ...optional("depths", pins, ({ depth }) => depth || null, 0),
     ...optional("angles", pins, ({ angle }) => angle),
     ...optional("scales", pins, ({ scale }) => scale),
     ...(stiffness ? [`    stiffness=${JSON.stringify(stiffness)},`] : []),
-    ...optional("weights", pins, ({ weight: firm }) => (firm === 1 ? null : firm), "1.0"),
+    ...optional("weights", pins, ({ weight: firm }) => (firm === 1 ? null : firm), 1),
+    ...optional("names", pins, ({ name }) => name || null, ""),
     ")",
   ];
   const made = `glid.energies.${ENERGIES[energy]}(${WITH_S.includes(energy) ? s : ""})`;
@@ -42,14 +44,20 @@ export function pythonCode(pins, { options, stiffness }, picture) {
 /**
  * @param {string} name
  * @param {readonly Pin[]} pins
- * @param {(pin: Pin) => number | null} value
- * @param {string} none
+ * @param {(pin: Pin) => number | string | null} value null where it has its default
+ * @param {number | string} [none] the default; without it, None
  */
-function optional(name, pins, value, none = "None") {
+function optional(name, pins, value, none) {
   const values = pins.map(value);
   if (values.every((one) => one === null)) return [];
-  const texts = values.map((one) => (one === null ? none : numberText(one)));
+  const texts = values.map((one) => textOf(one ?? none));
   return [`    ${name}=${listOf(texts)},`];
+}
+
+/** @param {number | string | undefined} value */
+function textOf(value) {
+  if (value === undefined) return "None";
+  return typeof value === "number" ? numberText(value) : JSON.stringify(value);
 }
 
 /** @param {string[]} items */

@@ -1,7 +1,9 @@
-// A context menu in an element.
+// A context menu of an element, above everything on the page.
 
 import { make } from "./dom.js";
 import { shield } from "./help.js";
+
+const EDGE = 8; // CSS pixels between the menu and the edges of the window
 
 /** @import { Point } from "../types.js" */
 /** @typedef {[label: string, key: string, act: () => void] | null} MenuRow null draws a line */
@@ -44,6 +46,7 @@ export function openMenu(element, [x, y], rows) {
       {
         className: "glid-menu",
         role: "menu",
+        popover: "manual", // nothing of the editor cuts it off or covers it
         onpointerdown: () => {
           pressed = true;
         },
@@ -59,8 +62,8 @@ export function openMenu(element, [x, y], rows) {
   );
   element.querySelector(".glid-menu")?.remove();
   element.append(menu);
-  menu.style.left = within(x, element.clientWidth - menu.offsetWidth);
-  menu.style.top = within(y, element.clientHeight - menu.offsetHeight);
+  menu.showPopover();
+  putAt(menu, onPage(element, [x, y]));
   const pressedElsewhere = (/** @type {PointerEvent} */ e) => {
     const target = /** @type {Node} */ (e.target);
     if (menu.contains(target)) return;
@@ -75,9 +78,34 @@ export function openMenu(element, [x, y], rows) {
 }
 
 /**
+ * Where a place in an element is in the window, also if the page is zoomed or transformed.
+ *
+ * @param {HTMLElement} element
+ * @param {Point} place
+ * @returns {Point}
+ */
+function onPage(element, [x, y]) {
+  const { left, top, width, height } = element.getBoundingClientRect();
+  return [left + (x * width) / element.offsetWidth, top + (y * height) / element.offsetHeight];
+}
+
+/**
+ * Puts a menu at a place of the window, or as near as all of it is seen.
+ *
+ * @param {HTMLElement} menu
+ * @param {Point} place
+ */
+function putAt(menu, [x, y]) {
+  const { width, height } = menu.getBoundingClientRect();
+  const zoom = width / menu.offsetWidth || 1; // the page's lengths are not the menu's
+  menu.style.left = `${within(x, window.innerWidth - width) / zoom}px`;
+  menu.style.top = `${within(y, window.innerHeight - height) / zoom}px`;
+}
+
+/**
  * @param {number} at CSS pixels
  * @param {number} room
  */
 function within(at, room) {
-  return `${Math.max(0, Math.min(at, room))}px`;
+  return Math.max(EDGE, Math.min(at, room - EDGE));
 }

@@ -79,7 +79,8 @@ export class ViewMenu {
   #place() {
     const { left, bottom } = this.button.getBoundingClientRect();
     const lowest = window.innerHeight - this.menu.offsetHeight - BELOW; // all of it is to be seen
-    this.menu.style.left = `${left}px`;
+    const rightmost = window.innerWidth - this.menu.offsetWidth - BELOW;
+    this.menu.style.left = `${Math.max(BELOW, Math.min(left, rightmost))}px`;
     this.menu.style.top = `${Math.max(BELOW, Math.min(bottom + BELOW, lowest))}px`;
   }
 
