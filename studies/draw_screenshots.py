@@ -65,7 +65,7 @@ def trace_tab(browser: Browser, server: JupyterServer) -> bytes:
 
 
 def deform_tab(browser: Browser, server: JupyterServer) -> bytes:
-    """A frog during a drag, coloured by its compression."""
+    """A frog after a drag, coloured by its compression."""
 
     def use(book: LabNotebook) -> None:
         hand = posed(book, "frog")
@@ -88,7 +88,6 @@ def deform_tab_dark(browser: Browser, server: JupyterServer) -> bytes:
             book.value("None", f"model.set_pose(pose.with_targets({moved}))\nmodel.solve()")
             book.value("None", "model.save_pose()")
         dragged(hand, 1.0)
-        book.page.mouse.up()
         proved = "all(s.status == 'proved' for s in editor.timeline.animation.spans)"
         book.wait_for(f"not model.dragged and editor.timeline.animation.wait(0.1) and {proved}", 60)
         book.page.locator(".glid-computing").wait_for(state="detached")
@@ -155,7 +154,12 @@ def dragged(hand: Hand, share: float) -> None:
         hand.page.wait_for_timeout(1000 / 60)
     hand.book.wait_for(f"abs(model.pose.targets[-1] - {stop}).max() < 0.1", 300)
     hand.settle()
+    hand.page.mouse.up()  # until then the page's own solver leads
+    hand.book.wait_for("not model.dragged")
+    hand.settle()
     hand.wait_until_drawn()
+    # Made at rest: the numbers of the pins.
+    hand.page.locator(".glid-side .glid-entry[aria-selected=true]").wait_for()
 
 
 def small(png: bytes) -> bytes:

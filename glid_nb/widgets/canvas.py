@@ -33,6 +33,7 @@ from glid_nb.widgets.pane import Pane
 from glid_nb.widgets.scene import Drawing, Range
 from glid_nb.widgets.tracer import displayed
 
+_GOING_ON = "move", "up"  # events of a gesture that has begun
 _INTERVAL = 0.2  # least seconds between updates of panels, colours and hidden pins in a drag
 _SOURCE_SHARE = 0.4  # share of the width for the undeformed shape
 _LEAST_SIZE, _USUAL_SIZE = 100, (600, 500)  # CSS pixels
@@ -378,18 +379,20 @@ class DeformCanvas(ClosingWidget, ipywidgets.HBox):
     # From the page
 
     def handle(self, events: Sequence[Event]) -> str | None:
-        """Act on pointers and keys. Show why an action was refused."""
+        """Act on pointers and keys. Show why an action was refused, until the next gesture: what
+        remains of a refused drag does not hide the reason."""
         stage, refusal = self.pane.stage, None
         for run in self._runs(events):
             key = self._other_part(run[0])
             if key is not None:
                 self.on_other_part(key, run[0])  # without a lock; it may edit another shape
             refusal = self.gestures.handle(run)
-        stage.notice = refusal or ""
+        if refusal or not all(event["type"] in _GOING_ON for event in events):
+            stage.notice = refusal or ""
         stage.set_trait("cursor", self.gestures.cursor)
         if events[-1]["type"] not in ("down", "move"):  # no button is pressed
             self.deformation.tell("hand")
-        return stage.notice or None
+        return refusal
 
     def _runs(self, events: Sequence[Event]) -> list[Sequence[Event]]:
         """The events, divided before each press if there are several shapes to press."""

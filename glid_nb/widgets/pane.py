@@ -37,6 +37,7 @@ from glid_nb.widgets.scenery import (
     vertices_of,
     wire_of,
 )
+from glid_nb.widgets.tracer import displayed
 
 CORNERS = ("bottom right", "bottom left", "top right", "top left")  # the default first
 
@@ -95,6 +96,8 @@ class Stage(Pad):
     handle its group's number, 0 for none."""
     reference = traitlets.CBytes(b"").tag(sync=True)  # the page sends memory views
     """A picture that the page shows dimmed behind the shape; empty for none."""
+    behind_reference = traitlets.CBytes(b"").tag(sync=True)
+    """The background, while there is a reference, which lies over it; empty for none."""
     onion = traitlets.List([]).tag(sync=True)  # other poses' colours and loops of [x, y], each
     stiff = traitlets.List([]).tag(sync=True)  # painted areas' strengths and loops of [x, y], each
     brush = traitlets.Dict({}).tag(sync=True)
@@ -146,7 +149,7 @@ class Pane(ClosingWidget, ipywidgets.GridBox):
         self._rearranged = False  # whether the shapes around have to be shown anew
         self._vectors = UNIFORM_VECTORS  # vectors of uniforms of the page's shaders
         self.scene = self._edited_scene()  # what pythreejs draws of the edited shape
-        self._backdrop = self._new_backdrop(background)
+        self._background, self._backdrop = background, self._new_backdrop(background)
         self._renderer = renderer(self._meshes, self._multisamples)
         self.stage = Stage(
             width=size[0],
@@ -164,6 +167,7 @@ class Pane(ClosingWidget, ipywidgets.GridBox):
             ipywidgets.dlink((self.stage, side), (self.layout, side), "{}px".format)
         self._size_renderer()
         self.stage.observe(self._size_renderer, ["width", "height"])
+        self.stage.observe(self._show_backdrop, ["reference"])
         self.fit()
         self._endings = (self._free,)
 
@@ -205,7 +209,8 @@ class Pane(ClosingWidget, ipywidgets.GridBox):
         """Draw another picture of the same size, and what lies behind it."""
         behind, old, framed = self._backdrop, self.scene, self._has_picture_behind
         self._image = image
-        self._backdrop = self._new_backdrop(background)
+        self._background, self._backdrop = background, self._new_backdrop(background)
+        self._show_backdrop()
         self.scene = self._edited_scene()
         self._show(old)
         if self._has_picture_behind and not framed:
@@ -406,6 +411,15 @@ class Pane(ClosingWidget, ipywidgets.GridBox):
 
     def _new_backdrop(self, background: Backdrop) -> BackdropMesh | None:
         return None if background is None else BackdropMesh(background, self._frame)
+
+    def _show_backdrop(self, _: Any = None) -> None:
+        """Draw the background; under a reference the page shows it, below its renderer."""
+        behind, under = self._background, bool(self.stage.reference)
+        if self._backdrop is not None:
+            self._backdrop.mesh.visible = not under
+        if isinstance(behind, tuple):
+            behind = np.array([[(*behind, 255)]], dtype=np.uint8)  # one pixel, which is stretched
+        self.stage.behind_reference = displayed(behind if under else None)
 
     @property
     def _meshes(self) -> list[Any]:

@@ -66,7 +66,7 @@ class PinBar(EditControls):
 
         return RowList(
             "Pins",
-            "No pins yet: click the shape.",
+            "No pins yet",
             several=True,
             on_choose=choose,
             on_switch=switch,

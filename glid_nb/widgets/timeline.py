@@ -51,7 +51,8 @@ class TimelinePanel(Pad):
     shown = traitlets.Dict({}).tag(sync=True)
     """``keyframes`` (``name``, ``time``, ``easing`` to the next, ``thumbnail``), the index
     ``active``, the timeline's ``repeat`` and ``back``, its ``range`` (the times between which it
-    plays, None for all), and the states of the switches."""
+    plays, None for all), the states of the switches, and the name of the edited ``part`` if there
+    are several."""
     motion = traitlets.Dict({"spans": []}).tag(sync=True)
     """``spans`` from keyframe to keyframe: ``start``, ``end``, ``status``, ``reason``. For the
     proved part, which ends at ``until``: ``times`` of the knots, ``floats`` (their coefficients),
@@ -60,8 +61,8 @@ class TimelinePanel(Pad):
     """``times`` of the keyframes, and ``floats``, the picture's heights at these times, if the
     depths of poses differ. If the kernel evaluates, it sends the heights with its frames."""
     part_motions = traitlets.List([]).tag(sync=True)
-    """The motions of the shapes around the edited one: for each its ``key``, its ``spans`` as in
-    `motion`, and its ``heights``."""
+    """The motions of the shapes around the edited one: for each its ``key``, its ``name``, its
+    ``spans`` as in `motion`, and its ``heights``."""
     thumbnails = traitlets.Dict({}).tag(sync=True)  # pictures as data URIs, by their keys
 
     def __init__(
@@ -165,10 +166,12 @@ class TimelinePanel(Pad):
             if self._closed:
                 return
             scenes = self.canvas.pane.part_scenes
+            names = {shape.key: shape.name for shape in self.canvas.scenery}
             known = {key: motion for key, motion in motions.items() if key in scenes}
             self.part_motions = [
                 {
                     "key": key,
+                    "name": names.get(key, ""),
                     "spans": self._spans_of(scenes[key], spans),
                     "heights": _heights(scenes[key], state),
                 }
@@ -222,6 +225,7 @@ class TimelinePanel(Pad):
             "onion": self.canvas.show_onion,
             "kernel": any(s.evaluated_in == "kernel" for s in self._scenes),
             "exports": self.on_export is not None,
+            "part": "" if state.edited_part is None else state.edited_part.name,
         }
 
     @property

@@ -12,7 +12,8 @@ import {
   spanOf,
   withReturn,
 } from "../../glid_nb/page/js/timeline/scale.js";
-import { noteOn } from "../../glid_nb/page/js/timeline/words.js";
+import { boundOf, noteOn, reasonOf } from "../../glid_nb/page/js/timeline/words.js";
+import { worstOf } from "../../glid_nb/page/js/timeline/worst.js";
 import { scrolledTo } from "../../glid_nb/page/js/timeline/zoom.js";
 
 /** @import { Shown, Span } from "../../glid_nb/page/js/timeline/traits.js" */
@@ -37,6 +38,7 @@ function shown(changes) {
     onion: false,
     exports: true,
     kernel: false,
+    part: "",
     ...changes,
   };
 }
@@ -119,13 +121,50 @@ test("a loop's return stays behind the last keyframe", () => {
 });
 
 test("the note tells what is proved, or why not", () => {
-  assert.match(noteOn(shown({}), [span({})]), /^Proved at every instant of 1\.00 s: σ₂ ≥ 0\.500/);
-  assert.equal(noteOn(shown({}), [span({ status: "fails", reason: "It folds." })]), "It folds.");
-  assert.equal(
-    noteOn(shown({}), [span({ status: "computing" })]),
-    "Proving the motion between poses…",
-  );
-  assert.match(noteOn(shown({ kernel: true }), [span({})]), /^Played by the kernel/);
-  assert.match(noteOn(shown({ keyframes: keys(0) }), []), /^Key \(K\) a second pose/);
-  assert.match(noteOn(shown({ recording: true }), [span({})]), /^Recording/);
+  const told = (/** @type {Partial<Shown>} */ changes, /** @type {Span[]} */ ...spans) =>
+    noteOn(shown(changes), worstOf([{ name: "", spans }]));
+  const proof = told({}, span({}));
+  assert.match(proof.text, /^Proved at every instant of 1\.00 s: σ₂ ≥ 0\.500\.$/);
+  assert.equal(proof.kind, "state");
+  assert.deepEqual(told({}, span({ status: "fails", reason: "It folds." })), {
+    text: "It folds.",
+    kind: "bad",
+  });
+  assert.equal(told({}, span({ status: "computing" })).text, "Proving the motion between poses…");
+  assert.match(told({ kernel: true }, span({})).text, /^Played by the kernel/);
+  const alone = told({ keyframes: keys(0) });
+  assert.match(alone.text, /^Key \(K\) a second pose/);
+  assert.equal(alone.kind, "advice");
+  assert.match(told({ recording: true }, span({})).text, /^Recording/);
+});
+
+test("of several parts the worst counts, at each instant, and is named", () => {
+  const body = { name: "Body", spans: [span({})] };
+  const arm = { name: "Arm", spans: [span({ times: [0, 0.4, 1], sigma2: [0.9, 0.2] })] };
+  const [proved] = worstOf([body, arm]);
+  assert.equal(proved.status, "proved");
+  assert.equal(proved.part, "");
+  assert.deepEqual(proved.pieces, [
+    { start: 0, end: 0.4, sigma2: 0.5, part: "Body" },
+    { start: 0.4, end: 1, sigma2: 0.2, part: "Arm" },
+  ]);
+  assert.match(boundOf(proved.pieces[1]), /0\.200 from 0\.40 s to 1\.00 s; the worst part is Arm/);
+  assert.match(noteOn(shown({}), [proved]).text, /σ₂ ≥ 0\.200 \(Arm\)\.$/);
+});
+
+test("a part that is not proved ends the proof of all", () => {
+  const body = { name: "Body", spans: [span({})] };
+  const failing = span({ status: "fails", reason: "It folds.", until: 0.6, times: [0, 0.3, 0.6] });
+  const arm = { name: "Arm", spans: [failing] };
+  const leg = { name: "Leg", spans: [span({ status: "computing", until: 0, sigma2: [] })] };
+  const [two] = worstOf([body, arm]);
+  assert.deepEqual([two.status, two.until, two.part], ["fails", 0.6, "Arm"]);
+  // Between the last piece and the instant where the proof fails there is no bound.
+  assert.deepEqual(two.pieces, [{ start: 0, end: 0.3, sigma2: 0.5, part: "Body" }]);
+  assert.equal(noteOn(shown({}), [two]).text, "Arm: It folds.");
+  const [three] = worstOf([body, arm, leg]);
+  assert.deepEqual([three.status, three.until, three.pieces], ["fails", 0, []]);
+  const [untold] = worstOf([body, { name: "New", spans: [] }]);
+  assert.deepEqual([untold.status, untold.part, untold.until], ["computing", "New", 0]);
+  assert.match(reasonOf(untold), /^New: Not proved yet from 0\.00 s to 1\.00 s$/);
 });

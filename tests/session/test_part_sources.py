@@ -11,6 +11,7 @@ import pytest
 from PIL import Image
 
 from glid_nb.imaging import TraceError
+from glid_nb.imaging.photoshop import LayerWarning
 from glid_nb.session.editor_model import EditorModel
 from glid_nb.session.part_sources import named_parts, parts_in
 
@@ -87,6 +88,72 @@ def test_a_photoshop_file_is_its_visible_layers(tmp_path: Path) -> None:
     for pixels, wanted in zip(parts.values(), (RED, BLUE), strict=True):
         assert np.array_equal(pixels[..., 3], wanted[..., 3])
         assert np.array_equal(pixels * (pixels[..., 3:] > 0), wanted)
+
+
+def _layer(document: Any, name: str, pixels: np.ndarray) -> Any:
+    return document.create_pixel_layer(Image.fromarray(pixels), name=name, top=0, left=0)
+
+
+def _assert_drawn(pixels: np.ndarray, wanted: np.ndarray) -> None:
+    """To one step of 255: early versions of psd-tools round down."""
+    seen = pixels[..., 3:] > 0
+    np.testing.assert_allclose(pixels[..., 3], wanted[..., 3], atol=1)
+    np.testing.assert_allclose((pixels * seen)[..., :3], (wanted * seen)[..., :3], atol=1)
+
+
+def test_masks_and_opacity_of_groups_and_clipped_layers_are_drawn(tmp_path: Path) -> None:
+    psd_tools = pytest.importorskip("psd_tools")
+    path, (height, width) = tmp_path / "drawn.psd", RED.shape[:2]
+    document: Any = psd_tools.PSDImage.new("RGB", (width, height))
+    _layer(document, "base", RED)
+    clipped = _layer(document, "clipped", np.full_like(RED, (0, 200, 0, 255)))
+    clipped.clipping = True
+    clipped.opacity = 51
+    inner = document.create_group([_layer(document, "grouped", BLUE)], name="inner")
+    document.create_group([inner], name="outer").opacity = 128
+    document.save(path)
+    # psd-tools writes a new group's mask only if the group was read from a file.
+    document = psd_tools.PSDImage.open(path)
+    left = np.zeros((height, width), np.uint8)
+    left[:, :90] = 255
+    document[-1][0].create_mask(Image.fromarray(left), top=0, left=0)
+    document.save(path)
+
+    parts: Any = parts_in(path)
+    assert list(parts) == ["base", "grouped"]
+    tinted = RED.astype(float)
+    tinted[..., :3] = 0.8 * tinted[..., :3] + 0.2 * np.array([0, 200, 0])
+    tinted[RED[..., 3] == 0] = 0
+    _assert_drawn(parts["base"], tinted)
+    half = BLUE.astype(float)
+    half[..., 3] *= (left / 255) * (128 / 255)
+    _assert_drawn(parts["grouped"], half)
+
+
+def test_a_warning_names_the_layer_and_what_is_not_drawn(tmp_path: Path) -> None:
+    psd_tools = pytest.importorskip("psd_tools")
+    from psd_tools.constants import BlendMode, Tag
+    from psd_tools.psd.descriptor import Bool, Descriptor, DescriptorBlock2
+    from psd_tools.psd.tagged_blocks import TaggedBlock
+
+    document: Any = psd_tools.PSDImage.new("RGB", RED.shape[1::-1])
+    shadowed, blended = _layer(document, "red", RED), _layer(document, "blue", BLUE)
+    effects: Any = DescriptorBlock2(version=0, name="", classID=b"null", data_version=16)
+    effects[b"masterFXSwitch"] = Bool(True)
+    effects[b"DrSh"] = shadow = Descriptor(name="", classID=b"DrSh")
+    shadow[b"enab"] = shadow[b"present"] = Bool(True)
+    tag = Tag.OBJECT_BASED_EFFECTS_LAYER_INFO
+    shadowed.tagged_blocks[tag] = TaggedBlock(key=tag, data=effects)
+    blended.blend_mode = BlendMode.MULTIPLY
+    document.save(tmp_path / "two.psd")
+    with pytest.warns(LayerWarning) as told:
+        parts: Any = parts_in(tmp_path / "two.psd")
+    assert [str(one.message) for one in told] == [
+        "two.psd is drawn without the drop shadow of the layer 'red'; "
+        "the blend mode multiply of the layer 'blue'"
+    ]
+    _assert_drawn(parts["red"], RED)
+    _assert_drawn(parts["blue"], BLUE)
 
 
 def test_a_damaged_photoshop_file_is_named(tmp_path: Path) -> None:

@@ -606,22 +606,30 @@ def test_parts_are_listed_and_closed_with_the_editor() -> None:
     editor = Editor(parts={"left": left, "right": right}, n_vertices=300)
     canvas, panel = editor.canvas, editor.parts
     assert canvas is not None
-    assert [row.name.description for row in panel.rows.children] == ["right", "left"]
+
+    def names() -> list[str]:
+        return [row["name"] for row in panel.rows.rows]
+
+    def act(kind: str, row: int, **said: Any) -> None:
+        key = panel.rows.rows[row]["key"]
+        panel.rows.act({"type": kind, "key": key, "keys": [key], **said})
+
+    assert names() == ["right", "left"]
     assert [(s.name, s.above) for s in canvas.scenery] == [("right", True)]
-    panel.rows.children[0].name.click()
+    act("choose", 0)
     assert editor.deformation.state.part == 1
     assert [(s.name, s.above) for s in canvas.scenery] == [("left", False)]
     assert (canvas.image == right).all()
-    panel.rows.children[1].eye.value = False
+    act("set", 1, name="hidden", on=True)
     assert canvas.scenery == ()
-    panel.rows.children[0].eye.value = False
+    act("set", 0, name="hidden", on=True)
     assert "only visible part" in panel.refusal.value
     panel.name.value = "front"
-    assert [row.name.description for row in panel.rows.children] == ["front", "left"]
+    assert names() == ["front", "left"]
     panel.back.click()
-    assert [row.name.description for row in panel.rows.children] == ["left", "front"]
+    assert names() == ["left", "front"]
     panel.remove.click()
-    assert [row.name.description for row in panel.rows.children] == ["left"]
+    assert names() == ["left"]
     assert (canvas.image == left).all()
     editor.deformation.undo()
     upload = {"name": "half.png", "content": memoryview(png(left[:, :45]))}

@@ -104,6 +104,23 @@ def test_two_islands_are_kept_dragged_played_saved_and_exported(
     spans = "[editor.timeline.animation.spans_of(k)[0].status for k in model.state.keys]"
     assert book.value(spans) == ["proved", "proved"]
     timeline = Timeline(hand)
+    # The strip shows the worst of both, and says whose that is.
+    pieces = timeline.root.locator(".glid-piece.glid-proved")
+    pieces.first.wait_for()
+    bounds = book.value(
+        "{part.name: min(editor.timeline.animation.spans_of(part.key)[0].sigma2)"
+        " for part in model.state.parts}"
+    )
+    worst = min(bounds, key=bounds.get)
+    told = pieces.evaluate_all("all => all.map((one) => one.title)")
+    assert any(f"{bounds[worst]:.3f}" in text and worst in text for text in told), (bounds, told)
+    note = timeline.root.locator(".glid-timeline-note")
+    note.get_by_text(f"σ₂ ≥ {bounds[worst]:.3f} ({worst}).").wait_for()
+    model_part = book.value("model.state.part")
+    book.value("None", setup=f"model.select_part({1 - model_part})")
+    note.get_by_text(f"σ₂ ≥ {bounds[worst]:.3f} ({worst}).").wait_for()  # whichever is edited
+    book.value("None", setup=f"model.select_part({model_part})")
+    book.screenshot("parts-strip")
     timeline.keys.nth(0).click()
     book.wait_for("model.state.active == 0")
     hand.wait_for_color(square, blue)

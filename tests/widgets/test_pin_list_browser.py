@@ -33,7 +33,7 @@ def test_the_list_selects_renames_locks_and_hides(open_notebook: OpenNotebook) -
     hand, page = Hand(book), book.page
     side = page.locator(".glid-side")
     book.value("None", setup="model.tell('hand')")
-    side.get_by_text("No pins yet: click the shape.").wait_for()
+    side.locator(".glid-rows").get_by_text("No pins yet").wait_for()
     book.value("None", setup=PINS)
     hand.settle()
     grid = side.get_by_role("grid", name="Pins")

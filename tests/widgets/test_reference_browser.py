@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import io
+import time
 from pathlib import Path
 
 import numpy as np
@@ -13,7 +15,7 @@ from .editor_page import EDITOR, NEW_PICTURE, SETUP, Hand, choose_view
 
 pytestmark = [pytest.mark.browser, pytest.mark.slow]
 
-_STYLE = "pane => getComputedStyle(pane).{}"
+_STYLE = "pane => getComputedStyle(pane, '::before').{}"
 
 
 def test_a_picture_lies_dimmed_behind_the_shape(
@@ -58,7 +60,7 @@ def test_a_picture_lies_dimmed_behind_the_shape(
     def shown() -> np.ndarray:
         names = "Position", "Size"
         styles = [pane.evaluate(_STYLE.format(f"background{name}")) for name in names]
-        lengths = [length for style in styles for length in style.split(", ")[1].split()]
+        lengths = [length for style in styles for length in style.split()]
         return np.array([float(length.removesuffix("px")) for length in lengths])
 
     np.testing.assert_allclose(shown(), corners(), atol=0.6)
@@ -71,7 +73,7 @@ def test_a_picture_lies_dimmed_behind_the_shape(
     page.mouse.move(*hand.place((-7, 1)))
     page.mouse.wheel(0, -200)
     page.wait_for_function(
-        "([pane, size]) => getComputedStyle(pane).backgroundSize !== size",
+        "([pane, size]) => getComputedStyle(pane, '::before').backgroundSize !== size",
         arg=[pane.element_handle(), size],
     )
     assert shown()[2] > before[2]
@@ -90,3 +92,47 @@ def test_a_picture_lies_dimmed_behind_the_shape(
     hand.wait_until_still()
     book.screenshot("reference-390")
     page.set_viewport_size({"width": 1366, "height": 768})
+
+
+def test_the_reference_lies_over_the_background_and_under_the_shape(
+    open_notebook: OpenNotebook,
+) -> None:
+    book = open_notebook([SETUP, NEW_PICTURE + EDITOR])
+    hand, page = Hand(book), book.page
+    beside, on_shape, outside = (0, 4), (0, 0), (0, 6)
+
+    def color(point: tuple[float, float]) -> np.ndarray:
+        """The mean colour of the screen around a point of the world."""
+        x, y = hand.place(point)
+        shot = page.screenshot(clip={"x": x - 2, "y": y - 2, "width": 5, "height": 5})
+        pixels = np.asarray(Image.open(io.BytesIO(shot)).convert("RGB"))
+        return pixels.reshape(-1, 3).mean(axis=0)
+
+    def wait_for_color(point: tuple[float, float], wanted: np.ndarray) -> None:
+        end = time.monotonic() + 20
+        while np.abs(color(point) - wanted).max() > 3:
+            assert time.monotonic() < end, f"{color(point)}, not {wanted}"
+
+    shape, stage = color(on_shape), color(outside)
+    yellow, blue = np.array([255, 220, 0]), np.array([0, 0, 255])
+    book.value("None", setup="editor.background = (255, 220, 0)")
+    wait_for_color(beside, yellow)
+    dimmed = 0.62 * yellow + 0.38 * blue
+    set_blue = "blue = np.zeros((50, 100, 4), np.uint8); blue[..., 2:] = 255"
+    book.value("None", setup=f"{set_blue}; canvas.set_reference(blue)")
+    wait_for_color(beside, dimmed)
+    wait_for_color(on_shape, shape)
+    wait_for_color(outside, stage)
+    for theme in ("Dark", "Light"):
+        book.theme(f"JupyterLab {theme}")
+        book.screenshot(f"reference-over-background-{theme.lower()}")
+
+    # Another background comes under it too, also a picture. Without it all is as before.
+    book.value("None", setup="editor.background = (255, 255, 255)")
+    wait_for_color(beside, 0.62 * np.array([255, 255, 255]) + 0.38 * blue)
+    book.value("None", setup="editor.background = 'filled'")
+    hand.settle()
+    book.value("None", setup="canvas.set_reference(None)")
+    page.locator(".glid-referenced").wait_for(state="detached")
+    book.value("None", setup="editor.background = (255, 220, 0)")
+    wait_for_color(beside, yellow)

@@ -427,25 +427,30 @@ e.clipboardData?.getData("text")??"")})}async paste(){try{this.#put(await naviga
 this.canvas.say(NOT_COPIED)}}#put(text){this.canvas.link.put({type:"paste_pose",text})}};var LONGEST=1600;var QUALITY=.85;var WORLD=20;function placeOf([width,height],picture,view){const world=picture.
 map(side=>WORLD*side/Math.max(...picture));const scale=Math.min(world[0]/width,world[1]/height)/view.
 unit;const[x,y]=view.toScreen([0,0]);const[wide,high]=[scale*width,scale*height];return{left:x-wide/
-2,top:y-high/2,width:wide,height:high}}var Reference=class{#url="";#size=null;#turn=0;constructor(box,model,view){
-this.box=box;this.model=model;this.view=view}close(){this.#turn+=1;URL.revokeObjectURL(this.#url)}toggle(){
-if(this.model.get("reference").byteLength){save(this.model,{reference:new DataView(new ArrayBuffer(0))});
-return}const input=make("input",{type:"file",accept:"image/*"});input.addEventListener("change",()=>input.
-files?.[0]&&this.#take(input.files[0]));input.click()}async#take(file){try{save(this.model,{reference:new DataView(
-await shrunk(file)),notice:""})}catch{save(this.model,{notice:`${file.name} is not a picture that th\
-is browser can show`})}}async show(){this.#turn+=1;const turn=this.#turn;const bytes=this.model.get(
-"reference");const blob=new Blob([bytes]);const bitmap=bytes.byteLength?await createImageBitmap(blob):
-null;if(turn!==this.#turn)return;URL.revokeObjectURL(this.#url);this.#url=bitmap?URL.createObjectURL(
-blob):"";this.#size=bitmap&&[bitmap.width,bitmap.height];bitmap?.close();this.place()}place(){const pane=this.
-box.closest(".glid-pane");if(!pane)return;pane.classList.toggle("glid-referenced",this.#size!==null);
-if(!this.#size)return;const at=placeOf(this.#size,this.model.get("picture_size"),this.view);pane.style.
-setProperty("--glid-reference",`url("${this.#url}")`);pane.style.setProperty("--glid-reference-place",
-`${at.left}px ${at.top}px`);pane.style.setProperty("--glid-reference-size",`${at.width}px ${at.height}\
-px`)}};async function shrunk(file){const bitmap=await createImageBitmap(file);const scale=Math.min(1,
-LONGEST/Math.max(bitmap.width,bitmap.height));const width=Math.max(1,Math.round(scale*bitmap.width));
-const height=Math.max(1,Math.round(scale*bitmap.height));const canvas=make("canvas",{width,height});
-penOf(canvas).drawImage(bitmap,0,0,width,height);bitmap.close();const blob=await new Promise((done,fail)=>{
-canvas.toBlob(made=>made?done(made):fail(),"image/webp",QUALITY)});return blob.arrayBuffer()}var LEAST_SIZE=240;function resizeGrip(model){let beyond=null;const side=length=>Math.max(LEAST_SIZE,
+2,top:y-high/2,width:wide,height:high}}var Reference=class{#picture=null;#behind=null;#turn=0;constructor(box,model,view){
+this.box=box;this.model=model;this.view=view}close(){this.#turn+=1;this.#drop()}#drop(){for(const picture of[
+this.#picture,this.#behind]){if(picture)URL.revokeObjectURL(picture.url)}}toggle(){if(this.model.get(
+"reference").byteLength){save(this.model,{reference:new DataView(new ArrayBuffer(0))});return}const input=make(
+"input",{type:"file",accept:"image/*"});input.addEventListener("change",()=>input.files?.[0]&&this.#take(
+input.files[0]));input.click()}async#take(file){try{save(this.model,{reference:new DataView(await shrunk(
+file)),notice:""})}catch{save(this.model,{notice:`${file.name} is not a picture that this browser ca\
+n show`})}}async show(){this.#turn+=1;const turn=this.#turn;const{model}=this;const pictures=[model.
+get("reference"),model.get("behind_reference")].map(opened);const[picture,behind]=await Promise.all(
+pictures);if(turn!==this.#turn)return;this.#drop();this.#picture=picture&&{...picture,url:URL.createObjectURL(
+picture.blob)};this.#behind=behind&&{...behind,url:URL.createObjectURL(behind.blob)};this.place()}place(){
+const pane=this.box.closest(".glid-pane");if(!pane)return;pane.classList.toggle("glid-referenced",this.#picture!==
+null);const frame=this.model.get("picture_size");this.#put(pane,"--glid-reference",this.#picture);this.#put(
+pane,"--glid-behind",this.#behind&&{...this.#behind,size:frame})}#put({style},name,picture){if(!picture){
+style.removeProperty(name);return}const at=placeOf(picture.size,this.model.get("picture_size"),this.
+view);style.setProperty(name,`url("${picture.url}")`);style.setProperty(`${name}-place`,`${at.left}p\
+x ${at.top}px`);style.setProperty(`${name}-size`,`${at.width}px ${at.height}px`)}};async function opened(bytes){
+if(!bytes.byteLength)return null;const blob=new Blob([bytes]);const bitmap=await createImageBitmap(blob);
+const size=[bitmap.width,bitmap.height];bitmap.close();return{blob,size}}async function shrunk(file){
+const bitmap=await createImageBitmap(file);const scale=Math.min(1,LONGEST/Math.max(bitmap.width,bitmap.
+height));const width=Math.max(1,Math.round(scale*bitmap.width));const height=Math.max(1,Math.round(scale*
+bitmap.height));const canvas=make("canvas",{width,height});penOf(canvas).drawImage(bitmap,0,0,width,
+height);bitmap.close();const blob=await new Promise((done,fail)=>{canvas.toBlob(made=>made?done(made):
+fail(),"image/webp",QUALITY)});return blob.arrayBuffer()}var LEAST_SIZE=240;function resizeGrip(model){let beyond=null;const side=length=>Math.max(LEAST_SIZE,
 Math.round(length));const grip=make("div",{className:"glid-resize",title:"Drag to resize"});const place=({
 clientX,clientY})=>{const{across,down}=scaleOf(grip);return[clientX/across,clientY/down]};grip.addEventListener(
 "pointerdown",e=>{e.preventDefault();grip.setPointerCapture(e.pointerId);const[x,y]=place(e);beyond=
@@ -813,8 +818,8 @@ time":()=>model.get("drawn")&&!model.get("drawing_time")&&measure(canvas,signal)
 e:cursor change:onion change:stiff change:brush change:pins":()=>canvas.redraw(),"glid:motion":(...shown)=>canvas.
 showMotion(...shown),"change:legend change:panel_legend change:legend_corner":()=>canvas.showLegend(),
 "change:notice change:marks change:brush":()=>canvas.showNotice(),"change:marks":()=>canvas.reveal(),
-"change:brush":()=>canvas.takeFocus(),"change:reference":()=>canvas.reference.show(),"change:prepare\
-d":()=>canvas.notices.prepare(model.get("prepared"))});measure(canvas,signal);if(model.get("uniform_\
-vectors")===0){save(model,{uniform_vectors:uniformVectors()||-1})}return()=>canvas.close()}async function measure({
-box,model,shapes},signal){await shapes.load();const time=await drawingTime(box,shapes);if(!signal.aborted)
-save(model,{drawn:true,drawing_time:time})}var main_default={render};export{main_default as default};
+"change:brush":()=>canvas.takeFocus(),"change:reference change:behind_reference":()=>void canvas.reference.
+show(),"change:prepared":()=>canvas.notices.prepare(model.get("prepared"))});measure(canvas,signal);
+if(model.get("uniform_vectors")===0){save(model,{uniform_vectors:uniformVectors()||-1})}return()=>canvas.
+close()}async function measure({box,model,shapes},signal){await shapes.load();const time=await drawingTime(
+box,shapes);if(!signal.aborted)save(model,{drawn:true,drawing_time:time})}var main_default={render};export{main_default as default};

@@ -26,7 +26,7 @@ function render(context) {
     "change:notice change:marks change:brush": () => canvas.showNotice(),
     "change:marks": () => canvas.reveal(),
     "change:brush": () => canvas.takeFocus(),
-    "change:reference": () => canvas.reference.show(),
+    "change:reference change:behind_reference": () => void canvas.reference.show(),
     "change:prepared": () => canvas.notices.prepare(model.get("prepared")),
   });
   measure(canvas, signal);

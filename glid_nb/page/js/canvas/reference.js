@@ -1,6 +1,7 @@
 // A picture behind the shape, to draw poses after. It is dimmed, and no export has it.
 //
-// It is the background of the pane in CSS, below the renderer, and moves with the view.
+// It lies in the pane in CSS, below the renderer, and moves with the view. The renderer would draw a
+// chosen background over it, so meanwhile that is the pane's background in CSS.
 
 import { make, penOf, save } from "../pad/dom.js";
 
@@ -27,10 +28,13 @@ export function placeOf([width, height], picture, view) {
   return { left: x - wide / 2, top: y - high / 2, width: wide, height: high };
 }
 
+/** @typedef {{ url: string, size: Point }} Picture */
+
 export class Reference {
-  #url = "";
-  /** @type {Point | null} */
-  #size = null;
+  /** @type {Picture | null} */
+  #picture = null;
+  /** @type {Picture | null} the background below it */
+  #behind = null;
   #turn = 0; // counts the pictures, to tell the newest
 
   /**
@@ -46,7 +50,13 @@ export class Reference {
 
   close() {
     this.#turn += 1;
-    URL.revokeObjectURL(this.#url);
+    this.#drop();
+  }
+
+  #drop() {
+    for (const picture of [this.#picture, this.#behind]) {
+      if (picture) URL.revokeObjectURL(picture.url);
+    }
   }
 
   /** Lets the user choose a file, or takes the reference away if there is one. */
@@ -73,14 +83,13 @@ export class Reference {
   async show() {
     this.#turn += 1;
     const turn = this.#turn;
-    const bytes = this.model.get("reference");
-    const blob = new Blob([bytes]);
-    const bitmap = bytes.byteLength ? await createImageBitmap(blob) : null;
+    const { model } = this;
+    const pictures = [model.get("reference"), model.get("behind_reference")].map(opened);
+    const [picture, behind] = await Promise.all(pictures);
     if (turn !== this.#turn) return; // there is a newer one
-    URL.revokeObjectURL(this.#url);
-    this.#url = bitmap ? URL.createObjectURL(blob) : "";
-    this.#size = bitmap && [bitmap.width, bitmap.height];
-    bitmap?.close();
+    this.#drop();
+    this.#picture = picture && { ...picture, url: URL.createObjectURL(picture.blob) };
+    this.#behind = behind && { ...behind, url: URL.createObjectURL(behind.blob) };
     this.place();
   }
 
@@ -89,13 +98,45 @@ export class Reference {
     /** @type {HTMLElement | null} */
     const pane = this.box.closest(".glid-pane");
     if (!pane) return;
-    pane.classList.toggle("glid-referenced", this.#size !== null);
-    if (!this.#size) return;
-    const at = placeOf(this.#size, this.model.get("picture_size"), this.view);
-    pane.style.setProperty("--glid-reference", `url("${this.#url}")`);
-    pane.style.setProperty("--glid-reference-place", `${at.left}px ${at.top}px`);
-    pane.style.setProperty("--glid-reference-size", `${at.width}px ${at.height}px`);
+    pane.classList.toggle("glid-referenced", this.#picture !== null);
+    const frame = /** @type {Point} */ (this.model.get("picture_size"));
+    // The background fills the frame, whatever its size: a colour is one pixel.
+    this.#put(pane, "--glid-reference", this.#picture);
+    this.#put(pane, "--glid-behind", this.#behind && { ...this.#behind, size: frame });
   }
+
+  /**
+   * Sets the style's variables of a picture: itself, its place and its size.
+   *
+   * @param {HTMLElement} pane
+   * @param {string} name
+   * @param {Picture | null} picture
+   */
+  #put({ style }, name, picture) {
+    if (!picture) {
+      style.removeProperty(name);
+      return;
+    }
+    const at = placeOf(picture.size, this.model.get("picture_size"), this.view);
+    style.setProperty(name, `url("${picture.url}")`);
+    style.setProperty(`${name}-place`, `${at.left}px ${at.top}px`);
+    style.setProperty(`${name}-size`, `${at.width}px ${at.height}px`);
+  }
+}
+
+/**
+ * A picture from the kernel, and its size; null for none.
+ *
+ * @param {DataView<ArrayBuffer>} bytes
+ */
+async function opened(bytes) {
+  if (!bytes.byteLength) return null;
+  const blob = new Blob([bytes]);
+  const bitmap = await createImageBitmap(blob);
+  /** @type {Point} */
+  const size = [bitmap.width, bitmap.height];
+  bitmap.close();
+  return { blob, size };
 }
 
 /**

@@ -78,6 +78,8 @@ export interface CanvasTraits {
   picture_size: number[];
   /** A picture behind the shape; empty for none. */
   reference: DataView<ArrayBuffer>;
+  /** The background, while there is a reference over it; empty for none. */
+  behind_reference: DataView<ArrayBuffer>;
   onion: [color: string, loops: Point[][]][];
   stiff: [strength: number, loops: Point[][]][];
   /** Empty before the kernel has told of it. */

@@ -33,9 +33,7 @@ function render(context) {
     "change:thumbnails": () => timeline.showKeys(),
   });
 
-  const edited = () => {
-    if (player.seen) timeline.release();
-  };
+  const edited = () => timeline.edited();
   findStage(context, timeline).then(() => timeline.stage?.on("change:coefficients", edited));
 
   return () => {

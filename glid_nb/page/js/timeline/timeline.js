@@ -10,6 +10,7 @@ import { Player } from "./player.js";
 import { keyAt, nextKey, withReturn } from "./scale.js";
 import { Track } from "./track.js";
 import { noteOn } from "./words.js";
+import { worstOf } from "./worst.js";
 
 /** @import { Context, Model } from "../types.js" */
 /** @import { Heights, Span, TimelineTraits } from "./traits.js" */
@@ -17,7 +18,7 @@ import { noteOn } from "./words.js";
 const NUDGE = 0.1; // s, with Alt
 
 export class Timeline {
-  note = make("div", { className: "glid-timeline-note", role: "status", "aria-live": "polite" });
+  note = make("div", { className: "glid-timeline-note", role: "status" });
   /** @type {Model<any> | null} the canvas's, once it is found */
   stage = null;
 
@@ -26,12 +27,15 @@ export class Timeline {
   /** @type {Record<string, Motion | null>} those of the shapes around the edited one, by their keys */
   #otherLayers = {};
   #easeBefore = -1; // the segment whose easing was open when a button was pressed
+  /** @type {number | null} where the kernel has been asked to go, until it has answered */
+  #goal = null;
   #played = false; // whether the kernel knows that somebody has played
   #hovered = ""; // what lies below the pointer, in words
   #playing = {
     release: () => this.release(),
     pause: () => {
       this.player.pause();
+      this.#goal = this.player.place; // a drag there makes a keyframe; a click gives the goal up
       return this.player.place;
     },
     reach: () => {
@@ -112,6 +116,12 @@ export class Timeline {
     return this.model.get("motion").spans;
   }
 
+  /** The proofs between the keyframes, of all parts together. */
+  get segments() {
+    const others = this.model.get("part_motions");
+    return worstOf([{ name: this.shown.part ?? "", spans: this.spans }, ...others]);
+  }
+
   get active() {
     return this.shown.keyframes[this.shown.active];
   }
@@ -138,22 +148,54 @@ export class Timeline {
 
   /** Back to the pose that is edited. */
   release = () => {
+    this.#goal = null;
     this.player.release(this.active.time);
   };
+
+  /**
+   * The canvas draws another map: it shows a pose that is edited. Of a pose that was just chosen the
+   * map comes first, and the playhead waits there for the rest.
+   */
+  edited() {
+    if (this.player.seen) this.player.release(this.#goal ?? this.active.time);
+  }
 
   /** @param {number} index */
   select(index) {
     if (index === this.shown.active) this.release();
-    else this.act("go_to_pose", { index });
+    else this.#go("go_to_pose", { index }, this.shown.keyframes[index].time);
+  }
+
+  /**
+   * Asks the kernel to edit the pose at a time.
+   *
+   * @param {string} type
+   * @param {Record<string, unknown>} content
+   * @param {number} time
+   */
+  async #go(type, content, time) {
+    this.#goal = time;
+    await this.act(type, content);
+    if (this.#goal === time) this.#goal = null;
   }
 
   tell() {
+    const { note } = this;
+    const { text, kind } = this.#told();
+    // What goes on is not spoken: it changes with each pose, and the footer speaks then.
+    note.ariaLive = kind === "state" || kind === "hover" ? "off" : "polite";
+    if (note.textContent !== text) note.textContent = text;
+    note.title = text;
+    note.dataset.kind = kind;
+    note.dataset.tone = kind === "bad" ? "bad" : "";
+  }
+
+  /** @returns {import("./words.js").Note} */
+  #told() {
     const { refusal } = this.link;
-    const bad = this.spans.some(({ reason }) => reason);
-    const text = refusal || this.#hovered || noteOn(this.shown, this.spans);
-    this.note.textContent = text;
-    this.note.title = text;
-    this.note.dataset.tone = refusal || (bad && !this.#hovered) ? "bad" : "";
+    if (refusal) return { text: refusal, kind: "bad" };
+    if (this.#hovered) return { text: this.#hovered, kind: "hover" };
+    return noteOn(this.shown, this.segments);
   }
 
   showHead() {
@@ -184,7 +226,8 @@ export class Timeline {
     this.bar.update(this.shown);
     this.showKeys();
     this.showMotion();
-    if (moved || !this.player.seen) this.release();
+    if (moved) this.release();
+    else if (!this.player.seen) this.player.release(this.#goal ?? this.active.time);
   }
 
   showMotion() {
@@ -195,7 +238,7 @@ export class Timeline {
     const computing = spans.some(({ status }) => status === "computing");
     if (shown.kernel && !player.playing && player.seen && computing) this.release();
     this.tell();
-    this.track.showSpans(spans, this.note.textContent ?? "");
+    this.track.showSegments(this.segments, noteOn(shown, this.segments).text);
     this.showHead();
   }
 
@@ -247,7 +290,8 @@ export class Timeline {
   /** Makes a keyframe of what is shown. */
   keep() {
     const { player } = this;
-    this.act("keep", { time: player.seen ? player.place : this.active.time });
+    if (player.seen) this.#go("keep", { time: player.place }, player.place);
+    else this.act("keep", { time: this.active.time });
   }
 
   /**

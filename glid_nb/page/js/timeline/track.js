@@ -9,10 +9,11 @@ import { nameOf, stretchedCurve } from "./ease.js";
 import { nameField } from "./name_field.js";
 import { RangeMarks } from "./range.js";
 import { frameAt, labelledTimes, landing, roomAt, spanOf, withReturn } from "./scale.js";
-import { seconds } from "./words.js";
+import { boundOf, reasonOf, seconds } from "./words.js";
 import { INSET, Zoom } from "./zoom.js";
 
-/** @import { Keyframe, Shown, Span, TimelineTraits } from "./traits.js" */
+/** @import { Keyframe, Shown, TimelineTraits } from "./traits.js" */
+/** @import { Segment } from "./worst.js" */
 
 /**
  * What a hand on the track does.
@@ -258,11 +259,11 @@ export class Track {
   }
 
   /**
-   * @param {Span[]} spans
+   * @param {Segment[]} segments
    * @param {string} label
    */
-  showSpans(spans, label) {
-    this.strip.replaceChildren(...spans.flatMap((span) => this.#pieces(span)));
+  showSegments(segments, label) {
+    this.strip.replaceChildren(...segments.flatMap((segment) => this.#pieces(segment)));
     this.strip.setAttribute("aria-label", label);
     this.#label();
   }
@@ -283,18 +284,15 @@ export class Track {
     this.#hideNarrow();
   }
 
-  /** @param {Span} span */
-  #pieces({ start, end, status, reason, times, sigma2 }) {
-    const proved = sigma2.map((bound, i) => {
-      const when = `from ${seconds(times[i])} to ${seconds(times[i + 1])}`;
-      const height = heightOf(bound);
-      const text = `Proved ${when}: σ₂ ≥ ${bound.toFixed(3)}`;
-      return this.#piece(times[i], times[i + 1], "proved", text, height);
+  /** @param {Segment} segment */
+  #pieces(segment) {
+    const { end, status, until, pieces } = segment;
+    const proved = pieces.map((piece) => {
+      const height = heightOf(piece.sigma2);
+      return this.#piece(piece.start, piece.end, "proved", boundOf(piece), height);
     });
     if (status === "proved") return proved;
-    const from = status === "fails" ? (times.at(-1) ?? start) : start;
-    const text = reason || `Not proved yet from ${seconds(start)} to ${seconds(end)}`;
-    return [...proved, this.#piece(from, end, status, text, 1)];
+    return [...proved, this.#piece(until, end, status, reasonOf(segment), 1)];
   }
 
   /**

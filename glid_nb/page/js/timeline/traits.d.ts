@@ -16,7 +16,7 @@ export interface Keyframe {
 export interface Span {
   start: number;
   end: number;
-  status: "proved" | "fails" | "computing";
+  status: "proved" | "fails" | "refused" | "computing";
   reason: string;
   /** The last instant that is proved. */
   until: number;
@@ -42,6 +42,8 @@ export interface Shown {
   exports: boolean;
   /** Whether the kernel evaluates the motion. */
   kernel: boolean;
+  /** The name of the edited part; empty if there is only one shape. */
+  part: string;
 }
 
 /** The heights of a picture's vertices at the keyframes; no times where they stay. */
@@ -53,6 +55,7 @@ export interface Heights {
 /** The motion of a shape around the edited one. */
 export interface PartMotion {
   key: string;
+  name: string;
   spans: Span[];
   heights: Heights;
 }

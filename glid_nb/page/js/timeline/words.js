@@ -1,6 +1,7 @@
 // What the timeline says of a motion.
 
-/** @import { Shown, Span } from "./traits.js" */
+/** @import { Shown } from "./traits.js" */
+/** @import { Segment } from "./worst.js" */
 
 const KERNEL = "Played by the kernel (too large for shaders). ";
 
@@ -10,29 +11,60 @@ export function seconds(time) {
 }
 
 /**
- * @param {Shown} shown
- * @param {Span[]} spans
+ * What the timeline says, and of which kind that is: what to do next, what goes on, why something is
+ * not proved, or what lies below the pointer. At one time one place of the editor gives advice (timeline.css).
+ *
+ * @typedef {{ text: string, kind: "advice" | "recording" | "bad" | "state" | "hover" }} Note
  */
-export function noteOn({ keyframes, recording, kernel }, spans) {
-  const bad = spans.find(({ reason }) => reason);
-  const note = state(keyframes.length, recording, bad?.reason, spans);
-  return kernel && spans.length && !bad ? KERNEL + note : note;
+
+/**
+ * @param {Shown} shown
+ * @param {Segment[]} segments
+ * @returns {Note}
+ */
+export function noteOn({ keyframes, recording, kernel }, segments) {
+  if (recording) {
+    const text = "Recording: drag a pin; its movement becomes keyframes.";
+    return { text, kind: "recording" };
+  }
+  const bad = segments.find(({ reason }) => reason);
+  if (bad) return { text: reasonOf(bad), kind: "bad" };
+  if (!segments.length) {
+    const alone = keyframes.length < 2;
+    const text = alone ? "Key (K) a second pose to see the motion between them." : "";
+    return { text, kind: "advice" };
+  }
+  return { text: (kernel ? KERNEL : "") + proofOf(segments), kind: "state" };
 }
 
 /**
- * @param {number} count of keyframes
- * @param {boolean} recording
- * @param {string | undefined} reason why it is not proved
- * @param {Span[]} spans
+ * Why a segment is not proved, with the part if there are several.
+ *
+ * @param {Segment} segment
  */
-function state(count, recording, reason, spans) {
-  if (recording) return "Recording: drag a pin; its movement becomes keyframes.";
-  if (reason) return reason;
-  if (spans.some(({ status }) => status === "computing"))
+export function reasonOf({ start, end, reason, part }) {
+  const text = reason || `Not proved yet from ${seconds(start)} to ${seconds(end)}`;
+  return part ? `${part}: ${text}` : text;
+}
+
+/**
+ * What is proved of a piece, with the part that is worst if there are several.
+ *
+ * @param {import("./worst.js").Piece} piece
+ */
+export function boundOf({ start, end, sigma2, part }) {
+  const text = `σ₂ ≥ ${sigma2.toFixed(3)} from ${seconds(start)} to ${seconds(end)}`;
+  return part ? `${text}; the worst part is ${part}` : text;
+}
+
+/** @param {Segment[]} segments */
+function proofOf(segments) {
+  if (segments.some(({ status }) => status === "computing")) {
     return "Proving the motion between poses…";
-  const last = spans.at(-1);
-  if (!last) return count < 2 ? "Key (K) a second pose to see the motion between them." : "";
-  const least = Math.min(...spans.flatMap(({ sigma2 }) => sigma2));
-  const lasts = seconds(last.end - spans[0].start);
-  return `Proved at every instant of ${lasts}: σ₂ ≥ ${least.toFixed(3)}.`;
+  }
+  const pieces = segments.flatMap((segment) => segment.pieces);
+  const { sigma2, part } = pieces.reduce((a, b) => (b.sigma2 < a.sigma2 ? b : a));
+  const lasts = seconds(segments[segments.length - 1].end - segments[0].start);
+  const where = part ? ` (${part})` : "";
+  return `Proved at every instant of ${lasts}: σ₂ ≥ ${sigma2.toFixed(3)}${where}.`;
 }

@@ -1,0 +1,118 @@
+"""The playhead while keyframes are chosen, and the advice of the timeline, in a real browser."""
+
+from __future__ import annotations
+
+import pytest
+
+from .conftest import OpenNotebook
+from .editor_page import NEW_PICTURE, SETUP, Hand
+from .test_timeline_browser import Timeline
+
+pytestmark = [pytest.mark.browser, pytest.mark.slow]
+
+EDITOR = """
+from glid_nb.session.first_minute import IN_THIS_SESSION
+IN_THIS_SESSION._made = {"pin", "drag", "turn"}  # the hint is about keyframes
+editor = glid.Editor(picture, n_vertices=600, width=560, height=300)
+canvas, model = editor.canvas, editor.deformation
+editor
+"""
+POSES = """
+model.add_handles([(-6, 0), (6, 0)])
+model.save_pose(); model.drag(1, (6.0, 2.0)); model.solve(60)
+model.save_pose(); model.drag(1, (6.0, -2.0)); model.solve(60)
+"""
+# Every place at which the playhead is, one after the other.
+RECORD = """(track) => {
+  window.places = [Number(track.dataset.time)];
+  window.recorder = new MutationObserver(() => {
+    const time = Number(track.dataset.time);
+    if (time !== window.places.at(-1)) window.places.push(time);
+  });
+  window.recorder.observe(track, { attributes: true, attributeFilter: ["data-time"] });
+}"""
+RECORDED = "() => { window.recorder.disconnect(); return window.places; }"
+
+
+def test_the_playhead_goes_to_a_chosen_keyframe_and_nowhere_else(
+    open_notebook: OpenNotebook,
+) -> None:
+    book = open_notebook([SETUP, NEW_PICTURE + EDITOR])
+    hand, page = Hand(book), book.page
+    timeline = Timeline(hand)
+    book.value("None", setup=POSES)
+    timeline.settle()
+    times = timeline.times
+    track = timeline.track
+
+    def wait_at(index: int) -> None:
+        book.wait_for(f"model.state.active == {index}")
+        page.wait_for_function(
+            "([track, time]) => Number(track.dataset.time) === time"
+            " && !track.querySelector('.glid-seen')",
+            arg=[track.element_handle(), times[index]],
+        )
+        hand.settle()
+        hand.wait_until_drawn()
+
+    wait_at(2)
+
+    # By a click, from the pose that is edited, and from a motion that is shown.
+    for scrubbed in (None, 0.5 * times[1]):
+        if scrubbed is not None:
+            timeline.scrub([scrubbed])
+        before = timeline.time
+        track.evaluate(RECORD)
+        timeline.keys.nth(1).click()
+        wait_at(1)
+        assert page.evaluate(RECORDED) == [before, times[1]]
+        timeline.keys.nth(2).click()
+        wait_at(2)
+
+    # By a pointer that scrubs and is let go at a keyframe.
+    track.evaluate(RECORD)
+    timeline.scrub([0.4 * times[1], times[1]])
+    wait_at(1)
+    places = page.evaluate(RECORDED)
+    assert places == [times[2], pytest.approx(0.4 * times[1], abs=0.02), times[1]]
+
+    # A keyframe between two others is made where the playhead is.
+    timeline.scrub([1.5 * times[1]])
+    between = timeline.time
+    track.evaluate(RECORD)
+    hand.pad.focus()
+    page.keyboard.press("k")
+    book.wait_for("len(model.state.poses) == 4")
+    hand.settle()
+    hand.wait_until_drawn()
+    places = page.evaluate(RECORDED)
+    assert times[1] not in places, places
+    assert places[-1] == pytest.approx(between, abs=0.006)
+
+
+def test_one_place_of_the_editor_gives_advice(open_notebook: OpenNotebook) -> None:
+    book = open_notebook([SETUP, NEW_PICTURE + EDITOR])
+    hand, page = Hand(book), book.page
+    timeline = Timeline(hand)
+    note = timeline.root.locator(".glid-timeline-note")
+    hint = page.locator(".glid-foot .glid-next")
+    hint.get_by_text("Keep this pose as a keyframe").wait_for()
+    assert not note.is_visible()
+    book.screenshot("one-advice")
+
+    timeline.button("Record")
+    note.get_by_text("Recording").wait_for()
+    hint.wait_for(state="hidden")
+    book.screenshot("one-advice-recording")
+    timeline.button("Record")
+    hint.wait_for()
+    note.wait_for(state="hidden")
+
+    # What is pointed at and what is refused is told all the same.
+    timeline.button("Key this pose")
+    book.wait_for("len(model.state.poses) == 2")
+    timeline.settle()
+    note.get_by_text("Proved at every instant").wait_for()
+    assert note.get_attribute("aria-live") == "off"  # the footer speaks
+    timeline.root.locator(".glid-piece").first.hover()
+    note.get_by_text("σ₂ ≥").wait_for()
