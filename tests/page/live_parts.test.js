@@ -96,7 +96,15 @@ function startedPair() {
  * @returns {Pin}
  */
 function pinOf(part, target) {
-  return { handle: [0.5, 0.25, part], target, angle: null, scale: null, weight: 1, name: "" };
+  return {
+    handle: [0.5, 0.25, part],
+    target,
+    angle: null,
+    scale: null,
+    weight: 1,
+    depth: 0,
+    name: "",
+  };
 }
 
 test("coefficients of all parts are one list, and are divided again", () => {

@@ -8,10 +8,12 @@ changes))model.set(name,value);model.save_changes()}function toFloats(view){if(!
 return new Float32Array(view.buffer.slice(view.byteOffset,view.byteOffset+view.byteLength))}function follow(model,listeners){
 for(const[names,listener]of Object.entries(listeners)){model.on(names,listener);listener()}}var OF_THE_PAD=["pointerdown","pointermove","wheel","keydown","keyup","contextmenu"];function shield(element){
 for(const name of OF_THE_PAD)element.addEventListener(name,e=>e.stopPropagation());return element}function help(sections){
-const table=shield(make("div",{className:"glid-help",popover:"auto",tabIndex:-1},...sections.map(section)));
+const head=make("div",{className:"glid-help-head"},make("h3",{},"Keys and gestures"),make("button",{
+title:"Close",ariaLabel:"Close"},"×"));const columns=make("div",{},...sections.map(section));const look={
+className:"glid-help",popover:"auto",tabIndex:-1};const table=shield(make("div",look,head,columns));
 table.addEventListener("click",()=>table.hidePopover());table.addEventListener("beforetoggle",()=>Object.
-assign(table,{autofocus:true}));const title="Keys and gestures (?)";const look={className:"glid-help\
--button",title,"aria-label":title};const button=shield(make("button",{...look,popoverTargetElement:table},
+assign(table,{autofocus:true}));const title="Keys and gestures (?)";const around={className:"glid-he\
+lp-button",title,"aria-label":title};const button=shield(make("button",{...around,popoverTargetElement:table},
 "?"));return{table,button,toggle:()=>void table.togglePopover()}}function section([title,rows]){return make(
 "section",{},make("h4",{},title),make("table",{},...rows.map(row)))}function row([keys,what]){return make(
 "tr",{},make("th",{},keys),make("td",{},what))}var PATHS={edit:"M3 2l9.5 5.2-4 1.2 2.4 4.3-1.8 1-2.4-4.3L3 12z",brush:"M13.5 2.5l-6 6 M6.7 9.2c-1.6\
@@ -68,20 +70,23 @@ hidden)this.#release();else this.#drawing=requestAnimationFrame(()=>this.#releas
 this.#waiting=false;this.#flush()}#stop(){clearTimeout(this.#overdue);clearTimeout(this.#timeout);cancelAnimationFrame(
 this.#drawing)}};function connectNoMoreComms(kernel){const status=kernel?.statusChanged;const connect=status?.
 connect;if(!connect||Object.hasOwn(status,"connect"))return;status.connect=(slot,receiver)=>!String(
-slot).includes("_cleanSubshells")&&connect.call(status,slot,receiver)}function openMenu(element,[x,y],rows){const ending2=new AbortController;let pressed=false;const close=()=>{
-ending2.abort();menu.remove();element.focus({preventScroll:true})};const step=by=>{const items=[...menu.
-querySelectorAll("button")];const focused=document.activeElement;const present=items.indexOf(focused);
-items.at((present+by)%items.length)?.focus()};const keys={ArrowDown:()=>step(1),ArrowUp:()=>step(-1),
-Escape:close,Tab:close};const item=row2=>{if(!row2)return make("hr");const[label,key,act]=row2;const onclick=e=>{
+slot).includes("_cleanSubshells")&&connect.call(status,slot,receiver)}var EDGE=8;function openMenu(element,[x,y],rows){const ending2=new AbortController;let pressed=false;
+const close=()=>{ending2.abort();menu.remove();element.focus({preventScroll:true})};const step=by=>{
+const items=[...menu.querySelectorAll("button")];const focused=document.activeElement;const present=items.
+indexOf(focused);items.at((present+by)%items.length)?.focus()};const keys={ArrowDown:()=>step(1),ArrowUp:()=>step(
+-1),Escape:close,Tab:close};const item=row2=>{if(!row2)return make("hr");const[label,key,act]=row2;const onclick=e=>{
 if(!pressed&&e.detail)return;close();act()};return make("button",{role:"menuitem",onclick},label,make(
-"kbd",{},key))};const menu=shield(make("div",{className:"glid-menu",role:"menu",onpointerdown:()=>{pressed=
-true},oncontextmenu:e=>e.preventDefault(),onkeydown:e=>{if(!keys[e.key])return;e.preventDefault();keys[e.
-key]()}},...rows.map(item)));element.querySelector(".glid-menu")?.remove();element.append(menu);menu.
-style.left=within(x,element.clientWidth-menu.offsetWidth);menu.style.top=within(y,element.clientHeight-
-menu.offsetHeight);const pressedElsewhere=e=>{const target=e.target;if(menu.contains(target))return;
-close();if(e.button===0&&element.contains(target))e.stopPropagation()};window.addEventListener("poin\
-terdown",pressedElsewhere,{capture:true,signal:ending2.signal});step(1)}function within(at,room){return`${Math.
-max(0,Math.min(at,room))}px`}var NEARLY_NOTHING="rgba(255, 255, 255, 0.004)";function painter(canvas,view,signal,draw2){let due=0;
+"kbd",{},key))};const menu=shield(make("div",{className:"glid-menu",role:"menu",popover:"manual",onpointerdown:()=>{
+pressed=true},oncontextmenu:e=>e.preventDefault(),onkeydown:e=>{if(!keys[e.key])return;e.preventDefault();
+keys[e.key]()}},...rows.map(item)));element.querySelector(".glid-menu")?.remove();element.append(menu);
+menu.showPopover();putAt(menu,onPage(element,[x,y]));const pressedElsewhere=e=>{const target=e.target;
+if(menu.contains(target))return;close();if(e.button===0&&element.contains(target))e.stopPropagation()};
+window.addEventListener("pointerdown",pressedElsewhere,{capture:true,signal:ending2.signal});step(1)}
+function onPage(element,[x,y]){const{left,top,width,height}=element.getBoundingClientRect();return[left+
+x*width/element.offsetWidth,top+y*height/element.offsetHeight]}function putAt(menu,[x,y]){const{width,
+height}=menu.getBoundingClientRect();const zoom=width/menu.offsetWidth||1;menu.style.left=`${within(
+x,window.innerWidth-width)/zoom}px`;menu.style.top=`${within(y,window.innerHeight-height)/zoom}px`}function within(at,room){
+return Math.max(EDGE,Math.min(at,room-EDGE))}var NEARLY_NOTHING="rgba(255, 255, 255, 0.004)";function painter(canvas,view,signal,draw2){let due=0;
 signal.addEventListener("abort",()=>cancelAnimationFrame(due));return()=>{if(due)return;due=requestAnimationFrame(
 ()=>{due=0;draw2(clearedPen(canvas,view))})}}function clearedPen(canvas,{width,height}){const ratio=window.
 devicePixelRatio||1;const wide=Math.round(width*ratio);const high=Math.round(height*ratio);if(canvas.
@@ -240,7 +245,7 @@ function footOn(start,end,point){const along=[end[0]-start[0],end[1]-start[1]];c
 along[0]+(point[1]-start[1])*along[1];const share=Math.min(Math.max(dot/(distance(start,end)**2||1e-30),
 0),1);return[start[0]+share*along[0],start[1]+share*along[1]]}function encloses(loop,[x,y]){let winding=0;loop.forEach(([x0,y0],i)=>{const[x1,y1]=loop[(i+1)%loop.
 length];const left=(x1-x0)*(y-y0)-(x-x0)*(y1-y0);if(y0<=y&&y1>y&&left>0)winding+=1;if(y0>y&&y1<=y&&left<
-0)winding-=1});return winding!==0}var KNOB=6;var KNOB_REACH=4;var RADIUS=42;var LEAST_RADIUS=24;var EDGE=14;var CORNER=[36,112];var ARROW_REACH=12;
+0)winding-=1});return winding!==0}var KNOB=6;var KNOB_REACH=4;var RADIUS=42;var LEAST_RADIUS=24;var EDGE2=14;var CORNER=[36,112];var ARROW_REACH=12;
 function dial(view,marks,held){const last=marks.selected.at(-1);const[angle,scale]=marks.ring;if(angle===
 void 0||scale===void 0)return null;if(last===void 0||!marks.targets[last])return null;const centre=view.
 toScreen(held?.get(last)??marks.targets[last]);const radius=RADIUS*Math.min(2.5,Math.max(.5,scale));
@@ -261,7 +266,7 @@ CORNER[0]:0;const width=within2(x,view.width-besideButtons);return{at:[width,hei
 atan2(y-height,x-width)}})}function arrowAt(view,marks,place){const arrow=arrowsTo(view,marks.targets).
 find(({at})=>distance(at,place)<ARROW_REACH);return arrow?.target??null}function inSight(view,point){
 const[x,y]=view.toScreen(point);return x>=0&&y>=0&&x<=view.width&&y<=view.height}function within2(at,size){
-return Math.min(size-EDGE,Math.max(EDGE,at))}var TARGET=7.5;var IMAGE=3.5;var RING=12;var APART=2;var BORDER="rgba(255,255,255,0.85)";var PALE="r\
+return Math.min(size-EDGE2,Math.max(EDGE2,at))}var TARGET=7.5;var IMAGE=3.5;var RING=12;var APART=2;var BORDER="rgba(255,255,255,0.85)";var PALE="r\
 gba(255,255,255,0.9)";var INK="#2b2b2b";var TARGET_FILL="#00d5e0";var TARGET_EDGE="#063f45";var HIDDEN="\
 #067a82";var CHOSEN="#0072b2";var WANTED="#d55e00";var FREE="rgba(40,40,40,0.75)";var STIFF="#4b0f7a";
 function lines(pen,pairs,strokes){pen.lineCap="round";tracePath(pen,pairs,false);strokePath(pen,strokes)}
@@ -324,31 +329,33 @@ selected and moved together; with Shift dissolve it"],["Arrow keys","nudge selec
 ift-click, A","select several pins, all pins"],["N, Shift+N, click a part","edit another part, if th\
 ere are several"],["Shift and drag, Ctrl and drag","select the pins in a box, in a lasso"],[", .","s\
 elect the pin before, the next pin, and bring it into view; so does a click on an arrow at the edge"],
-["Esc","cancel a drag; select nothing"]]],["Poses",[["Ctrl+Z, Ctrl+Shift+Z","undo, redo"],["Ctrl+C, \
-Ctrl+V","copy the pose, put it on this or a similar shape"],["M","swap left and right"],["0","back t\
-o the undeformed shape"]]],["Stiff areas",[["B, E","paint stiff areas, erase them; Esc ends painting"]]],
-["View",[["Wheel, two fingers","zoom"],["Middle button, Space and drag","move the view"],["F","see e\
-verything"],["P","the picture alone, for lectures; Esc brings the rest back"],["W","the whole screen\
-, without the inspector"],["I","hide the inspector, show it again"]]],["Timeline",[["K","make a keyf\
-rame of what is shown"],["Space","play the motion through the poses, pause; on the canvas too"],["Ar\
-row keys, Home, End","step a frame, with Shift to the next pose; first, last pose"],["Click a curve \
-between poses, Enter","ease the motion there: drag its two handles, or arrow keys"],["Shift+Home, Sh\
-ift+End","play over and over from here, to here; so do the two marks on the ruler, seen below a poin\
-ter"],["Line below the poses","green: proved, the higher the safer; grey hatching: not yet; orange: \
-not proved"],["Ctrl and wheel","zoom the timeline; then the wheel alone moves along it"],["Double cl\
-ick a pose, F2","type its name"],["Alt and arrow keys","move the pose in time; Delete removes it"]]]];var Legend=class{element=make("div",{className:"glid-legend"});show(model,moving){const bars=[model.
+["In the list of pins","arrow keys, with Shift several; Ctrl-click one more; F2, double click: renam\
+e"],["Esc","cancel a drag; select nothing"]]],["Poses",[["Ctrl+Z, Ctrl+Shift+Z","undo, redo"],["Ctrl\
++C, Ctrl+V","copy the pose, put it on this or a similar shape"],["M","swap left and right"],["0","ba\
+ck to the undeformed shape"]]],["Stiff areas",[["B, E","paint stiff areas, erase them; Esc ends pain\
+ting"]]],["View",[["Wheel, two fingers","zoom"],["Middle button, Space and drag","move the view"],["\
+F","see everything"],["P","the picture alone, for lectures; Esc brings the rest back"],["W","the who\
+le screen, without the inspector"],["I","hide the inspector, show it again"]]],["Timeline",[["K","ma\
+ke a keyframe of what is shown"],["Space","play the motion through the poses, pause; on the canvas t\
+oo"],["Arrow keys, Home, End","step a frame, with Shift to the next pose; first, last pose"],["Click\
+ a curve between poses, Enter","ease the motion there: drag its two handles, or arrow keys"],["Shift\
++Home, Shift+End","play over and over from here, to here; so do the two marks on the ruler, seen bel\
+ow a pointer"],["Line below the poses","green: proved, the higher the safer; grey hatching: not yet;\
+ orange: not proved"],["Ctrl and wheel","zoom the timeline; then the wheel alone moves along it"],["\
+Double click a pose, F2","type its name"],["Alt and arrow keys","move the pose in time; Delete remov\
+es it"]]]];var Legend=class{element=make("div",{className:"glid-legend"});show(model,moving){const bars=[model.
 get("legend"),model.get("panel_legend")].filter(bar=>bar.title);this.element.replaceChildren(...bars.
 map(bar=>colorBar(bar,moving)));this.element.hidden=!bars.length;this.element.dataset.corner=model.get(
 "legend_corner")}};function colorBar({title,moving,colors,ticks,about},moves){const gradient=`backgr\
 ound: linear-gradient(to right, ${colors.join(", ")})`;const labels=ticks.map(tick=>make("span",{},tick));
 return make("div",{className:"glid-legend-part",title:about},make("div",{className:"glid-legend-titl\
 e"},moves&&moving||title),make("div",{className:"glid-legend-bar",style:gradient}),make("div",{className:"\
-glid-legend-ticks"},...labels))}var FIRST="Click the shape to pin a point, then drag the pin · ? shows all keys";var PAINT="Paint a\
-reas that should stay stiff · E erases · Esc when done";var Notices=class{notice=make("div",{className:"\
-glid-notice",role:"status"});prepared=make("div",{className:"glid-prepared",role:"progressbar","aria\
--label":"Preparing the solver",hidden:true});tell(refusal,painting,first){const advice=painting?PAINT:
-first&&FIRST;const{notice}=this;notice.textContent=refusal||advice||"";notice.hidden=!notice.textContent;
-notice.classList.toggle("glid-first",!refusal);notice.classList.toggle("glid-invites",!refusal&&!painting)}prepare(share){
+glid-legend-ticks"},...labels))}var FIRST="Click the shape to pin a point, then drag the pin · ? shows all keys";var PAINT="Paint s\
+tiff areas · E erases · Esc when done";var Notices=class{notice=make("div",{className:"glid-notice",
+role:"status"});prepared=make("div",{className:"glid-prepared",role:"progressbar","aria-label":"Prep\
+aring the solver",hidden:true});tell(refusal,painting,first){const advice=painting?PAINT:first&&FIRST;
+const{notice}=this;notice.textContent=refusal||advice||"";notice.hidden=!notice.textContent;notice.classList.
+toggle("glid-first",!refusal);notice.classList.toggle("glid-invites",!refusal&&!painting)}prepare(share){
 const{prepared}=this;prepared.hidden=share>=1;prepared.setAttribute("aria-valuenow",String(Math.round(
 100*share)));prepared.style.setProperty("--glid-share",String(share))}};var LONGER_SIDE=20;function constrained([x0,y0],[x,y],{axis,whole},size){const across=Math.abs(x-x0)>=
 Math.abs(y-y0);const[u,v]=whole?onPixel([x,y],size):[x,y];if(!axis)return[u,v];return across?[u,y0]:
@@ -367,12 +374,12 @@ words2.push(`${Number((angle*180/Math.PI).toFixed(1))}°`);if(scaled)words2.push
 2)}`);return words2}function coordinate(number2){return(number2||0).toFixed(3).replace("-","−")}function drawNumbers(pen,view,{
 at,words:words2}){if(!words2.length)return;const[x,y]=view.toScreen(at);pen.font=FONT;const width=Math.
 max(...words2.map(text=>pen.measureText(text).width))+2*PADDING;const height=LINE*words2.length+PADDING;
-const left=x+BESIDE+width<=view.width?x+BESIDE:x-BESIDE-width;const top=Math.min(Math.max(y-BESIDE-height,
-2),view.height-height-2);pen.beginPath();pen.roundRect(left,top,width,height,4);pen.fillStyle=GROUND;
-pen.fill();pen.fillStyle=INK2;pen.textBaseline="middle";words2.forEach((text,i)=>{pen.fillText(text,
-left+PADDING,top+PADDING/2+LINE*(i+.5))})}function drawAxis(pen,view,start,at){const[x,y]=view.toScreen(
-start);const across=start[1]===at[1];const line=across?[[0,y],[view.width,y]]:[[x,0],[x,view.height]];
-tracePath(pen,[line],false);strokePath(pen,[[1,GUIDE]],[4,4])}var BESIDE2=9;var WIDE=5;var HIGH=3.5;var PAPER="rgba(255,255,255,0.9)";var INK3="#2b2b2b";function withoutHidden(marks,{
+const beside=x+BESIDE+width<=view.width?x+BESIDE:x-BESIDE-width;const left=Math.max(beside,2);const top=Math.
+min(Math.max(y-BESIDE-height,2),view.height-height-2);pen.beginPath();pen.roundRect(left,top,width,height,
+4);pen.fillStyle=GROUND;pen.fill();pen.fillStyle=INK2;pen.textBaseline="middle";words2.forEach((text,i)=>{
+pen.fillText(text,left+PADDING,top+PADDING/2+LINE*(i+.5))})}function drawAxis(pen,view,start,at){const[
+x,y]=view.toScreen(start);const across=start[1]===at[1];const line=across?[[0,y],[view.width,y]]:[[x,
+0],[x,view.height]];tracePath(pen,[line],false);strokePath(pen,[[1,GUIDE]],[4,4])}var BESIDE2=9;var WIDE=5;var HIGH=3.5;var PAPER="rgba(255,255,255,0.9)";var INK3="#2b2b2b";function withoutHidden(marks,{
 away},elsewhere){if(!away.length)return marks;const placed=points=>points.map((point,i)=>away.includes(
 i)?[elsewhere,elsewhere]:point);return{...marks,targets:placed(marks.targets),images:placed(marks.images)}}
 function movedWith(pressed,selected,{locked,groups}){if(locked.includes(pressed))return[];if(selected.

@@ -78,34 +78,38 @@ at,track.offsetWidth);this.changed()}reveal(at){const{box}=this;if(this.factor==
 box.scrollLeft&&at<=box.scrollLeft+box.clientWidth;if(!seen)box.scrollLeft=at-LEADS*box.clientWidth}#wheel(e){
 const{box}=this;const step=turnOf(e);if(e.ctrlKey||e.metaKey){e.preventDefault();const at=(e.clientX-
 box.getBoundingClientRect().left)/scaleOf(box).across;this.zoom(Math.exp(-step*WHEEL_SPEED),at);return}
-const before=box.scrollLeft;if(!e.deltaX)box.scrollLeft+=step;if(box.scrollLeft!==before)e.preventDefault()}};var REPEATS=[["once","Once"],["loop","Loop"],["ping-pong","Ping-pong"]];var ONION="Onion skin: outli\
-nes of the poses before (blue) and after (orange) the edited pose";var KEY="Key this pose and contin\
-ue with a copy (K); at another time, key the shape that is shown there";var LEGEND=[["proved","prove\
-d"],["computing","not yet"],["refused","not proved"]];var EASE="M2.5 13.5C8 13.5 8 2.5 13.5 2.5";var Bar=class{recording=false;onionOn=false;constructor({
-play,keep,act,edit,zoom,ease}){this.play=iconButton("play","Play, pause (Space)",play);this.repeat=menu(
-"Play once, in a loop, or there and back",REPEATS,repeat=>act("set_repeat",{repeat}));this.clock=make(
-"span",{className:"glid-time",role:"timer"});this.record=iconButton("record","Record: keep the next \
-drag as keyframes",()=>act("record",{on:!this.recording}));this.onion=iconButton("onion",ONION,()=>act(
-"onion",{on:!this.onionOn}));this.keep=make("button",{className:"glid-keep",title:KEY,onclick:keep},
-"Key");const copy=iconButton("copy","Duplicate this pose",()=>edit("duplicate_pose"));this.ease=drawnButton(
-EASE,"Easing of the motion that leaves this pose (Enter)",ease);this.ease.ariaHasPopup="dialog";this.
-remove=iconButton("trash","Delete this pose (Delete)",()=>edit("delete_pose"));this.save=iconButton(
-"export","Export the motion",()=>{this.save.dispatchEvent(new CustomEvent("glid:inspect",{bubbles:true}));
-act("export")});this.element=make("div",{className:"glid-bar",role:"toolbar","aria-label":"Motion"},
-...[this.play,this.repeat,this.clock,gap()],...[this.record,this.onion,gap()],...[this.keep,copy,this.
-remove,this.ease,gap(),this.save],make("span",{className:"glid-zoom"},gap(),iconButton("minus","See \
-more of the timeline (Ctrl and wheel)",()=>zoom(1/STEP)),iconButton("plus","See less of the timeline\
-, larger (Ctrl and wheel)",()=>zoom(STEP))))}update({keyframes,repeat,recording,onion,exports}){const alone=keyframes.
-length<2;this.repeat.value=repeat;this.remove.disabled=alone;for(const control of[this.play,this.save,
-this.repeat,this.ease]){control.disabled=alone}this.save.hidden=!exports;this.recording=recording;this.
-onionOn=onion;this.record.ariaPressed=String(recording);this.onion.ariaPressed=String(onion)}showTime(place,end,playing){
-const does=playing?"pause":"play";if(this.play.dataset.does!==does)this.play.innerHTML=icon(does);this.
-play.dataset.does=does;this.clock.textContent=`${place.toFixed(2)} / ${seconds(end)}`}};function legend(){
-const parts=LEGEND.map(([kind,label])=>{return make("span",{},make("i",{className:"glid-swatch","dat\
-a-kind":kind}),label)});return make("div",{className:"glid-proof-legend","aria-hidden":true},...parts)}
-function gap(){return make("span",{className:"glid-gap"})}function menu(label,choices,act){const options=choices.
-map(([value,text])=>new Option(text,value));const select=make("select",{"aria-label":label,title:label},
-...options);select.addEventListener("change",()=>act(select.value));return select}var HELD=.99;var THIRD=1/3;var NAMED={linear:{label:"Even",handles:[THIRD,THIRD,2*THIRD,2*THIRD]},in:{
+const before=box.scrollLeft;if(!e.deltaX)box.scrollLeft+=step;if(box.scrollLeft!==before)e.preventDefault()}};var REPEATS=[["once","Once"],["loop","Loop"],["ping-pong","Ping-pong"]];var OF_RANGE=["range","Loop \
+range"];var ONION="Onion skin: outlines of the poses before (blue) and after (orange) the edited pos\
+e";var KEY="Key this pose and continue with a copy (K); at another time, key the shape that is shown\
+ there";var LEGEND=[["proved","proved"],["computing","not yet"],["refused","not proved"]];var EASE="\
+M2.5 13.5C8 13.5 8 2.5 13.5 2.5";var Bar=class{recording=false;#repeat="";onionOn=false;#range=new Option(
+OF_RANGE[1],OF_RANGE[0]);constructor({play,keep,act,edit,zoom,ease}){this.play=iconButton("play","Pl\
+ay, pause (Space)",play);this.repeat=menu("Play once, in a loop, or there and back",REPEATS,repeat=>{
+if(this.#range.parentElement)act("set_loop_range",{range:null});if(repeat!==this.#repeat)act("set_re\
+peat",{repeat})});this.clock=make("span",{className:"glid-time",role:"timer"});this.record=iconButton(
+"record","Record: keep the next drag as keyframes",()=>act("record",{on:!this.recording}));this.onion=
+iconButton("onion",ONION,()=>act("onion",{on:!this.onionOn}));this.keep=make("button",{className:"gl\
+id-keep",title:KEY,onclick:keep},"Key");const copy=iconButton("copy","Duplicate this pose",()=>edit(
+"duplicate_pose"));this.ease=drawnButton(EASE,"Easing of the motion that leaves this pose (Enter)",ease);
+this.ease.ariaHasPopup="dialog";this.remove=iconButton("trash","Delete this pose (Delete)",()=>edit(
+"delete_pose"));this.save=iconButton("export","Export the motion",()=>{this.save.dispatchEvent(new CustomEvent(
+"glid:inspect",{bubbles:true}));act("export")});this.element=make("div",{className:"glid-bar",role:"\
+toolbar","aria-label":"Motion"},...[this.play,this.repeat,this.clock,gap()],...[this.record,this.onion,
+gap()],...[this.keep,copy,this.remove,this.ease,gap(),this.save],make("span",{className:"glid-zoom"},
+gap(),iconButton("minus","See more of the timeline (Ctrl and wheel)",()=>zoom(1/STEP)),iconButton("p\
+lus","See less of the timeline, larger (Ctrl and wheel)",()=>zoom(STEP))))}update({keyframes,repeat,
+range,recording,onion,exports}){const alone=keyframes.length<2;this.#repeat=repeat;if(range)this.repeat.
+append(this.#range);else this.#range.remove();this.repeat.value=range?OF_RANGE[0]:repeat;this.remove.
+disabled=alone;for(const control of[this.play,this.save,this.repeat,this.ease]){control.disabled=alone}
+this.save.hidden=!exports;this.recording=recording;this.onionOn=onion;this.record.ariaPressed=String(
+recording);this.onion.ariaPressed=String(onion)}showTime(place,end,playing){const does=playing?"paus\
+e":"play";if(this.play.dataset.does!==does)this.play.innerHTML=icon(does);this.play.dataset.does=does;
+this.clock.textContent=`${place.toFixed(2)} / ${seconds(end)}`}};function legend(){const parts=LEGEND.
+map(([kind,label])=>{return make("span",{},make("i",{className:"glid-swatch","data-kind":kind}),label)});
+return make("div",{className:"glid-proof-legend","aria-hidden":true},...parts)}function gap(){return make(
+"span",{className:"glid-gap"})}function menu(label,choices,act){const options=choices.map(([value,text])=>new Option(
+text,value));const select=make("select",{"aria-label":label,title:label},...options);select.addEventListener(
+"change",()=>act(select.value));return select}var HELD=.99;var THIRD=1/3;var NAMED={linear:{label:"Even",handles:[THIRD,THIRD,2*THIRD,2*THIRD]},in:{
 label:"Ease in",handles:[THIRD,0,2*THIRD,THIRD]},out:{label:"Ease out",handles:[THIRD,2*THIRD,2*THIRD,
 1]},"in-out":{label:"Ease in, out",handles:[THIRD,0,2*THIRD,1]}};var HOLD="hold";var PRESETS=[...Object.
 entries(NAMED).map(([name,{label}])=>[name,label]),[HOLD,"Hold"]];function handlesOf(easing){return typeof easing===
@@ -113,51 +117,63 @@ entries(NAMED).map(([name,{label}])=>[name,label]),[HOLD,"Hold"]];function handl
 easing)?.[1]??"Curve"}function pathOf(easing,size){const at=(x,y)=>`${Number((x*size).toFixed(2))} ${Number(
 ((1-y)*size).toFixed(2))}`;const handles=handlesOf(easing);if(!handles)return`M${at(0,0)} L${at(HELD,
 0)} L${at(1,1)}`;const[x1,y1,x2,y2]=handles;return`M${at(0,0)} C${at(x1,y1)} ${at(x2,y2)} ${at(1,1)}`}
-function withHandle(easing,which,place){const[x,y]=place.map(one=>Math.round(100*Math.min(Math.max(one,
-0),1))/100);const[x1,y1,x2,y2]=handlesOf(easing)??NAMED.linear.handles;return which===0?[x,y,x2,y2]:
-[x1,y1,x,y]}var SIZE=140;var MARGIN=14;var GAP=6;var STEP2=.02;var LONG_STEP=.1;var ARROWS={ArrowLeft:[-1,0],ArrowRight:[
-1,0],ArrowDown:[0,-1],ArrowUp:[0,1]};var EaseEditor=class{index=-1;#easing="linear";#held=null;constructor(set,closed){
+function stretchedCurve(easing){const path=pathOf(easing,100);return`<svg viewBox="0 0 100 100" pres\
+erveAspectRatio="none" aria-hidden="true"><path vector-effect="non-scaling-stroke" d="${path}"/></sv\
+g>`}function withHandle(easing,which,place){const[x,y]=place.map(one=>Math.round(100*Math.min(Math.max(
+one,0),1))/100);const[x1,y1,x2,y2]=handlesOf(easing)??NAMED.linear.handles;return which===0?[x,y,x2,
+y2]:[x1,y1,x,y]}var SIZE=140;var MARGIN=14;var GAP=6;var STEP2=.02;var LONG_STEP=.1;var NUMBERS=[["x1","How it leave\
+s: share of the time"],["y1","How it leaves: share of the way"],["x2","How it arrives: share of the \
+time"],["y2","How it arrives: share of the way"]];var ARROWS={ArrowLeft:[-1,0],ArrowRight:[1,0],ArrowDown:[
+0,-1],ArrowUp:[0,1]};var EaseEditor=class{index=-1;#easing="linear";#held=null;constructor(set,closed){
 this.set=set;this.closed=closed;this.title=make("h4",{});this.curve=make("div",{className:"glid-ease\
 -curve"});this.drawing=make("div",{className:"glid-ease-drawing"});this.handles=[this.#handle(0),this.#handle(
-1)];this.presets=PRESETS.map(([easing,label])=>make("button",{title:label,onclick:()=>this.#choose(easing),
-innerHTML:curveIcon(easing)},make("span",{},label)));this.curve.append(this.drawing,...this.handles);
-this.element=make("div",{className:"glid-ease",role:"dialog",popover:"auto","aria-label":"Easing"},this.
-title,this.curve,make("div",{className:"glid-ease-presets",role:"group"},...this.presets));this.element.
-addEventListener("keydown",e=>this.#keydown(e));this.element.addEventListener("keyup",e=>e.stopPropagation());
-this.element.addEventListener("pointerdown",e=>e.stopPropagation());this.element.addEventListener("t\
-oggle",e=>this.#toggled(e))}open(index,title,easing,at){const{element}=this;this.element.hidePopover();
-this.index=index;this.show(title,easing);element.showPopover();const{left,width,top,bottom}=at.getBoundingClientRect();
-const room=element.getBoundingClientRect();const above=top-room.height-GAP;const x=Math.min(left+(width-
-room.width)/2,window.innerWidth-room.width-GAP);element.style.left=`${Math.max(x,GAP)}px`;element.style.
-top=`${above<0?bottom+GAP:above}px`;const pressed=this.presets.find(button=>button.ariaPressed==="tr\
-ue");(pressed??this.handles[0]).focus({preventScroll:true})}show(title,easing){if(this.#held!==null)
-return;this.title.textContent=title;this.#draw(easing)}close(){this.element.hidePopover()}#draw(easing){
+1)];this.numbers=NUMBERS.map(([label,title],i)=>this.#number(label,title,i));this.presets=PRESETS.map(
+([easing,label])=>make("button",{title:label,onclick:()=>this.#choose(easing),innerHTML:curveIcon(easing)},
+make("span",{},label)));this.curve.append(this.drawing,...this.handles);this.element=make("div",{className:"\
+glid-ease",role:"dialog",popover:"auto","aria-label":"Easing"},this.title,this.curve,make("div",{className:"\
+glid-ease-numbers"},...this.numbers.map(one=>one.field)),make("div",{className:"glid-ease-presets",role:"\
+group"},...this.presets));this.element.addEventListener("keydown",e=>this.#keydown(e));this.element.
+addEventListener("keyup",e=>e.stopPropagation());this.element.addEventListener("pointerdown",e=>e.stopPropagation());
+this.element.addEventListener("toggle",e=>this.#toggled(e))}open(index,title,easing,at){const{element}=this;
+this.element.hidePopover();this.index=index;this.show(title,easing);element.showPopover();const{left,
+width,top,bottom}=at.getBoundingClientRect();const room=element.getBoundingClientRect();const over=this.
+element.parentElement?.getBoundingClientRect().top??top;const places=[over,top].map(edge=>edge-room.
+height-GAP);const x=Math.min(left+(width-room.width)/2,window.innerWidth-room.width-GAP);element.style.
+left=`${Math.max(x,GAP)}px`;element.style.top=`${places.find(one=>one>=0)??bottom+GAP}px`;const pressed=this.
+presets.find(button=>button.ariaPressed==="true");(pressed??this.handles[0]).focus({preventScroll:true})}show(title,easing){
+if(this.#held!==null)return;this.title.textContent=title;this.#draw(easing)}close(){this.element.hidePopover()}#draw(easing){
 this.#easing=easing;const handles=handlesOf(easing);this.drawing.innerHTML=drawing(easing,handles);this.
 handles.forEach((handle,i)=>{handle.hidden=!handles;if(!handles)return;const[x,y]=handles.slice(2*i);
 handle.style.left=`${MARGIN+x*SIZE}px`;handle.style.top=`${MARGIN+(1-y)*SIZE}px`;handle.ariaValueNow=
 `${Math.round(100*x)}`;handle.ariaValueText=`time ${Math.round(100*x)} %, way ${Math.round(100*y)} %`});
-for(const[i,[name]]of PRESETS.entries()){this.presets[i].ariaPressed=String(name===easing)}this.drawing.
-title=nameOf(easing)}#choose(easing){this.#draw(easing);this.set(this.index,easing)}#handle(which){const name=which===
-0?"How it leaves":"How it arrives";const handle=make("button",{className:"glid-ease-handle",role:"sl\
-ider","aria-label":name,"aria-valuemin":0,"aria-valuemax":100,title:`${name}: drag it, or arrow keys`});
-handle.addEventListener("pointerdown",e=>{if(e.button!==0)return;e.preventDefault();handle.focus({preventScroll:true});
-handle.setPointerCapture(e.pointerId);this.#held=which});handle.addEventListener("pointermove",e=>{if(this.#held===
-which&&handle.hasPointerCapture(e.pointerId)){const[x,y]=placeIn(this.curve,e);this.#move(which,[(x-
-MARGIN)/SIZE,1-(y-MARGIN)/SIZE])}});handle.addEventListener("lostpointercapture",()=>this.#letGo());
-handle.addEventListener("keydown",e=>this.#nudge(e,which));handle.addEventListener("keyup",()=>this.#letGo());
-handle.addEventListener("blur",()=>this.#letGo());return handle}#move(which,place){this.#held=which;
-this.#draw(withHandle(this.#easing,which,place))}#letGo(){if(this.#held===null)return;this.#held=null;
-this.set(this.index,this.#easing)}#nudge(e,which){const arrow=ARROWS[e.key];const handles=handlesOf(
-this.#easing);if(!arrow||!handles||e.ctrlKey||e.metaKey||e.altKey)return;e.preventDefault();const step=e.
-shiftKey?LONG_STEP:STEP2;const[x,y]=handles.slice(2*which);this.#move(which,[x+step*arrow[0],y+step*
-arrow[1]])}#keydown(e){if(!e.ctrlKey&&!e.metaKey)e.stopPropagation()}#toggled({newState}){if(newState===
-"open"||this.element.matches(":popover-open"))return;const{index}=this;this.index=-1;this.closed(index)}};
-function curveIcon(easing){const path=pathOf(easing,12);return`<svg viewBox="-2 -2 16 16" aria-hidde\
-n="true"><path d="${path}"/></svg>`}function drawing(easing,handles){const up=y=>(1-y)*SIZE;const arms=handles&&
-[`M0 ${SIZE} L${handles[0]*SIZE} ${up(handles[1])}`,`M${SIZE} 0 L${handles[2]*SIZE} ${up(handles[3])}`];
-const box=[-MARGIN,-MARGIN,SIZE+2*MARGIN,SIZE+2*MARGIN].join(" ");return`<svg viewBox="${box}" aria-\
-hidden="true"><rect width="${SIZE}" height="${SIZE}"/><path class="glid-ease-arms" d="${arms?arms.join(
-" "):""}"/><path d="${pathOf(easing,SIZE)}"/></svg>`}var Player=class{clock=null;time=0;seen=false;only=0;range=null;later=null;#intervals=[];#others=new Map;#frame=0;constructor(show,moved,ended=()=>{}){
+for(const[i,{field,input}]of this.numbers.entries()){field.hidden=!handles;if(handles)input.value=`${Number(
+handles[i].toFixed(2))}`}for(const[i,[name]]of PRESETS.entries()){this.presets[i].ariaPressed=String(
+name===easing)}this.drawing.title=nameOf(easing)}#choose(easing){this.#draw(easing);this.set(this.index,
+easing)}#number(label,title,i){const limits={type:"number",min:"0",max:"1",step:"0.01"};const input=make(
+"input",{...limits,title,"aria-label":title});input.addEventListener("change",()=>{const handles=handlesOf(
+this.#easing);if(!handles||!Number.isFinite(input.valueAsNumber))return this.#draw(this.#easing);const which=i>>
+1;const place=handles.slice(2*which,2*which+2);place[i%2]=input.valueAsNumber;this.#draw(withHandle(
+this.#easing,which,place));this.set(this.index,this.#easing)});return{input,field:make("label",{},label,
+input)}}#handle(which){const name=which===0?"How it leaves":"How it arrives";const handle=make("butt\
+on",{className:"glid-ease-handle",role:"slider","aria-label":name,"aria-valuemin":0,"aria-valuemax":100,
+title:`${name}: drag it, or arrow keys`});handle.addEventListener("pointerdown",e=>{if(e.button!==0)
+return;e.preventDefault();handle.focus({preventScroll:true});handle.setPointerCapture(e.pointerId);this.#held=
+which});handle.addEventListener("pointermove",e=>{if(this.#held===which&&handle.hasPointerCapture(e.
+pointerId)){const[x,y]=placeIn(this.curve,e);this.#move(which,[(x-MARGIN)/SIZE,1-(y-MARGIN)/SIZE])}});
+handle.addEventListener("lostpointercapture",()=>this.#letGo());handle.addEventListener("keydown",e=>this.#nudge(
+e,which));handle.addEventListener("keyup",()=>this.#letGo());handle.addEventListener("blur",()=>this.#letGo());
+return handle}#move(which,place){this.#held=which;this.#draw(withHandle(this.#easing,which,place))}#letGo(){
+if(this.#held===null)return;this.#held=null;this.set(this.index,this.#easing)}#nudge(e,which){const arrow=ARROWS[e.
+key];const handles=handlesOf(this.#easing);if(!arrow||!handles||e.ctrlKey||e.metaKey||e.altKey)return;
+e.preventDefault();const step=e.shiftKey?LONG_STEP:STEP2;const[x,y]=handles.slice(2*which);this.#move(
+which,[x+step*arrow[0],y+step*arrow[1]])}#keydown(e){if(!e.ctrlKey&&!e.metaKey)e.stopPropagation()}#toggled({
+newState}){if(newState==="open"||this.element.matches(":popover-open"))return;const{index}=this;this.
+index=-1;this.closed(index)}};function curveIcon(easing){const path=pathOf(easing,12);return`<svg vi\
+ewBox="-2 -2 16 16" aria-hidden="true"><path d="${path}"/></svg>`}function drawing(easing,handles){const up=y=>(1-
+y)*SIZE;const arms=handles&&[`M0 ${SIZE} L${handles[0]*SIZE} ${up(handles[1])}`,`M${SIZE} 0 L${handles[2]*
+SIZE} ${up(handles[3])}`];const box=[-MARGIN,-MARGIN,SIZE+2*MARGIN,SIZE+2*MARGIN].join(" ");return`<\
+svg viewBox="${box}" aria-hidden="true"><rect width="${SIZE}" height="${SIZE}"/><path class="glid-ea\
+se-arms" d="${arms?arms.join(" "):""}"/><path d="${pathOf(easing,SIZE)}"/></svg>`}var Player=class{clock=null;time=0;seen=false;only=0;range=null;later=null;#intervals=[];#others=new Map;#frame=0;constructor(show,moved,ended=()=>{}){
 this.show=show;this.moved=moved;this.ended=ended}set(intervals,repeat,others={}){this.#intervals=intervals.
 map(partOf);const entries=Object.entries(others);this.#others=new Map(entries.map(([key,theirs])=>[key,
 theirs.map(partOf)]));const first=intervals[0];const last=intervals.at(-1);const times=first&&last?[
@@ -184,7 +200,7 @@ until??place);const at=Math.min(place,own?.until??place,...untils);const moved=o
 part})=>{const floats=part?.motion?.at(at);return floats?[[key,floats]]:[]});return this.show(own?.motion?.
 at(at)??null,time,Object.fromEntries(moved))}};function partOf({end,until,times,floats}){const motion=floats.
 length?new Motion({times,repeat:"once"},floats):null;return{end,until,motion}}function partAt(parts,place){
-return parts.find(({end})=>place<=end)??parts.at(-1)}var LATER=.15;var LEAST=1.15;var MOST_LABELS=12;var LABEL=38;var STEPS=[.02,.04,.1,.2,.5,1,2,5,10,30,
+return parts.find(({end})=>place<=end)??parts.at(-1)}var LATER=.15;var LEAST=1.15;var MOST_LABELS=12;var LABEL=48;var STEPS=[.02,.04,.1,.2,.5,1,2,5,10,30,
 60,300,600];var LONGEST_STEP=1800;var SAME=1e-9;var WHOLE=1e-6;var ROUNDING=.006;function withReturn({
 keyframes,repeat,back}){const last=keyframes.at(-1);if(repeat!=="loop"||keyframes.length<2||!last)return keyframes;
 const[first]=keyframes;return[...keyframes,{...first,time:last.time+back,name:`Back to ${first.name}`}]}
@@ -238,78 +254,83 @@ this.#set(dragged)}#set(range){this.#range=range;this.#draw(range);this.ruler.se
 if(e.ctrlKey||e.metaKey||e.altKey||e.shiftKey||!this.#whole)return;const step={ArrowLeft:-1,ArrowRight:1}[e.
 key];const clears=e.key==="Delete"||e.key==="Backspace";if(!step&&!clears)return;e.preventDefault();
 e.stopPropagation();const{ruler}=this;const from=this.#range??this.#whole;const time=from[which]+(step??
-0)*ruler.frame();this.#set(clears?null:withEnd(from,this.#whole,which,time,ruler.frame()))}};var DOUBLE_CLICK=400;var SNAP=6;var STILL=4;var SLIM=8;var WIDE=60;var EASE2=34;var LEAST_FRAME=6;var Track=class{span=1;rate=25;keys=make(
-"div",{className:"glid-keys"});eases=make("div",{className:"glid-eases"});head=make("div",{className:"\
-glid-playhead"});ruler=make("div",{className:"glid-ruler",tabIndex:0,role:"slider","aria-label":"Tim\
-e","aria-valuemin":0});#last={index:-1,at:0};#drag=null;#scrubbing=null;#shown=null;constructor(hand){
+0)*ruler.frame();this.#set(clears?null:withEnd(from,this.#whole,which,time,ruler.frame()))}};var DOUBLE_CLICK=400;var SNAP=6;var STILL=4;var SLIM=8;var WIDE=60;var EASE2=34;var LEAST_FRAME=6;var Track=class{span=1;rate=25;diamonds=make(
+"div",{className:"glid-diamonds","aria-hidden":true});keys=make("div",{className:"glid-keys"});eases=make(
+"div",{className:"glid-eases"});head=make("div",{className:"glid-playhead"});ruler=make("div",{className:"\
+glid-ruler",tabIndex:0,role:"slider","aria-label":"Time","aria-valuemin":0});#last={index:-1,at:0};#drag=null;#scrubbing=null;#shown=null;constructor(hand){
 this.hand=hand;this.strip=make("div",{className:"glid-strip",role:"img",onpointerleave:()=>hand.hover(
 "")});this.range=new RangeMarks({at:time=>this.#at(time),timeOf:e=>this.#timeNear(e,true),frame:()=>1/
-this.rate,set:range=>hand.range(range),hover:text=>hand.hover(text)});const{elements}=this.range;const parts=[
-this.ruler,this.keys,this.eases,this.strip,...elements,this.head];this.element=make("div",{className:"\
-glid-track"},...parts);this.zoom=new Zoom(this.element,()=>this.#label());new ResizeObserver(()=>this.#label()).
-observe(this.ruler);this.element.addEventListener("pointerdown",e=>this.#down(e));this.element.addEventListener(
-"pointermove",e=>this.#scrub(e));this.element.addEventListener("lostpointercapture",e=>this.#up(e))}rename(index=this.#focused()){
-const key=this.#shown?.keyframes[index];if(!key)return;const rename=name=>this.hand.rename(index,name);
-nameField(this.element,this.#at(key.time),key.name,rename,()=>this.focus())}#focused(row=this.keys){
-const root=row.getRootNode();const active=root.activeElement;return[...row.children].indexOf(active)}showRate(rate){
-this.rate=rate;this.#label()}focus(){this.ruler.focus({preventScroll:true})}drop(){this.#drag=null;this.#scrubbing=
-null;this.range.drop();this.hand.hover("");this.hand.dropped()}landing(index,time){const least=SLIM/
-this.#inside().width*this.span;return landing(this.#shown?.keyframes??[],index,time,least)}showHead(place,seen){
-this.head.style.left=this.#at(place);this.head.classList.toggle("glid-seen",seen);this.head.dataset.
-label=place.toFixed(2);this.element.dataset.time=String(place);this.element.dataset.span=String(this.
-span);this.ruler.setAttribute("aria-valuenow",place.toFixed(2));this.ruler.setAttribute("aria-valuet\
-ext",seconds(place));if(seen&&this.#scrubbing===null)this.zoom.reveal(this.head.offsetLeft)}showKeys(shown,thumbnails){
-this.#shown=shown;if(this.#drag||this.#scrubbing!==null)return;const all=withReturn(shown);this.span=
-spanOf(all);this.ruler.setAttribute("aria-valuemax",this.span.toFixed(2));const focused=this.#focused();
-this.keys.replaceChildren(...all.map(({name,time,thumbnail},i)=>{const title=`${name} at ${seconds(time)}`;
-const width=`${this.#wide(roomAt(all,i,this.span))} - 2px`;const own=i<shown.keyframes.length;const picture=thumbnail===
-void 0?void 0:thumbnails[thumbnail];return make("button",{className:own?"glid-key":"glid-key glid-re\
-turn",title:`${title}; drag it to another time`,"aria-label":title,"aria-pressed":i===shown.active,style:`\
-left: ${this.#at(time)}; width: clamp(${SLIM}px, ${width}, ${WIDE}px)`,onpointerdown:e=>this.#grab(e,
-i,time),onclick:e=>{if(!e.detail)this.hand.select(i%shown.keyframes.length)}},...picture?[make("img",
-{src:picture,alt:"",draggable:false})]:[])}));const key=this.keys.children[focused];if(key instanceof
-HTMLElement)key.focus();this.#showEases(all);const{time:end}=all[all.length-1];this.range.show(shown.
-range,all.length>1?[all[0].time,end]:null)}#showEases(all){const focused=this.#focused(this.eases);this.
-eases.replaceChildren(...all.slice(1).map(({name,time},i)=>{const start=all[i];const title=`From ${start.
-name} to ${name}: ${nameOf(start.easing)}`;const button2=make("button",{className:"glid-segment-ease",
-title,"aria-label":title,"aria-haspopup":"dialog",innerHTML:curveIcon(start.easing),style:`left: ${this.#at(
-(start.time+time)/2)}`,onpointerdown:e=>{e.stopPropagation();this.hand.easePressed()},onclick:()=>this.
-hand.ease(i,button2)});button2.dataset.seconds=`${time-start.time}`;button2.dataset.even=String(start.
-easing==="linear");return button2}));this.#hideNarrow();const button=this.eases.children[focused];if(button instanceof
-HTMLElement)button.focus()}#hideNarrow(){const perSecond=Math.max(this.ruler.clientWidth-2*INSET,0)/
-this.span;for(const button of this.eases.children){button.hidden=Number(button.dataset.seconds)*perSecond<
-WIDE+EASE2}}showSegments(segments,label){this.strip.replaceChildren(...segments.flatMap(segment=>this.#pieces(
+this.rate,set:range=>hand.range(range),hover:text=>hand.hover(text)});const{elements}=this.range;const rows=[
+this.ruler,this.diamonds,this.keys,this.eases,this.strip];const parts=[...rows,...elements,this.head];
+this.element=make("div",{className:"glid-track"},...parts);this.zoom=new Zoom(this.element,()=>this.#label());
+new ResizeObserver(()=>this.#label()).observe(this.ruler);this.element.addEventListener("pointerdown",
+e=>this.#down(e));this.element.addEventListener("pointermove",e=>this.#scrub(e));this.element.addEventListener(
+"lostpointercapture",e=>this.#up(e))}rename(index=this.#focused()){const key=this.#shown?.keyframes[index];
+if(!key)return;const rename=name=>this.hand.rename(index,name);nameField(this.element,this.#at(key.time),
+key.name,rename,()=>this.focus())}#focused(row=this.keys){const root=row.getRootNode();const active=root.
+activeElement;return[...row.children].indexOf(active)}showRate(rate){this.rate=rate;this.#label()}focus(){
+this.ruler.focus({preventScroll:true})}drop(){this.#drag=null;this.#scrubbing=null;this.range.drop();
+this.hand.hover("");this.hand.dropped()}landing(index,time){const least=SLIM/this.#inside().width*this.
+span;return landing(this.#shown?.keyframes??[],index,time,least)}showHead(place,seen){this.head.style.
+left=this.#at(place);this.head.classList.toggle("glid-seen",seen);this.head.dataset.label=place.toFixed(
+2);this.element.dataset.time=String(place);this.element.dataset.span=String(this.span);this.ruler.setAttribute(
+"aria-valuenow",place.toFixed(2));this.ruler.setAttribute("aria-valuetext",seconds(place));if(seen&&
+this.#scrubbing===null)this.zoom.reveal(this.head.offsetLeft)}showKeys(shown,thumbnails){this.#shown=
+shown;if(this.#drag||this.#scrubbing!==null)return;const all=withReturn(shown);this.span=spanOf(all);
+this.ruler.setAttribute("aria-valuemax",this.span.toFixed(2));const focused=this.#focused();this.keys.
+replaceChildren(...all.map(({name,time,thumbnail},i)=>{const title=`${name} at ${seconds(time)}`;const width=`${this.#wide(
+roomAt(all,i,this.span))} - 2px`;const own=i<shown.keyframes.length;const picture=thumbnail===void 0?
+void 0:thumbnails[thumbnail];return make("button",{className:own?"glid-key":"glid-key glid-return",title:`${title}\
+; drag it to another time`,"aria-label":title,"aria-pressed":i===shown.active,style:`left: ${this.#at(
+time)}; width: clamp(${SLIM}px, ${width}, ${WIDE}px)`,onpointerdown:e=>this.#grab(e,i,time),onclick:e=>{
+if(!e.detail)this.hand.select(i%shown.keyframes.length)}},...picture?[make("img",{src:picture,alt:"",
+draggable:false})]:[])}));const key=this.keys.children[focused];if(key instanceof HTMLElement)key.focus();
+this.#showDiamonds(all);this.#showEases(all);const{time:end}=all[all.length-1];this.range.show(shown.
+range,all.length>1?[all[0].time,end]:null)}#showDiamonds(all){this.diamonds.replaceChildren(...all.map(
+({time},i)=>{const{title,ariaPressed}=this.keys.children[i];const diamond=make("i",{title,style:`lef\
+t: ${this.#at(time)}`,onpointerdown:e=>this.#grab(e,i,time)});diamond.dataset.selected=ariaPressed??
+"false";return diamond}))}#showEases(all){const focused=this.#focused(this.eases);this.eases.replaceChildren(
+...all.slice(1).map(({name,time},i)=>{const start=all[i];const title=`From ${start.name} to ${name}:\
+ ${nameOf(start.easing)}`;const button2=make("button",{className:"glid-segment-ease",title,"aria-lab\
+el":title,"aria-haspopup":"dialog",innerHTML:`${stretchedCurve(start.easing)}<span>${nameOf(start.easing)}\
+</span>`,style:`left: ${this.#at(start.time)}; width: calc(${this.#wide(time-start.time)})`,onpointerdown:e=>{
+e.stopPropagation();this.hand.easePressed()},onclick:()=>this.hand.ease(i,button2)});button2.dataset.
+seconds=`${time-start.time}`;return button2}));this.#hideNarrow();const button=this.eases.children[focused];
+if(button instanceof HTMLElement)button.focus()}#hideNarrow(){const perSecond=Math.max(this.ruler.clientWidth-
+2*INSET,0)/this.span;for(const button of this.eases.children){button.hidden=Number(button.dataset.seconds)*
+perSecond<WIDE+EASE2}}showSegments(segments,label){this.strip.replaceChildren(...segments.flatMap(segment=>this.#pieces(
 segment)));this.strip.setAttribute("aria-label",label);this.#label()}#label(){const{ruler,span,rate}=this;
 const width=Math.max(ruler.clientWidth-2*INSET,0);const labels=labelledTimes(span,width,this.zoom.factor).
-map(time=>{const frame2=frameAt(time,rate);const number=frame2===null?[]:[make("small",{},`${frame2}`)];
-const text=`${Number(time.toFixed(2))}`;return make("span",{style:`left: ${this.#at(time)}`},text,...number)});
-const frame=width/(span*rate);const ticks=make("i",{className:"glid-frames",hidden:frame<LEAST_FRAME});
-ticks.style.setProperty("--glid-frame",`${frame}px`);ruler.replaceChildren(ticks,...labels);this.#hideNarrow()}#pieces(segment){
-const{end,status,until,pieces}=segment;const proved=pieces.map(piece=>{const height=heightOf(piece.sigma2);
-return this.#piece(piece.start,piece.end,"proved",boundOf(piece),height)});if(status==="proved")return proved;
-return[...proved,this.#piece(until,end,status,reasonOf(segment),1)]}#piece(start,end,kind,text,height){
-const width=`calc(${this.#wide(end-start)})`;return make("div",{className:`glid-piece glid-${kind}`,
-title:text,onpointerenter:()=>this.hand.hover(text),style:`left: ${this.#at(start)}; width: ${width}\
-; --glid-height: ${height}`})}#wide(time){return`${time/this.span} * (100% - 2 * var(--glid-inset))`}#at(time){
-return`calc(var(--glid-inset) + ${this.#wide(time)})`}#inside(){const{left,width}=this.element.getBoundingClientRect();
-const length=getComputedStyle(this.element).getPropertyValue("--glid-inset");const inset=Number.parseFloat(
-length)*scaleOf(this.element).across;return{left:left+inset,width:width-2*inset}}#grab(e,index,time){
-if(e.button!==0)return;e.stopPropagation();const button=e.currentTarget;this.#drag={index,from:time,
-x:e.clientX,time:null};button.setPointerCapture(e.pointerId);button.focus({preventScroll:true});button.
-onpointermove=move=>this.#dragged(move,button);button.onlostpointercapture=()=>this.#letGo()}#dragged(e,button){
-const drag=this.#drag;if(!drag)return;const moved=e.clientX-drag.x;if(drag.time===null&&Math.abs(moved)<=
-STILL)return;const time=drag.from+moved/this.#inside().width*this.span;drag.time=this.landing(drag.index,
-time);button.style.left=this.#at(drag.time);this.head.style.left=this.#at(drag.time);this.hand.hover(
-`to ${seconds(drag.time)}`)}#letGo(){if(!this.#drag)return;const{index,time}=this.#drag;this.drop();
-if(time!==null){this.focus();this.hand.move(index,time)}else if(index<(this.#shown?.keyframes.length??
-0)){this.#clicked(index)}}#clicked(index){const now=performance.now();const last=this.#last;this.#last=
-{index,at:now};if(last.index===index&&now-last.at<DOUBLE_CLICK)this.rename(index);else this.hand.select(
-index)}#down(e){if(e.button!==0)return;this.#scrubbing=e.pointerId;this.element.setPointerCapture(e.
-pointerId);this.#scrub(e)}#scrub(e){if(this.#scrubbing===e.pointerId)this.hand.scrub(this.#timeNear(
-e))}#timeNear(e,framed=false){const{left,width}=this.#inside();const time=(e.clientX-left)/width*this.
-span;const near=SNAP/width*this.span;const key=this.#shown?.keyframes.find(one=>Math.abs(one.time-time)<
-near);return key?.time??(framed?Math.round(time*this.rate)/this.rate:time)}#up(e){if(this.#scrubbing!==
-e.pointerId)return;this.drop();this.hand.scrubbed()}};var BADNESS={proved:0,computing:1,fails:2,refused:2};function worstOf([own,...others]){return own.spans.
+map(time=>{const frame2=frameAt(time,rate);const number=frame2===null?[]:[make("b",{},`${frame2}`)];
+const second=make("small",{},`${Number(time.toFixed(2))} s`);return make("span",{style:`left: ${this.#at(
+time)}`},...number,second)});const frame=width/(span*rate);const ticks=make("i",{className:"glid-fra\
+mes",hidden:frame<LEAST_FRAME});ticks.style.setProperty("--glid-frame",`${frame}px`);ruler.replaceChildren(
+ticks,...labels);this.#hideNarrow()}#pieces(segment){const{end,status,until,pieces}=segment;const proved=pieces.
+map(piece=>{const height=heightOf(piece.sigma2);return this.#piece(piece.start,piece.end,"proved",boundOf(
+piece),height)});if(status==="proved")return proved;return[...proved,this.#piece(until,end,status,reasonOf(
+segment),1)]}#piece(start,end,kind,text,height){const width=`calc(${this.#wide(end-start)})`;return make(
+"div",{className:`glid-piece glid-${kind}`,title:text,onpointerenter:()=>this.hand.hover(text),style:`\
+left: ${this.#at(start)}; width: ${width}; --glid-height: ${height}`})}#wide(time){return`${time/this.
+span} * (100% - 2 * var(--glid-inset))`}#at(time){return`calc(var(--glid-inset) + ${this.#wide(time)}\
+)`}#inside(){const{left,width}=this.element.getBoundingClientRect();const length=getComputedStyle(this.
+element).getPropertyValue("--glid-inset");const inset=Number.parseFloat(length)*scaleOf(this.element).
+across;return{left:left+inset,width:width-2*inset}}#grab(e,index,time){if(e.button!==0)return;e.stopPropagation();
+const button=this.keys.children[index];this.#drag={index,from:time,x:e.clientX,time:null};button.setPointerCapture(
+e.pointerId);button.focus({preventScroll:true});button.onpointermove=move=>this.#dragged(move,button);
+button.onlostpointercapture=()=>this.#letGo()}#dragged(e,button){const drag=this.#drag;if(!drag)return;
+const moved=e.clientX-drag.x;if(drag.time===null&&Math.abs(moved)<=STILL)return;const time=drag.from+
+moved/this.#inside().width*this.span;drag.time=this.landing(drag.index,time);const diamond=this.diamonds.
+children[drag.index];button.style.left=this.#at(drag.time);diamond.style.left=this.#at(drag.time);this.
+head.style.left=this.#at(drag.time);this.hand.hover(`to ${seconds(drag.time)}`)}#letGo(){if(!this.#drag)
+return;const{index,time}=this.#drag;this.drop();if(time!==null){this.focus();this.hand.move(index,time)}else if(index<
+(this.#shown?.keyframes.length??0)){this.#clicked(index)}}#clicked(index){const now=performance.now();
+const last=this.#last;this.#last={index,at:now};if(last.index===index&&now-last.at<DOUBLE_CLICK)this.
+rename(index);else this.hand.select(index)}#down(e){if(e.button!==0)return;this.#scrubbing=e.pointerId;
+this.element.setPointerCapture(e.pointerId);this.#scrub(e)}#scrub(e){if(this.#scrubbing===e.pointerId)
+this.hand.scrub(this.#timeNear(e))}#timeNear(e,framed=false){const{left,width}=this.#inside();const time=(e.
+clientX-left)/width*this.span;const near=SNAP/width*this.span;const key=this.#shown?.keyframes.find(
+one=>Math.abs(one.time-time)<near);return key?.time??(framed?Math.round(time*this.rate)/this.rate:time)}#up(e){
+if(this.#scrubbing!==e.pointerId)return;this.drop();this.hand.scrubbed()}};var BADNESS={proved:0,computing:1,fails:2,refused:2};function worstOf([own,...others]){return own.spans.
 map((span,i)=>{const all=[{name:own.name,span}];for(const{name,spans}of others){all.push({name,span:spans[i]??
 untold(span)})}return worst(all)})}function untold(span){return{...span,status:"computing",reason:"",
 until:span.start,sigma2:[]}}function worst(all){const until=Math.min(...all.map(({span})=>provedUntil(
@@ -325,9 +346,10 @@ sigma2}=bounds.reduce((a,b)=>b.sigma2<a.sigma2?b:a);return sigma2>0?[{start,end,
 function boundAt({times,sigma2},time){const piece=times.findIndex((knot,i)=>knot<=time&&time<=times[i+
 1]);return sigma2[piece]??0}var NUDGE=.1;var Timeline=class{note=make("div",{className:"glid-timeline-note",role:"status"});stage=null;#layers=null;#otherLayers={};#easeBefore=-1;#goal=null;#played=false;#hovered="";#playing={
 release:()=>this.release(),pause:()=>{this.player.pause();this.#goal=this.player.place;return this.player.
-place}};constructor({model,el,signal}){this.model=model;this.root=make("div",{className:"glid-skin g\
-lid-timeline",role:"group","aria-label":"Timeline"});this.root.dataset.lmSuppressShortcuts="true";this.
-link=new Link(model,this.root,signal,()=>this.tell());this.player=new Player((floats,time,others)=>this.#show(
+place},reach:()=>{const{keyframes,active}=this.shown;if(keyAt(keyframes,this.player.place)===active)
+this.release()}};constructor({model,el,signal}){this.model=model;this.root=make("div",{className:"gl\
+id-skin glid-timeline",role:"group","aria-label":"Timeline"});this.root.dataset.lmSuppressShortcuts=
+"true";this.link=new Link(model,this.root,signal,()=>this.tell());this.player=new Player((floats,time,others)=>this.#show(
 floats,time,others),()=>this.showHead(),()=>this.#selectHere());this.bar=new Bar({play:()=>this.play(),
 keep:()=>this.keep(),act:(type,content)=>void this.act(type,content),edit:(type,content)=>void this.
 edit(type,content),zoom:by=>this.track.zoom.zoom(by),ease:()=>this.#ease()});this.bar.ease.addEventListener(
