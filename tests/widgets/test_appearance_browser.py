@@ -65,7 +65,10 @@ def test_on_a_phone_the_canvas_comes_first_and_the_tools_have_two_rows(
     assert pad[2] >= 0.93 * root[2]  # of the 274 pixels that JupyterLab leaves
     assert pad[3] >= 0.9 * pad[2]
     shell = page.locator(".glid-shell")
-    rows = [shell.locator(part) for part in (".glid-tools", ".glid-bars", ".glid-timeline")]
+    rows = [
+        shell.locator(part)
+        for part in (".glid-tools", ".glid-bars .glid-pin:visible", ".glid-timeline")
+    ]
     places = [box(row) for row in rows]
     assert pad[1] + pad[3] <= places[0][1]  # the canvas is above all of them
     for (_, above, _, height), (_, below, _, _) in itertools.pairwise(places):
