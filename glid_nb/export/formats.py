@@ -1,5 +1,6 @@
 """Tables of the export formats, one for maps and one for motions, by the endings of file names."""
 
+import itertools
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import NamedTuple
@@ -46,10 +47,21 @@ OF_ONE_SHAPE = frozenset({".svg", ".html", ".py", ".proof.json", ".motion.json"}
 """Formats that hold one shape. A session with several parts exports a file for each."""
 
 
-def part_name(name: str, suffix: str, part: str) -> str:
-    """The name of a part's file: that of the export, with the part's name before the suffix."""
+def part_names(name: str, suffix: str, parts: Sequence[str]) -> tuple[str, ...]:
+    """The names of the parts' files: that of the export, with a part's name before the suffix.
+
+    Parts whose names no file system tells apart are numbered.
+    """
     stem, ending = name[: len(name) - len(suffix)], name[len(name) - len(suffix) :]
-    return f"{stem}-{portable_name(part) or 'part'}{ending}"
+    taken: set[str] = set()
+    names = []
+    for part in parts:
+        plain = portable_name(part) or "part"
+        tries = itertools.chain([plain], (f"{plain}-{n}" for n in itertools.count(2)))
+        free = next(one for one in tries if one.casefold() not in taken)
+        taken.add(free.casefold())
+        names.append(f"{stem}-{free}{ending}")
+    return tuple(names)
 
 
 def obj_names(name: str, parts: Sequence[str]) -> tuple[str, ...]:
@@ -58,10 +70,8 @@ def obj_names(name: str, parts: Sequence[str]) -> tuple[str, ...]:
     Materials have the names of their textures, in which programs do not expect spaces.
     """
     stem, texture = name[: -len(".obj")], "-texture.png"
-    names = ["_".join(part.split()) for part in parts]
-    alike = [names[:i].count(one) for i, one in enumerate(names)]
-    unlike = (f"{one}-{n + 1}" if n else one for one, n in zip(names, alike, strict=True))
-    return (name, f"{stem}.mtl", *(part_name(stem + texture, texture, one) for one in unlike))
+    unspaced = ["_".join(part.split()) for part in parts]
+    return (name, f"{stem}.mtl", *part_names(stem + texture, texture, unspaced))
 
 
 def suffix_of(name: str, formats: Mapping[str, Format] = MOTION_FORMATS) -> str:

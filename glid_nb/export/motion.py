@@ -10,7 +10,7 @@ from glid_nb._arguments import check_type
 from glid_nb._errors import InputError
 from glid_nb._files import write_atomically
 from glid_nb.export import encode
-from glid_nb.export.formats import OF_ONE_SHAPE, file_names, part_name, suffix_of
+from glid_nb.export.formats import OF_ONE_SHAPE, file_names, part_names, suffix_of
 from glid_nb.export.mesh import motion_glb, parts_motion_glb
 from glid_nb.export.moving import MovingPart, check_picture, frames
 from glid_nb.export.page import page_html
@@ -160,17 +160,16 @@ def parts_motion_files(
 
     Their motions have the same times. Frames show all shapes; later ones cover earlier ones. A
     glTF file has a node for each. The formats in `OF_ONE_SHAPE` hold one shape. So there are files
-    for each part, with its name in theirs (`part_name`).
+    for each part, with its name in theirs (`part_names`).
     """
     suffix, fps = suffix_of(name), frames_per_second
     if suffix in OF_ONE_SHAPE:
         how: dict[str, Any] = {"size": size, "frames_per_second": fps, "background": background}
         how |= {"loop": loop, "progress": progress}
+        names = part_names(name, suffix, [part.name for part in parts])
         files = [
-            motion_files(
-                part_name(name, suffix, part.name), part.image, part.motion, part.poses, **how
-            )
-            for part in parts
+            motion_files(own, part.image, part.motion, part.poses, **how)
+            for own, part in zip(names, parts, strict=True)
         ]
         return {n: data for each in files for n, data in each.items()} if all(files) else {}
     ground = encode.check_settings(size, fps, background, suffix)

@@ -21,7 +21,7 @@ from glid_nb.export.formats import (
     ExportError,
     file_names,
     obj_names,
-    part_name,
+    part_names,
     suffix_of,
 )
 from glid_nb.imaging.backdrop import WHITE, Backdrop
@@ -89,7 +89,7 @@ def written_names(model: EditorModel, path: Path, *, moving: bool) -> tuple[str,
         return file_names(path.name, formats)
     if suffix == ".obj":
         return obj_names(path.name, [shape.name for shape in shapes])
-    each = (part_name(path.name, suffix, shape.name) for shape in shapes)
+    each = part_names(path.name, suffix, [shape.name for shape in shapes])
     return tuple(name for one in each for name in file_names(one, formats))
 
 
@@ -175,7 +175,8 @@ def _own_paths(path: Path, suffix: str, shapes: Sequence[Shape]) -> list[tuple[P
     """The file of each shape; that of the only one is the named file."""
     if len(shapes) == 1:
         return [(path, shapes[0])]
-    return [(path.with_name(part_name(path.name, suffix, s.name)), s) for s in shapes]
+    names = part_names(path.name, suffix, [shape.name for shape in shapes])
+    return [(path.with_name(own), shape) for own, shape in zip(names, shapes, strict=True)]
 
 
 def _document_of(model: EditorModel, shape: Shape) -> Document:

@@ -243,3 +243,11 @@ def test_an_obj_file_has_an_object_and_a_texture_for_each_part(
 def test_names_of_parts_give_files_of_their_own() -> None:
     names = glid.export.formats.obj_names("a.obj", ["left arm", "left_arm", "x/y"])
     assert names[2:] == ("a-left_arm-texture.png", "a-left_arm-2-texture.png", "a-x_y-texture.png")
+
+
+def test_parts_that_no_file_system_tells_apart_have_files_of_their_own() -> None:
+    """`arm?` and `arm*` have the same plain name, and so have `Arm` and `arm` on many systems."""
+    names = glid.export.formats.part_names("a.svg", ".svg", ["arm?", "arm*", "Arm", "arm", "?"])
+    assert len({name.casefold() for name in names}) == 5
+    assert names[2] == "a-Arm.svg"
+    assert all(name.startswith("a-") and name.endswith(".svg") for name in names)
