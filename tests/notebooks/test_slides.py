@@ -97,6 +97,12 @@ _TOO_LARGE = """() => [...document.querySelectorAll('section')].flatMap((slide, 
   return fits ? [] : [`slide ${i + 1}: ${scrollWidth} x ${scrollHeight}`];
 })"""
 
+_CLIPPED = """() => [...document.querySelectorAll('section')].flatMap((slide, i) => {
+  go(i);
+  return [...slide.querySelectorAll('math[display=block]')]
+    .filter((formula) => formula.scrollWidth > formula.clientWidth + 1)
+    .map((formula) => `slide ${i + 1}: ${formula.textContent}`);
+})"""
 _LIVE = """() => [...document.querySelectorAll('.glid-frames')]
   .every((figure) => figure.querySelector('input'))"""
 _WITH_RINGS = """() => [...document.querySelectorAll('section')]
@@ -134,6 +140,7 @@ def test_every_slide_fits_a_projector_and_rings_are_dragged_on_slides(lectures: 
             page.goto((lectures / f"{name}.html").as_uri())
             page.wait_for_function(_LIVE)
             assert page.evaluate(_TOO_LARGE) == []
+            assert page.evaluate(_CLIPPED) == []
             rings = page.evaluate(_WITH_RINGS)
             for number in rings:
                 page.evaluate("go", number)
