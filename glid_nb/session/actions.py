@@ -289,7 +289,7 @@ def set_easing(state: EditState, index: int, easing: Easing) -> EditState:
 
 def set_repeat(state: EditState, repeat: Repeat) -> EditState:
     """Set whether the motion plays once, in a loop, or there and back."""
-    return replace(state, timeline=replace(state.timeline, repeat=repeat))
+    return replace(state, timeline=state.timeline.repeated(repeat))
 
 
 def set_loop_range(state: EditState, part: tuple[float, float] | None) -> EditState:

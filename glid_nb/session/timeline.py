@@ -89,6 +89,15 @@ class Timeline:
         times = self.closed_times
         return Motion(maps, times, easing=self.easing[: len(times) - 1], repeat=self.repeat)
 
+    def repeated(self, repeat: Repeat) -> Self:
+        """Set the repetition. A loop whose return has no time of its own yet comes back as fast as
+        the keyframes follow one another, on average."""
+        back = self.back
+        if repeat == "loop" and len(self) > 1 and back == _USUAL:
+            mean = (self.times[-1] - self.times[0]) / (len(self) - 1)
+            back = round(max(mean, _GRID), 2)
+        return replace(self, repeat=repeat, back=back)
+
     def lasting(self, seconds: float) -> Self:
         """Rescale the times to run from 0 to ``seconds``. A ping-pong's way back takes as long."""
         share = seconds / (self.end - self.times[0])

@@ -49,8 +49,8 @@ class FieldRows(ipywidgets.GridBox):
         on_change: Callable[[str, Any], None] | None = None,
     ) -> None:
         self._on_change = on_change
-        columns = "96px minmax(0, 1fr)"
-        super().__init__([], layout={"grid_template_columns": columns, "grid_gap": "2px 8px"})
+        columns = "76px minmax(0, 1fr)"  # in the inspector, for the longest name of an energy
+        super().__init__([], layout={"grid_template_columns": columns, "grid_gap": "4px 8px"})
         self.build(controls)
 
     def build(self, controls: Mapping[str, tuple[str, Any]]) -> None:

@@ -200,6 +200,10 @@ class BackdropMesh:
         self._material = three.MeshBasicMaterial(depthTest=False, depthWrite=False, **look)
         self.mesh = three.Mesh(self._geometry, self._material, position=centre)
 
+    @property
+    def is_picture(self) -> bool:
+        return self._texture is not None
+
     def close(self) -> None:
         """Free the page's resources."""
         for part in (self.mesh, self._geometry, self._material, self._texture):

@@ -198,7 +198,7 @@ def _line(status: StatusLine, hint: str) -> str:
     return (
         f'<div style="display:flex;align-items:center;gap:2px 8px;line-height:1.4" '
         f'title="{html.escape(status.text)}">'
-        f'<span style="flex:none;width:10px;height:10px;border-radius:5px;'
+        f'<span class="glid-state" style="flex:none;width:10px;height:10px;border-radius:5px;'
         f'background:{_TONES[status.level]}"></span>'
         f'<span class="glid-said">{text}</span>{advice}</div>'
     )

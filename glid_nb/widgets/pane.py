@@ -203,11 +203,13 @@ class Pane(ClosingWidget, ipywidgets.GridBox):
 
     def set_picture(self, image: Array, background: Backdrop) -> None:
         """Draw another picture of the same size, and what lies behind it."""
-        behind, old = self._backdrop, self.scene
+        behind, old, framed = self._backdrop, self.scene, self._has_picture_behind
         self._image = image
         self._backdrop = self._new_backdrop(background)
         self.scene = self._edited_scene()
         self._show(old)
+        if self._has_picture_behind and not framed:
+            self.fit()  # the shape has room to move in front of it
         if behind is not None:
             behind.close()
 
@@ -318,10 +320,15 @@ class Pane(ClosingWidget, ipywidgets.GridBox):
         return np.split(images, ends), np.reshape(self._drawing.targets, (-1, 2))
 
     def _everything(self) -> Any:
-        """Points of the drawn outlines, and the targets."""
+        """Points of the drawn outlines, the targets, and the corners of a picture behind them."""
         loops, targets = self._drawn()
         around = (scene.map(scene.domain.cage.exterior) for scene in self.part_scenes.values())
-        return np.concatenate([*loops, *around, targets])
+        corners = self._frame.bounds if self._has_picture_behind else ()
+        return np.concatenate([*loops, *around, targets, np.reshape(corners, (-1, 2))])
+
+    @property
+    def _has_picture_behind(self) -> bool:
+        return self._backdrop is not None and self._backdrop.is_picture
 
     _seen: tuple[float, float]  # width and height, in world units, that must fit in the view
     _unit: float  # world units per CSS pixel with which they fit

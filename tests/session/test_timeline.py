@@ -117,6 +117,16 @@ def test_a_loop_returns_after_its_last_pose() -> None:
         actions.move_pose(state_of(2), 2, 4.5)
 
 
+def test_a_loop_returns_as_fast_as_its_poses_follow_one_another() -> None:
+    fast = actions.move_pose(actions.move_pose(state_of(3), 1, 0.25), 2, 0.5)
+    loop = actions.set_repeat(fast, "loop")
+    assert loop.timeline.end == 0.75
+    # Its own time stays, also when the motion is played otherwise in between.
+    slow = actions.move_pose(loop, 3, 1.1)
+    again = actions.set_repeat(actions.set_repeat(slow, "once"), "loop")
+    assert again.timeline.back == 0.6
+
+
 def test_a_loop_range_is_played_as_far_as_the_motion_reaches() -> None:
     state = actions.set_loop_range(state_of(3), (0.5, 3))
     assert state.timeline.played_range == (0.5, 2)

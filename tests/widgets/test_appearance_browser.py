@@ -116,7 +116,16 @@ def test_nothing_is_cut_off_covered_or_askew(open_notebook: OpenNotebook) -> Non
     assert len(first) == 2
     assert len({round(y) for y in first.values()}) == 1
     book.screenshot("editor-help")
-    page.keyboard.press("Escape")
+    # On a phone they are one column, which scrolls down and not sideways.
+    desktop = page.viewport_size
+    assert desktop is not None
+    page.set_viewport_size({"width": 390, "height": 844})
+    assert table.evaluate("(one) => one.scrollWidth - one.clientWidth") == 0
+    assert table.evaluate("(one) => one.scrollHeight - one.clientHeight") > 0
+    assert len({round(box(cell)[0]) for cell in table.locator("td").all()}) == 1
+    page.set_viewport_size(desktop)
+    table.get_by_role("button", name="Close").click()
+    table.wait_for(state="hidden")
     # A notice and a refused number are both read.
     page.get_by_role("tab", name="Pin").click()
     book.value("None", setup="canvas.pane.stage.notice = 'So it is.'; model.tell('hand')")

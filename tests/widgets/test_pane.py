@@ -6,6 +6,7 @@ import ipywidgets
 import numpy as np
 import pytest
 
+from glid_nb.imaging import PixelFrame
 from glid_nb.widgets import DeformCanvas
 from glid_nb.widgets.layers import MOVED_BY_PAGE
 
@@ -161,4 +162,31 @@ def test_what_has_moved_stays_in_view_when_the_canvas_takes_another_shape() -> N
     for width, height in ((600, 480), (480, 800), (900, 480), (600, 480)):
         canvas.pane.resize(width, height)
         assert all_in_view()
+    canvas.close()
+
+
+def test_a_picture_behind_the_shape_is_seen_as_a_whole() -> None:
+    wide = np.zeros((100, 400, 4), np.uint8)
+    canvas = DeformCanvas(wide, domain("ell"), width=600, height=480)
+    left, bottom, right, top = PixelFrame(400, 100).bounds
+    stage = canvas.pane.stage
+
+    def seen() -> bool:
+        (x, y, unit), sides = stage.view, (stage.width, stage.height)
+        across, up = (0.5 * unit * side for side in sides)
+        whole = x - across <= left and right <= x + across
+        return whole and y - up <= bottom and top <= y + up
+
+    shape_alone = list(stage.view)
+    assert not seen()
+    canvas.set_picture(wide, (255, 255, 255))
+    assert stage.view == shape_alone
+    canvas.set_picture(wide, wide)
+    assert seen()
+    # Another one leaves a view that the user has chosen.
+    stage.view = shape_alone
+    canvas.set_picture(wide, wide)
+    assert stage.view == shape_alone
+    canvas.fit()
+    assert seen()
     canvas.close()

@@ -85,7 +85,7 @@ def test_the_page_is_given_what_is_proved_and_its_events_act(panel: TimelinePane
         ("up", 2.5, "linear"),
     ]
     assert {k: panel.shown[k] for k in ("repeat", "back", "recording", "onion", "active")} == {
-        **{"repeat": "loop", "back": 1.0, "recording": True, "onion": True, "active": 1}
+        **{"repeat": "loop", "back": 2.5, "recording": True, "onion": True, "active": 1}
     }
     (_, (outline,)) = canvas.pane.stage.onion[0]
     assert [color for color, _ in canvas.pane.stage.onion] == ["#0072b2", "#e69f00"]  # a loop's

@@ -6,10 +6,12 @@ function penOf(canvas){const pen=canvas.getContext("2d");if(!pen)throw new Error
 not draw on canvases");return pen}function follow(model,listeners){for(const[names,listener]of Object.entries(listeners)){model.on(names,
 listener);listener()}}var OF_THE_PAD=["pointerdown","pointermove","wheel","keydown","keyup","contextmenu"];function shield(element){
 for(const name of OF_THE_PAD)element.addEventListener(name,e=>e.stopPropagation());return element}function help(sections){
-const table=shield(make("div",{className:"glid-help",popover:"auto",tabIndex:-1},...sections.map(section)));
+const head=make("div",{className:"glid-help-head"},make("h3",{},"Keys and gestures"),make("button",{
+title:"Close",ariaLabel:"Close"},"×"));const columns=make("div",{},...sections.map(section));const look={
+className:"glid-help",popover:"auto",tabIndex:-1};const table=shield(make("div",look,head,columns));
 table.addEventListener("click",()=>table.hidePopover());table.addEventListener("beforetoggle",()=>Object.
-assign(table,{autofocus:true}));const title="Keys and gestures (?)";const look={className:"glid-help\
--button",title,"aria-label":title};const button=shield(make("button",{...look,popoverTargetElement:table},
+assign(table,{autofocus:true}));const title="Keys and gestures (?)";const around={className:"glid-he\
+lp-button",title,"aria-label":title};const button=shield(make("button",{...around,popoverTargetElement:table},
 "?"));return{table,button,toggle:()=>void table.togglePopover()}}function section([title,rows]){return make(
 "section",{},make("h4",{},title),make("table",{},...rows.map(row)))}function row([keys,what]){return make(
 "tr",{},make("th",{},keys),make("td",{},what))}var PATHS={edit:"M3 2l9.5 5.2-4 1.2 2.4 4.3-1.8 1-2.4-4.3L3 12z",brush:"M13.5 2.5l-6 6 M6.7 9.2c-1.6\
@@ -339,57 +341,57 @@ view=new View(moved,{up:-1,nearest:1/MOST_ZOOM,farthest:FARTHEST});this.changed=
 this.view,signal,pen=>this.#draw(pen));this.pad=new Pad(this.canvas,this.view,link,this);this.#takeFiles(
 upload);this.resizer=new ResizeObserver(()=>this.#resize());this.resizer.observe(this.element);const themeChanged=()=>{
 this.colors=null;this.changed()};this.themes=new MutationObserver(themeChanged);this.themes.observe(
-document.body,{attributes:true});const dark=matchMedia("(prefers-color-scheme: dark)");dark.addEventListener(
-"change",themeChanged,{signal})}close(){this.resizer.disconnect();this.themes.disconnect();this.#closed=
-true;this.bitmap?.close();this.bitmap=null}#takeFiles(upload){const{drop,element}=this;const on=(name,act)=>element.
-addEventListener(name,e=>{e.preventDefault();e.stopPropagation();act(e)});const invite=()=>{drop.hidden=
-false};on("dragenter",invite);on("dragover",invite);on("dragleave",e=>{const inside=element.contains(
-e.relatedTarget);if(!inside)drop.hidden=true});on("drop",e=>{drop.hidden=true;const file=e.dataTransfer?.
-files[0];if(file)upload(file)})}update(shown){const before=this.shown?.size;this.shown=shown;this.empty.
-hidden=Boolean(shown.size);if(shown.size&&String(before)!==String(shown.size))this.fit();this.pad.hover()}async setPicture(bytes){
-this.#turn+=1;const turn=this.#turn;const bitmap=bytes?.byteLength?await createImageBitmap(new Blob(
-[bytes])):null;if(turn!==this.#turn||this.#closed){bitmap?.close();return}this.bitmap?.close();this.
-bitmap=bitmap;this.changed()}setTool(tool){this.tool=tool;this.pad.hover()}highlightHole(index){this.#listed=
-index===null?null:{hole:index};this.changed()}fit(){const{view,element}=this;if(!this.shown?.size)return;
-const[w,h]=this.shown.size;this.hintText.textContent=this.#hint(null);const below=Math.max(this.hintText.
-offsetHeight+2*HINT,MARGIN);const wide=Math.max(element.clientWidth-2*MARGIN,1);const high=Math.max(
-element.clientHeight-MARGIN-below,1);const unit=Math.min(Math.max(w/wide,h/high),FARTHEST);view.x=w/
-2;view.y=h/2+unit*(below-MARGIN)/2;view.unit=unit;view.farthest=4*unit;this.#fitted=true;this.changed()}zoom(closer){
-this.view.zoom(closer?1/ZOOM:ZOOM)}#resize(){const{clientWidth,clientHeight}=this.element;if(!clientWidth||
-!clientHeight)return;if(this.#fitted)this.fit();this.view.width=clientWidth;this.view.height=clientHeight;
-this.changed()}get loops(){const loops=this.shown?.loops??[];const{held}=this.pad;if(!held.size)return loops;
-return loops.map((loop,i)=>loop.map((point,j)=>held.get(`${i}:${j}`)??point))}get brushing(){return this.
-tool==="foreground"||this.tool==="background"}get drawing(){return this.tool==="polygon"||this.tool===
-"rectangle"}get cutting(){return this.tool==="knife"}reach=REACH;keys=KEYS;actions={"+":()=>this.zoom(
-true),"=":()=>this.zoom(true),"-":()=>this.zoom(false),f:()=>this.fit()};get painting(){return this.
-brushing||this.drawing||this.cutting}find(point,reach){if(this.tool!=="edit"||!this.shown?.size)return null;
-const{holes,reach_shares:shares}=this.shown;const hole=holeAt(holes,point);const near=hole<0?reach:shares.
-in_hole*reach;const vertex=nearestVertex(this.loops,point,near);if(vertex)return{vertex,mark:`${vertex.
-loop}:${vertex.index}`};const edge=nearestEdge(this.loops,point,shares.edge*near);if(edge)return{edge};
-return hole<0?null:{hole}}held({vertex,mark}){if(!vertex||mark===void 0)return new Map;return new Map(
-[[mark,this.loops[vertex.loop][vertex.index]]])}pans(found){return!found?.vertex&&!this.painting}cursor(found){
-if(this.tool==="component")return"pointer";if(this.tool!=="edit")return"crosshair";if(found?.vertex)
-return"grab";if(found?.edge)return"copy";return found?.hole===void 0?"default":"pointer"}#draw(pen){
-const{shown,pad,view}=this;if(!shown||!view.width)return;this.colors??=this.#readColors();const below=pad.
-mode==="pan"?null:pad.found;const hover=this.#listed??below;if(shown.size)drawStage(pen,this,this.#scene(
-shown,this.colors),hover);const[left,top]=view.toScreen([0,0]);this.element.dataset.viewport=`${1/view.
-unit} ${left} ${top}`;this.#placeCallout(shown);this.hintText.textContent=shown.size?this.#hint(hover):
-""}#scene(shown,colors){return{shown,colors,loops:this.loops.map(loop=>this.view.line(loop))}}drawn(){
-const{path,rests}=this.pad;const inside=this.shown?.inside??[];if(inside.length)return[...inside,inside[0]];
-const now=rests?[this.view.toWorld(rests)]:[];if(this.tool==="polygon"){const corners=this.shown?.corners??
-[];return corners.concat(path.length?path:now)}if(!path.length||!now.length)return[];return[...rectangle(
-path[0],now[0]),path[0]]}#hint(hover){const hole=hover?.hole===void 0?void 0:this.shown?.holes[hover.
-hole];if(hole)return hole.kept?"Click to drop this hole":"Click to keep this hole";if(hover?.edge)return"\
-Double-click to add a vertex here";if(hover?.vertex)return"Drag to move · right-click or Delete to d\
-elete";return TOOLS[this.tool].hint}#readColors(){const probe=this.root.appendChild(make("span"));const color=name=>{
-probe.style.color=`var(--glid-${name})`;return getComputedStyle(probe).color};const colors=Object.fromEntries(
-COLORS.map(name=>[name,color(name)]));probe.remove();return colors}#placeCallout(shown){const{callout,
-view}=this;const problem=shown.problems[0];callout.hidden=!problem||this.pad.mode==="pan";if(!problem)
-return;callout.textContent=problem.message;const{offsetWidth:w,offsetHeight:h}=callout;const[x,y]=problem.
-point?view.toScreen(problem.point):[view.width/2,-16];const fitsBelow=!problem.point||y+CALLOUT+h<=view.
-height;const beside=fitsBelow?y+CALLOUT:y-CALLOUT-h;const left=Math.min(Math.max(x-w/2,EDGE),view.width-
-w-EDGE);const top=Math.min(Math.max(beside,EDGE),view.height-h-EDGE);callout.style.transform=`transl\
-ate(${left}px, ${top}px)`}};var PART=1<<20;var Tracer=class{root=make("div",{className:"glid-skin glid-tracer"});status=make("di\
+document.body,{attributes:true});for(const theme of["(prefers-color-scheme: dark)","(forced-colors: \
+active)"]){matchMedia(theme).addEventListener("change",themeChanged,{signal})}}close(){this.resizer.
+disconnect();this.themes.disconnect();this.#closed=true;this.bitmap?.close();this.bitmap=null}#takeFiles(upload){
+const{drop,element}=this;const on=(name,act)=>element.addEventListener(name,e=>{e.preventDefault();e.
+stopPropagation();act(e)});const invite=()=>{drop.hidden=false};on("dragenter",invite);on("dragover",
+invite);on("dragleave",e=>{const inside=element.contains(e.relatedTarget);if(!inside)drop.hidden=true});
+on("drop",e=>{drop.hidden=true;const file=e.dataTransfer?.files[0];if(file)upload(file)})}update(shown){
+const before=this.shown?.size;this.shown=shown;this.empty.hidden=Boolean(shown.size);if(shown.size&&
+String(before)!==String(shown.size))this.fit();this.pad.hover()}async setPicture(bytes){this.#turn+=
+1;const turn=this.#turn;const bitmap=bytes?.byteLength?await createImageBitmap(new Blob([bytes])):null;
+if(turn!==this.#turn||this.#closed){bitmap?.close();return}this.bitmap?.close();this.bitmap=bitmap;this.
+changed()}setTool(tool){this.tool=tool;this.pad.hover()}highlightHole(index){this.#listed=index===null?
+null:{hole:index};this.changed()}fit(){const{view,element}=this;if(!this.shown?.size)return;const[w,
+h]=this.shown.size;this.hintText.textContent=this.#hint(null);const below=Math.max(this.hintText.offsetHeight+
+2*HINT,MARGIN);const wide=Math.max(element.clientWidth-2*MARGIN,1);const high=Math.max(element.clientHeight-
+MARGIN-below,1);const unit=Math.min(Math.max(w/wide,h/high),FARTHEST);view.x=w/2;view.y=h/2+unit*(below-
+MARGIN)/2;view.unit=unit;view.farthest=4*unit;this.#fitted=true;this.changed()}zoom(closer){this.view.
+zoom(closer?1/ZOOM:ZOOM)}#resize(){const{clientWidth,clientHeight}=this.element;if(!clientWidth||!clientHeight)
+return;if(this.#fitted)this.fit();this.view.width=clientWidth;this.view.height=clientHeight;this.changed()}get loops(){
+const loops=this.shown?.loops??[];const{held}=this.pad;if(!held.size)return loops;return loops.map((loop,i)=>loop.
+map((point,j)=>held.get(`${i}:${j}`)??point))}get brushing(){return this.tool==="foreground"||this.tool===
+"background"}get drawing(){return this.tool==="polygon"||this.tool==="rectangle"}get cutting(){return this.
+tool==="knife"}reach=REACH;keys=KEYS;actions={"+":()=>this.zoom(true),"=":()=>this.zoom(true),"-":()=>this.
+zoom(false),f:()=>this.fit()};get painting(){return this.brushing||this.drawing||this.cutting}find(point,reach){
+if(this.tool!=="edit"||!this.shown?.size)return null;const{holes,reach_shares:shares}=this.shown;const hole=holeAt(
+holes,point);const near=hole<0?reach:shares.in_hole*reach;const vertex=nearestVertex(this.loops,point,
+near);if(vertex)return{vertex,mark:`${vertex.loop}:${vertex.index}`};const edge=nearestEdge(this.loops,
+point,shares.edge*near);if(edge)return{edge};return hole<0?null:{hole}}held({vertex,mark}){if(!vertex||
+mark===void 0)return new Map;return new Map([[mark,this.loops[vertex.loop][vertex.index]]])}pans(found){
+return!found?.vertex&&!this.painting}cursor(found){if(this.tool==="component")return"pointer";if(this.
+tool!=="edit")return"crosshair";if(found?.vertex)return"grab";if(found?.edge)return"copy";return found?.
+hole===void 0?"default":"pointer"}#draw(pen){const{shown,pad,view}=this;if(!shown||!view.width)return;
+this.colors??=this.#readColors();const below=pad.mode==="pan"?null:pad.found;const hover=this.#listed??
+below;if(shown.size)drawStage(pen,this,this.#scene(shown,this.colors),hover);const[left,top]=view.toScreen(
+[0,0]);this.element.dataset.viewport=`${1/view.unit} ${left} ${top}`;this.#placeCallout(shown);this.
+hintText.textContent=shown.size?this.#hint(hover):""}#scene(shown,colors){return{shown,colors,loops:this.
+loops.map(loop=>this.view.line(loop))}}drawn(){const{path,rests}=this.pad;const inside=this.shown?.inside??
+[];if(inside.length)return[...inside,inside[0]];const now=rests?[this.view.toWorld(rests)]:[];if(this.
+tool==="polygon"){const corners=this.shown?.corners??[];return corners.concat(path.length?path:now)}
+if(!path.length||!now.length)return[];return[...rectangle(path[0],now[0]),path[0]]}#hint(hover){const hole=hover?.
+hole===void 0?void 0:this.shown?.holes[hover.hole];if(hole)return hole.kept?"Click to drop this hole":
+"Click to keep this hole";if(hover?.edge)return"Double-click to add a vertex here";if(hover?.vertex)
+return"Drag to move · right-click or Delete to delete";return TOOLS[this.tool].hint}#readColors(){const probe=this.
+root.appendChild(make("span"));const color=name=>{probe.style.color=`var(--glid-${name})`;return getComputedStyle(
+probe).color};const colors=Object.fromEntries(COLORS.map(name=>[name,color(name)]));probe.remove();return colors}#placeCallout(shown){
+const{callout,view}=this;const problem=shown.problems[0];callout.hidden=!problem||this.pad.mode==="p\
+an";if(!problem)return;callout.textContent=problem.message;const{offsetWidth:w,offsetHeight:h}=callout;
+const[x,y]=problem.point?view.toScreen(problem.point):[view.width/2,-16];const fitsBelow=!problem.point||
+y+CALLOUT+h<=view.height;const beside=fitsBelow?y+CALLOUT:y-CALLOUT-h;const left=Math.min(Math.max(x-
+w/2,EDGE),view.width-w-EDGE);const top=Math.min(Math.max(beside,EDGE),view.height-h-EDGE);callout.style.
+transform=`translate(${left}px, ${top}px)`}};var PART=1<<20;var Tracer=class{root=make("div",{className:"glid-skin glid-tracer"});status=make("di\
 v",{className:"glid-status",role:"status","aria-live":"polite"});constructor({model,el,signal}){this.
 model=model;this.link=new Link(model,this.root,signal,()=>{this.showStatus();if(this.link.idle&&this.
 shown)this.#showTool(this.shown.tool)});this.stage=new Stage(this.root,this.link,file=>this.upload(file),

@@ -20,19 +20,22 @@ export function shield(element) {
 
 /** @param {Section[]} sections */
 export function help(sections) {
-  const table = shield(
-    make(
-      "div",
-      { className: "glid-help", popover: "auto", tabIndex: -1 },
-      ...sections.map(section),
-    ),
+  const head = make(
+    "div",
+    { className: "glid-help-head" },
+    make("h3", {}, "Keys and gestures"),
+    make("button", { title: "Close", ariaLabel: "Close" }, "×"), // as a click anywhere here
   );
+  // Columns of a box with a limited height would go on sideways.
+  const columns = make("div", {}, ...sections.map(section));
+  const look = { className: "glid-help", popover: "auto", tabIndex: -1 };
+  const table = shield(make("div", look, head, columns));
   table.addEventListener("click", () => table.hidePopover());
   // Not before: a framed page may not ask for the focus when it opens.
   table.addEventListener("beforetoggle", () => Object.assign(table, { autofocus: true }));
   const title = "Keys and gestures (?)";
-  const look = { className: "glid-help-button", title, "aria-label": title };
-  const button = shield(make("button", { ...look, popoverTargetElement: table }, "?"));
+  const around = { className: "glid-help-button", title, "aria-label": title };
+  const button = shield(make("button", { ...around, popoverTargetElement: table }, "?"));
   return { table, button, toggle: () => void table.togglePopover() };
 }
 

@@ -94,8 +94,9 @@ export class Stage {
     };
     this.themes = new MutationObserver(themeChanged);
     this.themes.observe(document.body, { attributes: true });
-    const dark = matchMedia("(prefers-color-scheme: dark)");
-    dark.addEventListener("change", themeChanged, { signal });
+    for (const theme of ["(prefers-color-scheme: dark)", "(forced-colors: active)"]) {
+      matchMedia(theme).addEventListener("change", themeChanged, { signal });
+    }
   }
 
   close() {
