@@ -324,7 +324,7 @@ def test_the_project_goes_on_with_the_students_own_picture_and_pose() -> None:
 def test_chapter_07_counts_the_null_space_with_and_without_redundant_unknowns() -> None:
     (path,) = FOLDER.glob("07_*.ipynb")
     (cell,) = (cell for cell in cells(path) if cell.id == "cell-19-count")
-    counted = re.findall(r"(\d) handles +(\d+) of (\d+) +(\d+) of (\d+)", cell.outputs[0].text)
+    counted = re.findall(r"(\d) handles? +(\d+) of (\d+) +(\d+) of (\d+)", cell.outputs[0].text)
     table = [tuple(map(int, row)) for row in counted]
     stopped = [(0, 4, 148, 2, 146), *((n, 2, 148, 0, 146) for n in (1, 2, 4))]
     # At rest a turn of the whole shape costs nothing either.
