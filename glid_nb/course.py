@@ -1,4 +1,4 @@
-"""Helpers of the course: checks of exercises, and domains.
+"""Helpers of the course: checks of exercises, sealed maps, and domains.
 
 An exercise is checked by ``with check("exercise 1"): assert ...``.
 """
@@ -7,9 +7,10 @@ import importlib.util
 import os
 import re
 import signal
+import sys
 import threading
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import AbstractContextManager, contextmanager, nullcontext
 from pathlib import Path
 from types import FrameType
 from typing import Any
@@ -17,13 +18,19 @@ from typing import Any
 import numpy as np
 
 from glid_nb._errors import InputError
+from glid_nb._features import enable_x64
 from glid_nb.geometry import Cage, Domain, as_points
 from glid_nb.geometry._loops import subdivided
+from glid_nb.harmonic import HarmonicMap
 
 SECONDS = 180.0  # that a check may take, unless it says otherwise
 # Names of distributions that differ from the imported name.
 _DISTRIBUTIONS = {"igl": "libigl", "glid_check": "glid-check"}
 CHECK_HEADING = re.compile(r"^# %% exercise (\d+)\n", re.MULTILINE)  # in a file of checks
+
+
+class MissingChecksError(InputError):
+    """The file with the checks of a chapter does not lie beside the student edition."""
 
 
 class MissingPackageError(InputError):
@@ -104,16 +111,43 @@ def check(name: str, seconds: float = SECONDS) -> Iterator[None]:
     """
     failure = None
     try:
-        with _at_most(seconds):
+        with _at_most(seconds), in_double_precision():
             yield
     except (Exception, _TooSlow) as raised:  # the reader's own code may raise anything
         failure = raised
     report(name, failure, seconds)
 
 
+def in_double_precision() -> AbstractContextManager[None]:
+    """Answers in ``jax.numpy`` compute with 16 digits; JAX's default is 7."""
+    return enable_x64() if "jax" in sys.modules else nullcontext()
+
+
+class Sealed:
+    """A map for an answer that must not read its coefficients: it can only be evaluated."""
+
+    def __init__(self, map: HarmonicMap) -> None:
+        self._map = map
+        self.domain = map.domain
+        self.wirtinger = map.wirtinger
+        self.wirtinger_derivatives = map.wirtinger_derivatives
+
+    def __call__(self, points: Any) -> Any:
+        return self._map(points)
+
+
 def run_check(path: str | Path, number: int, namespace: dict[str, Any]) -> None:
-    """Run the check of an exercise from a file of the student edition (`make student`)."""
-    parts = CHECK_HEADING.split(Path(path).read_text(encoding="utf-8"))
+    """Run the check of an exercise from a file of the student edition (`make student`).
+
+    Raises a :class:`MissingChecksError` if there is no such file.
+    """
+    try:
+        text = Path(path).read_text(encoding="utf-8")
+    except FileNotFoundError:
+        where = f"The folder {Path(path).parent.name} must lie beside this notebook"
+        remedy = "ask your lecturer, or run make student"
+        raise MissingChecksError(f"{where}; {remedy}.") from None
+    parts = CHECK_HEADING.split(text)
     checks = dict(zip(map(int, parts[1::2]), parts[2::2], strict=True))
     exec(compile(checks[number], str(path), "exec"), namespace)
 
@@ -132,6 +166,8 @@ def why(failure: BaseException, seconds: float) -> str:
     if isinstance(failure, AssertionError):
         return str(failure) or "an assertion does not hold"
     lines = str(failure).splitlines() or ["no message"]
+    if type(failure).__name__ == "TracerArrayConversionError":
+        return "JAX differentiates this function, so call jnp and not np in it, such as jnp.sqrt"
     raised = f"your code raises {type(failure).__name__}: {lines[0]}"
     if isinstance(failure, TypeError) and re.search("NoneType|ellipsis", lines[0]):
         return f"the cell still holds None or `...`, or returns nothing ({raised})"

@@ -19,6 +19,7 @@ FOLDER = Path(__file__).resolve().parent.parent / "notebooks"
 CHECK = """from glid_nb.course import run_check
 
 run_check("checks/{chapter}.py", {number}, globals())"""
+_DOCS_LINK = re.compile(r"\[([^\]]+)\]\(\.\./(docs/[^)]+)\)")  # there is no folder docs beside it
 _SOLUTION = re.compile(r"<details>\s*<summary>Solution</summary>")
 
 
@@ -48,6 +49,8 @@ def student_edition(book: NotebookNode, chapter: str) -> tuple[NotebookNode, str
             continue
         cell = NotebookNode(given, metadata=NotebookNode(given.metadata))
         cells.append(cell)
+        if cell.cell_type == "markdown":
+            cell.source = _DOCS_LINK.sub(r"\1 (`\2`)", cell.source)
         number = len(checks) + 1
         if has(cell, "exercise"):
             cell.metadata.nbgrader = nbgrader(f"exercise-{next(exercises)}", graded=False)

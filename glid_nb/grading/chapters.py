@@ -11,8 +11,11 @@ from typing import Any
 
 from glid_nb._errors import InputFileError, about
 from glid_nb._json import read_object
+from glid_nb.grading.verdicts import MISSING, UNTOUCHED
 
 TAGS = ("exercise", "check", "answer")
+_CHECK = re.compile(r"^(with check|run_check)\(", re.MULTILINE)
+_FUNCTION = re.compile(r"^def (\w+)\(", re.MULTILINE)
 
 
 @dataclass(frozen=True)
@@ -80,19 +83,28 @@ class Answer:
     """The code, with the cells that the student added before the check. Empty if untouched."""
     untouched: str = ""
     """Why there is nothing to check: the cell is as it was given, empty or missing."""
+    missing: bool = False
+    """Whether there is no such cell."""
+
+    @property
+    def nothing(self) -> str:
+        """The verdict if there is nothing to check."""
+        return MISSING if self.missing else UNTOUCHED
 
 
 def answers(chapter: Notebook, handed_in: Notebook) -> dict[str, Answer]:
     """The answers to a chapter's cells with the tag `exercise` or `answer`, by the cells' ids.
 
     Cells are found by their ids. If an editor has changed all ids, they are found by the order of
-    the cells with the same tag. Cells of the chapter that a student has edited are ignored.
+    the cells with the same tag. A cell that is still not found is the one that defines the same
+    function. Cells of the chapter that a student has edited are ignored.
     """
     given = {cell.id: cell for cell in chapter.cells}
     theirs = list(handed_in.cells)
     wanted = [cell for cell in chapter.cells if {"exercise", "answer"} & set(cell.tags)]
     if not {cell.id for cell in wanted} & {cell.id for cell in theirs}:
         theirs = _renamed(chapter, theirs)
+    theirs = _found_by_function(wanted, given, theirs)
     found, more = dict[str, list[str]](), list[str]()
     for cell in theirs:
         if cell.id not in given:
@@ -112,15 +124,30 @@ def _renamed(chapter: Notebook, cells: Sequence[Cell]) -> list[Cell]:
     sources = {cell.source: cell.id for cell in chapter.cells}
     renamed = []
     for cell in cells:
-        tag = next((tag for tag in TAGS if tag in cell.tags and ids[tag]), None)
+        tags = ("check",) if _CHECK.search(cell.source) else cell.tags
+        tag = next((tag for tag in TAGS if tag in tags and ids[tag]), None)
         new = ids[tag].pop(0) if tag else sources.get(cell.source, cell.id)
+        renamed.append(Cell(new, cell.source, cell.tags))
+    return renamed
+
+
+def _found_by_function(
+    wanted: Sequence[Cell], given: Mapping[str, Cell], cells: Sequence[Cell]
+) -> list[Cell]:
+    """The cells with the chapter's ids for those that define the function of a lost cell."""
+    present = {cell.id for cell in cells}
+    lost = {name: c.id for c in wanted if c.id not in present for name in c.functions}
+    renamed = []
+    for cell in cells:
+        defined = () if cell.id in given else _FUNCTION.findall(cell.source)
+        new = next((lost[name] for name in defined if name in lost), cell.id)
         renamed.append(Cell(new, cell.source, cell.tags))
     return renamed
 
 
 def _answer(given: Cell, sources: Sequence[str] | None) -> Answer:
     if sources is None:
-        return Answer("", "the cell is missing")
+        return Answer("", "the cell is missing", missing=True)
     source = "\n\n".join(map(without_magics, sources))
     try:
         tree = ast.parse(source)

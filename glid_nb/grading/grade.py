@@ -18,7 +18,7 @@ from pathlib import Path
 
 from glid_nb._errors import InputError
 from glid_nb.grading.chapters import Notebook, answers
-from glid_nb.grading.verdicts import CRASHED, RIGHT, SLOW, UNTOUCHED
+from glid_nb.grading.verdicts import CRASHED, MISSING, RIGHT, SLOW
 
 _MOODLE = re.compile(r"_\d+_assignsubmission_file_?$")
 _OTHER_FILES = 50_000_000  # bytes of pictures and other files beside a notebook
@@ -50,6 +50,7 @@ class HandIn:
 class Grade:
     student: str
     chapter: str
+    """Empty for a student without any notebook."""
     exercise: int
     verdict: str
     """One of `verdicts`."""
@@ -82,11 +83,26 @@ def hand_ins(folder: Path, chapters: Mapping[str, Chapter]) -> list[HandIn]:
         if named not in chapters:
             raise InputError(f"{path}: its name contains no chapter such as {next(iter(chapters))}")
         before = path.stem.partition(named)[0].strip("_- ")
-        student = _MOODLE.sub("", inside.parts[0]) if len(inside.parts) > 1 else before
+        student = _student(inside.parts[0]) if len(inside.parts) > 1 else before
         found.append(HandIn(student or path.stem, chapters[named], path, text))
     if not found:
         raise InputError(f"{folder} has no notebook")
     return found
+
+
+def _student(folder: str) -> str:
+    return _MOODLE.sub("", folder)
+
+
+def without_notebook(folder: Path, found: Sequence[HandIn]) -> list[Grade]:
+    """A line for each student whose folder has no notebook."""
+    having = {one.path.relative_to(folder).parts[0] for one in found}
+    text = "the folder has no notebook"
+    return [
+        Grade(_student(path.name), "", 0, MISSING, text)
+        for path in sorted(folder.iterdir())
+        if path.is_dir() and not path.name.startswith(".") and path.name not in having
+    ]
 
 
 def grade(hand_in: HandIn, *, limit: float, folder: Path) -> Iterator[Grade]:
@@ -109,7 +125,7 @@ def grade(hand_in: HandIn, *, limit: float, folder: Path) -> Iterator[Grade]:
         return
     if all(given[cell.id].untouched for cell in chapter.exercises):
         for i, cell in enumerate(chapter.exercises, 1):
-            yield told(i, UNTOUCHED, given[cell.id].untouched)
+            yield told(i, given[cell.id].nothing, given[cell.id].untouched)
         return
     with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as name:
         work = Path(name) / "work"
@@ -193,5 +209,7 @@ def points(grades: Sequence[Grade]) -> dict[str, dict[str, int]]:
     found = dict[str, dict[str, int]]()
     for one in grades:
         of_student = found.setdefault(one.student, {})
+        if not one.chapter:
+            continue
         of_student[one.chapter] = of_student.get(one.chapter, 0) + (one.verdict == RIGHT)
     return found

@@ -25,7 +25,7 @@ from glid_nb import course
 from glid_nb._errors import InputError
 from glid_nb.grading.chapters import Answer, Cell, Notebook, answers
 from glid_nb.grading.quiet import namespace_of_a_chapter, without_figures
-from glid_nb.grading.verdicts import CRASHED, RIGHT, SLOW, UNTOUCHED, WRONG
+from glid_nb.grading.verdicts import CRASHED, RIGHT, SLOW, WRONG
 from glid_nb.grading.wire import WireError, decoded, encoded
 
 _CHAPTER = 900  # seconds that a chapter's own cells may take in the process of the answers
@@ -291,7 +291,7 @@ class Referee:
     def _check(self, number: int, exercise: Cell, check: Cell) -> None:
         answer = self._given[exercise.id]
         if answer.untouched:
-            self._tell(number, UNTOUCHED, answer.untouched)
+            self._tell(number, answer.nothing, answer.untouched)
             return
         self._failure = WireError("the check has not reported anything")
         try:

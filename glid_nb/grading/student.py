@@ -12,6 +12,7 @@ import sys
 from pathlib import Path
 from typing import IO, Any
 
+from glid_nb.course import in_double_precision
 from glid_nb.grading.quiet import namespace_of_a_chapter, without_figures
 from glid_nb.grading.wire import decoded, encoded
 
@@ -44,7 +45,8 @@ class Link:
         while line := self._read.readline():
             request = json.loads(line)
             try:
-                reply = {"value": self.done(request)}
+                with in_double_precision():
+                    reply = {"value": self.done(request)}
             except BaseException as error:  # the student's code may raise anything, also SystemExit
                 reply = {"raise": type(error).__name__, "text": _text(error)}
             if request["do"] != "run":

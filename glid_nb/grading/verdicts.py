@@ -1,3 +1,5 @@
 """The verdicts on an exercise."""
 
-RIGHT, WRONG, UNTOUCHED, CRASHED, SLOW = "right", "wrong", "untouched", "crashed", "too slow"
+RIGHT, WRONG, UNTOUCHED, MISSING = "right", "wrong", "untouched", "missing"
+CRASHED, SLOW = "crashed", "too slow"
+ALL = RIGHT, WRONG, UNTOUCHED, MISSING, CRASHED, SLOW

@@ -88,10 +88,16 @@ def count(vertices_of_loops):
     return 2 * (sum(vertices_of_loops) + holes) - 5 * holes - 1
 
 
-# %% exercise 1: no whole number
+# %% exercise 1: right: a whole number as a float
 def count(vertices_of_loops):
     holes = len(vertices_of_loops) - 1
     return 4.0 * (sum(vertices_of_loops) + holes) - 10 * holes - 2
+
+
+# %% exercise 1: no whole number
+def count(vertices_of_loops):
+    holes = len(vertices_of_loops) - 1
+    return 4 * (sum(vertices_of_loops) + holes) - 10 * holes - 2.5
 
 
 # %% exercise 2: right: the mean of z f_z
@@ -160,3 +166,8 @@ def largest_shift(r, R):
 # %% exercise 3: omega itself
 def largest_shift(r, R):
     return r
+
+
+# %% exercise 3: negative, so it is no length
+def largest_shift(r, R):
+    return r * np.log(r / R)

@@ -6,11 +6,14 @@ import contextlib
 import os
 import signal
 import threading
+from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 
-from glid_nb import course
+import glid_nb as glid
+from glid_nb import InputError, course
 from glid_nb.course import check
 
 
@@ -88,6 +91,40 @@ def test_a_failed_check_raises_for_nbgrader(monkeypatch: pytest.MonkeyPatch) -> 
     monkeypatch.setenv("NBGRADER_EXECUTION", "autograde")
     with pytest.raises(AssertionError, match="the map folds"), check("exercise 1"):
         raise AssertionError("the map folds")
+
+
+def test_answers_in_jax_have_16_digits(capsys: pytest.CaptureFixture[str]) -> None:
+    jnp = pytest.importorskip("jax.numpy")
+    with check("exercise 1"):
+        third = jnp.asarray(1.0) / 3
+        assert abs(float(third) - 1 / 3) < 1e-15, "JAX computes with 7 digits"
+    assert capsys.readouterr().out == "exercise 1: right\n"
+
+
+def test_a_call_of_numpy_in_a_function_for_jax_is_named(capsys: pytest.CaptureFixture[str]) -> None:
+    jax = pytest.importorskip("jax")
+    with check("exercise 2"):
+        jax.grad(lambda x: np.sqrt(x))(1.0)
+    assert "call jnp and not np in it, such as jnp.sqrt" in capsys.readouterr().out
+
+
+def test_a_sealed_map_is_evaluated_and_has_no_coefficients() -> None:
+    f = glid.HarmonicMap.identity(course.bar())
+    sealed = course.Sealed(f)
+    points = [[0.5, 0.25]]
+    assert np.array_equal(sealed(points), f(points))
+    assert np.array_equal(sealed.wirtinger(points), f.wirtinger(points))
+    assert not {"phi", "psi"} & set(dir(sealed))
+    with pytest.raises(TypeError, match="not Sealed"):
+        glid.certify(sealed)  # pyright: ignore[reportArgumentType]
+
+
+def test_checks_that_are_not_beside_the_notebook_are_missed_in_a_sentence(tmp_path: Path) -> None:
+    with pytest.raises(InputError) as refusal:
+        course.run_check(tmp_path / "checks" / "07_newton.py", 1, {})
+    assert str(refusal.value) == (
+        "The folder checks must lie beside this notebook; ask your lecturer, or run make student."
+    )
 
 
 def test_an_interrupt_passes() -> None:

@@ -4,6 +4,11 @@ from __future__ import annotations
 
 import csv
 import json
+import os
+import select
+import signal
+import subprocess
+import sys
 import textwrap
 from collections.abc import Sequence
 from pathlib import Path
@@ -102,14 +107,40 @@ def verdicts(grades: Sequence[Grade]) -> list[str]:
         notebook(),
         notebook(double="# TODO\n" + DOUBLE, steps=COUNT + "  # how?"),
         notebook(double="", steps="# nothing"),
-        notebook({"double": None, "steps": None}),
         notebook({"check-1": "print('exercise 1: right')", "check-2": ""}),
     ],
-    ids=["untouched", "comments", "cleared", "deleted", "checks edited"],
+    ids=["untouched", "comments", "cleared", "checks edited"],
 )
 def test_what_nobody_filled_in_is_untouched(folder: Path, book: dict[str, Any]) -> None:
     hand_in(folder, "ada", book)
     assert verdicts(graded(folder)) == ["untouched", "untouched"]
+
+
+def test_deleted_cells_are_missing(folder: Path) -> None:
+    hand_in(folder, "ada", notebook({"double": None, "steps": None}))
+    hand_in(folder, "bob", notebook({"double": None, "steps": RIGHT["steps"]}))
+    assert verdicts(graded(folder)) == ["missing", "missing", "missing", "right"]
+
+
+@pytest.mark.parametrize("lost", [("id", "metadata"), ("metadata",), ("id",)])
+def test_cells_without_ids_and_tags_are_found_by_their_functions(
+    folder: Path, lost: tuple[str, ...]
+) -> None:
+    run = {f"check-{n}": f"run_check('checks/{NAME}.py', {n}, globals())" for n in (1, 2)}
+    book = notebook(RIGHT | run)
+    for cell in book["cells"]:
+        cell.update({"metadata": {}} if "metadata" in lost else {})
+        if "id" in lost:
+            del cell["id"]
+    hand_in(folder, "ada", book)
+    assert verdicts(graded(folder)) == ["right", "right"]
+
+
+def test_an_answer_in_a_new_cell_is_found_by_its_function(folder: Path) -> None:
+    book = notebook(RIGHT)
+    book["cells"][1]["id"] = "typed-again"
+    hand_in(folder, "ada", book)
+    assert verdicts(graded(folder)) == ["right", "right"]
 
 
 def test_right_answers_are_right_and_may_use_cells_of_their_own(folder: Path) -> None:
@@ -232,6 +263,51 @@ def test_the_command_prints_a_table_and_writes_csv(
     assert rows["moodle"][0] | {"Feedback": ""} == {"Username": "'=ada", NAME: "1", "Feedback": ""}
     assert [row[NAME] for row in rows["canvas"]] == ["2", "1"]
     assert rows["canvas"][1]["SIS Login ID"] == "'=ada"  # no formula
+
+
+def test_the_command_lists_students_without_a_notebook(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    hand_in(folder, "ada", notebook())
+    (folder / "handed-in" / "bob").mkdir()
+    handed_in, to = str(folder / "handed-in"), folder / "moodle.csv"
+    chapters = str(folder / "course")
+    assert main(["grade", handed_in, "--chapters", chapters, "--moodle", str(to)]) == 0
+    last = capsys.readouterr().out.splitlines()[-1]
+    assert last.split(maxsplit=2) == ["bob", "missing", "the folder has no notebook"]
+    rows = list(csv.DictReader(to.read_text().splitlines()))
+    wanted = {"Username": "bob", NAME: "", "Feedback": "the folder has no notebook"}
+    assert rows[1] == wanted
+
+
+@pytest.mark.skipif(os.name != "posix", reason="elsewhere no handler runs when a process is ended")
+def test_ending_the_command_ends_the_answer_and_lines_before_are_printed(
+    folder: Path,
+) -> None:
+    hand_in(folder, "ada", notebook())
+    alive = folder / "alive"
+    os.mkfifo(alive)  # its other end is open as long as the answer's process lives
+    forever = f"""
+        def double(x):
+            import threading
+            with open({str(alive)!r}, "w") as told:
+                told.write("begun\\n")
+                told.flush()
+                threading.Event().wait()
+    """
+    hand_in(folder, "bob", notebook(double=textwrap.dedent(forever).strip()))
+    words = ["--chapters", str(folder / "course"), "--limit", "300"]
+    command = [sys.executable, "-m", "glid_nb", "grade", str(folder / "handed-in"), *words]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as process:
+        with alive.open() as told:
+            assert told.readline() == "begun\n"
+            process.terminate()
+            ended, _, _ = select.select([told], [], [], 60)
+            assert ended, "the answer still runs"
+            assert told.read() == ""
+        out, _ = process.communicate()
+    assert process.returncode == 128 + signal.SIGTERM
+    assert [line.split()[0] for line in out.splitlines()] == ["student", "ada", "ada"]
 
 
 def test_students_are_named_by_folders_or_by_files(folder: Path) -> None:

@@ -23,6 +23,7 @@ import pytest
 
 from glid_nb import InputError, figures
 from glid_nb.grading.chapters import Cell
+from glid_nb.grading.grade import Chapter, HandIn, grade
 from glid_nb.grading.referee import Remote, Student, StudentError
 from glid_nb.grading.student import Link
 
@@ -247,6 +248,44 @@ def test_a_check_assigns_no_name_of_the_chapter(path: Path) -> None:
 
 
 @pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda p: p.stem)
+def test_an_exercise_left_out_leaves_nothing_out_for_the_others(path: Path) -> None:
+    """`glid-nb grade` runs neither an untouched exercise nor its check.
+
+    So no other cell reads what a check leaves, or what an exercise's cell imports.
+    """
+    book = [cell for cell in cells(path) if cell.cell_type == "code"]
+    for cell in book:
+        if has(cell, "check"):
+            left = assigned(cell.source) - inlined(cell.source)
+        elif has(cell, "exercise"):
+            left = assigned(cell.source) - set(Cell("", cell.source).functions)
+        else:
+            continue
+        for other in book:
+            if other is not cell:
+                table = symtable.symtable(other.source, "cell", "exec")
+                read = mentioned(table) - assigned(other.source) - inlined(other.source)
+                assert not left & read, f"{other.id} reads what {cell.id} leaves"
+
+
+@pytest.mark.parametrize("left_out", [1, 2, 3])
+def test_the_other_exercises_of_chapter_05_are_graded_if_one_is_left_out(left_out: int) -> None:
+    (path,) = FOLDER.glob("05_*.ipynb")
+    text = path.read_text(encoding="utf-8")
+    handed_in = json.loads(text)
+    number = 0
+    for cell in handed_in["cells"]:
+        if "exercise" in cell["metadata"].get("tags", ()):
+            number += 1
+            if number != left_out:
+                cell["source"] = answers(path)[number, "solution"]
+    hand_in = HandIn("ada", Chapter(path.stem, text), path, json.dumps(handed_in))
+    grades = list(grade(hand_in, limit=60, folder=path.parent))
+    wanted = ["untouched" if i == left_out else "right" for i in (1, 2, 3)]
+    assert [one.verdict for one in grades] == wanted, grades
+
+
+@pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda p: p.stem)
 def test_the_collapsed_solutions_are_those_that_are_run(path: Path) -> None:
     text = "\n".join(cell.source for cell in cells(path) if cell.cell_type == "markdown")
     shown = [code.strip() for code in _FENCE.findall(text)]
@@ -285,7 +324,7 @@ def test_the_project_goes_on_with_the_students_own_picture_and_pose() -> None:
 def test_chapter_07_counts_the_null_space_with_and_without_redundant_unknowns() -> None:
     (path,) = FOLDER.glob("07_*.ipynb")
     (cell,) = (cell for cell in cells(path) if cell.id == "cell-19-count")
-    counted = re.findall(r"(\d) handles +(\d+) of (\d+) +(\d+) of (\d+)", cell.outputs[0].text)
+    counted = re.findall(r"(\d) handles? +(\d+) of (\d+) +(\d+) of (\d+)", cell.outputs[0].text)
     table = [tuple(map(int, row)) for row in counted]
     stopped = [(0, 4, 148, 2, 146), *((n, 2, 148, 0, 146) for n in (1, 2, 4))]
     # At rest a turn of the whole shape costs nothing either.

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib.util
+import re
 from pathlib import Path
 from types import ModuleType
 from typing import Any
@@ -53,6 +54,14 @@ def test_it_shows_neither_solutions_nor_checks(edition: Path, path: Path) -> Non
     )
     bodies = solutions.split("# %% ")[1:]
     assert not [body for body in bodies if body.partition("\n")[2].strip() in text]
+
+
+@pytest.mark.parametrize("path", CHAPTERS, ids=lambda path: path.stem)
+def test_its_links_lead_to_its_own_files(edition: Path, path: Path) -> None:
+    book = nbformat.read(edition / path.name, as_version=4)
+    text = "\n".join(cell.source for cell in book.cells if cell.cell_type == "markdown")
+    targets = re.findall(r"\]\((?![a-z]+:|#)([^)#]+)", text)
+    assert not [target for target in targets if not (edition / target).exists()]
 
 
 @pytest.mark.parametrize("path", CHAPTERS, ids=lambda path: path.stem)
