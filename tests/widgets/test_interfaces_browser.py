@@ -64,7 +64,7 @@ def test_no_key_in_the_editor_is_the_notebooks(
         page.get_by_role("tab", name="Proof"),
         page.locator(".glid-solver-panel .widget-label").first,
         page.locator(".glid-solver-panel .noUi-handle").first,
-        page.locator(".glid-timeline-note"),
+        page.locator(".glid-foot").first,
         page.locator(".glid-pad").first,
     )
     for place in places:
@@ -88,7 +88,7 @@ def test_no_key_in_the_editor_is_the_notebooks(
     page.keyboard.press("Escape")
     page.get_by_text("Esc when done").wait_for(state="hidden")
     # A list uses letters itself, and the tracer has its own keys.
-    page.get_by_title("The selected pin", exact=True).focus()
+    page.locator(".glid-timeline select").first.focus()
     page.keyboard.press("b")
     page.get_by_role("tab", name="Trace").click()
     page.get_by_role("button", name="Draw a rectangle (R)").click()
