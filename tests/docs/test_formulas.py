@@ -8,9 +8,6 @@ from docutils.utils import new_document
 
 from tools import equations
 
-pytest.importorskip("sphinx")
-from docs.extensions import mathml
-
 
 def test_formulas_between_wide_spaces_are_pieces() -> None:
     assert equations.pieces(r"a = b, \qquad c = d") == ["a = b, ", " c = d"]
@@ -41,7 +38,10 @@ def test_there_is_room_after_an_integral() -> None:
     assert "rspace" not in equations.mathml("a + b", "block")
 
 
+@pytest.mark.slow
 def test_a_full_stop_after_a_formula_belongs_to_its_node() -> None:
+    from docs.extensions import mathml  # needs Sphinx
+
     formula, other = nodes.math("", "x"), nodes.math("", "y")
     paragraph = nodes.paragraph("", "", nodes.Text("See "), formula, nodes.Text("). And "), other)
     document = new_document("page")
