@@ -13,7 +13,7 @@ from glid_nb.session.actions import turned_now, wrapped
 from glid_nb.session.deformation import Deformation
 from glid_nb.session.edit_state import EditError
 from glid_nb.session.model import Observed
-from glid_nb.session.pin_marks import with_groups
+from glid_nb.session.pin_marks import switched, with_groups
 from glid_nb.session.pose_text import pose_text
 
 Event = Mapping[str, Any]
@@ -289,10 +289,8 @@ class PinGestures(Gestures):
         if press.dragging:
             self.deformation.end_drag()
         elif press.toggled is not None:
-            hit, chosen = press.toggled, self.deformation.selection
-            mates = with_groups(self.deformation.state.marks, [hit])
-            rest = [i for i in chosen if i not in mates]
-            self.deformation.select(rest if hit in chosen else [*chosen, hit])
+            model = self.deformation
+            model.select(switched(model.state.marks, model.selection, press.toggled))
         elif press.targets is None and press.locked is None:
             if press.source is not None:
                 self._pin_at(press.source)
