@@ -32,6 +32,8 @@ RECORD = """(track) => {
   });
   window.recorder.observe(track, { attributes: true, attributeFilter: ["data-time"] });
 }"""
+WHOSE = "(said) => getComputedStyle(said, '::before').content"
+SHADOW = "(key) => getComputedStyle(key).boxShadow"
 # How many hollow pins were drawn last: theirs are the only strokes of this width.
 COUNT_HOLLOW = """() => {
   window.hollow = 0;
@@ -120,6 +122,9 @@ def test_pins_are_seen_and_dragged_between_keyframes(open_notebook: OpenNotebook
     timeline.scrub([between])
     still, place = book.value(f"editor.timeline.animation.pins({timeline.time}).tolist()")
     wait_for_hollow(2)
+    said = page.locator(".glid-foot .glid-said")
+    assert said.evaluate(WHOSE) == '"Pose 3:"'  # the footer's proof
+    assert timeline.keys.nth(2).evaluate(SHADOW) == "none"
     book.screenshot("pins-between")
 
     # None while it plays; all when it stands still again.
@@ -138,6 +143,7 @@ def test_pins_are_seen_and_dragged_between_keyframes(open_notebook: OpenNotebook
     book.wait_for("len(model.state.poses) == 4")
     hand.wait_for_target(1, end)
     np.testing.assert_allclose(hand.targets[0], still, atol=0.01)
+    assert said.evaluate(WHOSE) == "none"
     wait_for_hollow(0)  # the keyframe is edited, with its own pins
 
     # After the last keyframe they are where its pins should be.

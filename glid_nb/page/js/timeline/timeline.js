@@ -206,6 +206,25 @@ export class Timeline {
     const end = this.spans.at(-1)?.end ?? keyframes[keyframes.length - 1].time;
     this.track.showHead(place, seen);
     this.bar.showTime(place, end, playing);
+    this.#tellElsewhere(seen && place !== this.active.time);
+  }
+
+  /**
+   * While another time is seen, the edited pose is not marked, and the editor's footer names it.
+   *
+   * @param {boolean} elsewhere
+   */
+  #tellElsewhere(elsewhere) {
+    const now = elsewhere ? this.active.name : "";
+    if ((this.root.dataset.elsewhere ?? "") === now) return;
+    const editor = /** @type {HTMLElement | null} */ (this.root.closest(".glid-editor"));
+    if (elsewhere) {
+      this.root.dataset.elsewhere = now;
+      editor?.style.setProperty("--glid-edited", JSON.stringify(`${now}:`));
+    } else {
+      delete this.root.dataset.elsewhere;
+      editor?.style.removeProperty("--glid-edited");
+    }
   }
 
   showRate() {
