@@ -340,15 +340,15 @@ e"],["Esc","cancel a drag; select nothing"]]],["Poses",[["Ctrl+Z, Ctrl+Shift+Z",
 ck to the undeformed shape"]]],["Stiff areas",[["B, E","paint stiff areas, erase them; Esc ends pain\
 ting"]]],["View",[["Wheel, two fingers","zoom"],["Middle button, Space and drag","move the view"],["\
 F","see everything"],["P","the picture alone, for lectures; Esc brings the rest back"],["W","the who\
-le screen, without the inspector"],["I","hide the inspector, show it again"]]],["Timeline",[["K","ma\
-ke a keyframe of what is shown"],["Space","play the motion through the poses, pause; on the canvas t\
-oo"],["Arrow keys, Home, End","step a frame, with Shift to the next pose; first, last pose"],["Click\
- a curve between poses, Enter","ease the motion there: drag its two handles, or arrow keys"],["Shift\
-+Home, Shift+End","play over and over from here, to here; so do the two marks on the ruler, seen bel\
-ow a pointer"],["Line below the poses","green: proved, the higher the safer; grey hatching: not yet;\
- orange: not proved"],["Ctrl and wheel","zoom the timeline; then the wheel alone moves along it"],["\
-Double click a pose, F2","type its name"],["Alt and arrow keys","move the pose in time; Delete remov\
-es it"]]]];var Legend=class{element=make("div",{className:"glid-legend"});show(model,moving){const bars=[model.
+le screen, without the inspector"],["I","hide the inspector, show it again"]]],["Timeline",[["K; a d\
+rag of a hollow pin","make a keyframe at the time that is shown"],["Space","play the motion through \
+the poses, pause; on the canvas too"],["Arrow keys, Home, End","step a frame, with Shift to the next\
+ pose; first, last pose"],["Click a curve between poses, Enter","ease the motion there: drag its two\
+ handles, or arrow keys"],["Shift+Home, Shift+End","play over and over from here, to here; so do the\
+ two marks on the ruler, seen below a pointer"],["Line below the poses","green: proved, the higher t\
+he safer; grey hatching: not yet; orange: not proved"],["Ctrl and wheel","zoom the timeline; then th\
+e wheel alone moves along it"],["Double click a pose, F2","type its name"],["Alt and arrow keys","mo\
+ve the pose in time; Delete removes it"]]]];var Legend=class{element=make("div",{className:"glid-legend"});show(model,moving){const bars=[model.
 get("legend"),model.get("panel_legend")].filter(bar=>bar.title);this.element.replaceChildren(...bars.
 map(bar=>colorBar(bar,moving)));this.element.hidden=!bars.length;this.element.dataset.corner=model.get(
 "legend_corner")}};function colorBar({title,moving,colors,ticks,about},moves){const gradient=`backgr\
