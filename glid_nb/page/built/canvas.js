@@ -792,8 +792,8 @@ room?.fullScreen(),showKeys:this.help.toggle};const count=mark!==null&&selected.
 length:1;const covered=mark===null&&coveredNear(this.box,at);const hides=this.model.get("pins").away.
 length>0;openMenu(this.box,at,menuRows(does,mark===null?null:count,covered,hides))}showMotion(motion=null,playing=STILL,heights=null,parts={},pins=null){
 this.between=pins??NO_PINS;this.#playing=playing;this.shapes.motion=motion;this.shapes.partMotions=parts;
-this.shapes.lift(heights);this.showLegend();this.shapes.refresh();this.pad.hover()}showLegend(){this.
-legend.show(this.model,Boolean(this.shapes.motion))}takeFocus(){const{painting}=this;const chosen=painting&&
+this.shapes.lift(heights);this.showLegend();this.shapes.refresh();this.pad.hover();this.redraw()}showLegend(){
+this.legend.show(this.model,Boolean(this.shapes.motion))}takeFocus(){const{painting}=this;const chosen=painting&&
 !this.#painted;this.#painted=painting;const side=this.box.closest(".glid-editor")?.querySelector(".g\
 lid-side");if(chosen&&side?.contains(document.activeElement))this.box.focus({preventScroll:true})}showNotice(){
 const first=this.interactive&&!this.marks.targets.length;this.notices.tell(this.model.get("notice"),

@@ -283,7 +283,8 @@ export class Canvas {
     this.shapes.lift(heights);
     this.showLegend();
     this.shapes.refresh();
-    this.pad.hover(); // draws too
+    this.pad.hover();
+    this.redraw();
   }
 
   showLegend() {
