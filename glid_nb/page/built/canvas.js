@@ -228,17 +228,19 @@ targets.length!==count)return marks;const{targets,images,samples}=lead.pins;retu
 images,ring:ringOf(marks,samples,count)}}function ringOf({ring,selected},samples,count){const last=selected.
 at(-1);if(ring.length===0||last===void 0)return ring;const[angle,scale,turned,scaled]=ring;const[x,y]=[
 samples[last],samples[count+last]];return[turned?angle:Math.atan2(y,x),scaled?scale:Math.hypot(x,y),
-turned,scaled]}function menuRows(does,pins,covered,hides){return[...pins===null?shapeRows(does,covered):pinRows(does,
-pins),...hides?[["Show hidden pins","Shift+H",does.press("h",true)]]:[],["Copy the pose","Ctrl+C",does.
-press("copy")],["Paste a pose","Ctrl+V",does.paste],["Swap left and right","M",does.press("m")],["Se\
-lect all pins","A",does.press("a")],["The undeformed shape","0",does.press("0")],["See everything","\
-F",does.press("f")],["Paint stiff areas","B",does.press("b")],["The picture alone","P",does.alone],[
-"Full screen","W",does.fullScreen],["All keys","?",does.showKeys]]}function pinRows({press},count){const pins=count>
-1?` ${count} pins`:"";return[[`Remove${pins}`,"Delete",press("Delete")],["Remove, keep the shape","S\
-hift+Delete",press("Delete",true)],null,["Bring forward","Page Up",press("PageUp")],["Send back","Pa\
-ge Down",press("PageDown")],["Leave angle and scale free","X",press("x")],["Lock or unlock","L",press(
-"l")],["Hide","H",press("h")],...count>1?[["Group","G",press("g")]]:[],null]}function shapeRows({pin},covered){
-return covered?[["Add a pin here","Click",pin],null]:[]}function nearest(things,reach){let best2=null;let least=Infinity;for(const thing of things){const far=thing.
+turned,scaled]}function pinsOfMenu(pin,selected){return selected.includes(pin)?selected:[pin]}function menuRows(does,pins,covered,marks){
+return[...pins===null?shapeRows(does,covered):pinRows(does,pins,marks),...marks.away.length?[["Show \
+hidden pins","Shift+H",does.press("h",true)]]:[],["Copy the pose","Ctrl+C",does.press("copy")],["Pas\
+te a pose","Ctrl+V",does.paste],["Swap left and right","M",does.press("m")],["Select all pins","A",does.
+press("a")],["The undeformed shape","0",does.press("0")],["See everything","F",does.press("f")],["Pa\
+int stiff areas","B",does.press("b")],["The picture alone","P",does.alone],["Full screen","W",does.fullScreen],
+["All keys","?",does.showKeys]]}function pinRows({press},pins,{locked}){const several=pins.length>1;
+const lock=pins.every(i=>locked.includes(i))?"Unlock":"Lock";return[[several?`Remove ${pins.length} \
+pins`:"Remove","Delete",press("Delete")],["Remove, keep the shape","Shift+Delete",press("Delete",true)],
+null,["Bring forward","Page Up",press("PageUp")],["Send back","Page Down",press("PageDown")],["Leave\
+ angle and scale free","X",press("x")],[lock,"L",press("l")],["Hide","H",press("h")],...several?[["G\
+roup","G",press("g")]]:[],null]}function shapeRows({pin},covered){return covered?[["Add a pin here",
+"Click",pin],null]:[]}function nearest(things,reach){let best2=null;let least=Infinity;for(const thing of things){const far=thing.
 d+(thing.loss??0);if(thing.d>reach||far>=least)continue;best2=thing;least=far}return best2}function nearestEdge(loops,point,reach){const edges=loops.flatMap(loop=>loop.map((start,j)=>{const foot=footOn(
 start,loop[(j+1)%loop.length],point);return{foot,d:distance(foot,point)}}));return nearest(edges,reach)}
 function footOn(start,end,point){const along=[end[0]-start[0],end[1]-start[1]];const dot=(point[0]-start[0])*
@@ -774,50 +776,49 @@ mark);const centre=[this.view.x,this.view.y];const pinned=mark!==null&&Number.is
 const point=pinned?targets[mark]:this.model.get("cursor")??centre;const at=place??this.view.toScreen(
 point);const does={press:(key,shift=false)=>{return()=>this.#press(key,shift)},pin:()=>void this.pad.
 send("pin",at),paste:()=>void this.clipboard.paste(),alone:()=>this.room?.alone(),fullScreen:()=>this.
-room?.fullScreen(),showKeys:this.help.toggle};const count=mark!==null&&selected.includes(mark)?selected.
-length:1;const covered=mark===null&&coveredNear(this.box,at);const hides=this.model.get("pins").away.
-length>0;openMenu(this.box,at,menuRows(does,mark===null?null:count,covered,hides))}showMotion(motion=null,playing=STILL,heights=null,parts={}){
-this.#playing=playing;this.shapes.motion=motion;this.shapes.partMotions=parts;this.shapes.lift(heights);
-this.showLegend();this.shapes.refresh();this.redraw()}showLegend(){this.legend.show(this.model,Boolean(
-this.shapes.motion))}takeFocus(){const{painting}=this;const chosen=painting&&!this.#painted;this.#painted=
-painting;const side=this.box.closest(".glid-editor")?.querySelector(".glid-side");if(chosen&&side?.contains(
-document.activeElement))this.box.focus({preventScroll:true})}showNotice(){const first=this.interactive&&
-!this.marks.targets.length;this.notices.tell(this.model.get("notice"),this.painting,first)}fit(){const{
-model,view,box}=this;view.width=model.get("width");view.height=model.get("height");[view.x,view.y,view.
-unit]=model.get("view");box.style.width=`${view.width}px`;box.style.height=`${view.height}px`;this.room?.
-shrink();this.#see()}reveal(){const{selected,targets,images}=this.marks;const now=selected.length===
-1?selected[0]:void 0;if(now===this.#chosen)return;this.#chosen=now;if(now===void 0||this.pad.mode)return;
-if(!Number.isFinite(targets[now]?.[0]))return;if(inSight(this.view,targets[now])||inSight(this.view,
-images[now]))return;this.view.centreOn(targets[now])}pressedAt(){if(!this.shapes.motion)return void 0;
-this.#presses=true;return this.#playing.pause()}#pressed(e){this.#press(e.detail)}#press(key,shift=false){
-const act=this.behaviour.actions[key];if(act)act();else this.pad.press(key,{shiftKey:shift})}#takeFirst(){
-const take=e=>{if(!this.shapes.motion)return false;e.stopImmediatePropagation();e.preventDefault();return true};
-const goBack=e=>take(e)&&this.#playing.release();const capture=true;this.box.addEventListener("point\
-erdown",e=>e.button===2&&take(e),{capture});this.box.addEventListener("contextmenu",take,{capture});
-const ours=e=>!e.ctrlKey&&!e.metaKey&&KEYS.test(keyOf(e));this.box.addEventListener("keydown",e=>ours(
-e)&&goBack(e),{capture});const openedByKeys=e=>{if(e.key!=="F10"||!e.shiftKey)return;e.stopImmediatePropagation();
-e.preventDefault();this.openMenu()};this.box.addEventListener("keydown",openedByKeys,{capture});const followArrow=e=>{
-const target=arrowAt(this.view,this.marks,this.pad.place(e));if(!target||e.target!==this.box)return;
-this.view.centreOn(target);e.stopImmediatePropagation()};this.box.addEventListener("pointerdown",followArrow,
-{capture})}#makeCorner(){const look="glid-help-button";return make("div",{className:"glid-corner"},this.
-help.button,iconButton("screen","Full screen (W)",()=>this.room?.fullScreen(),look),iconButton("rect\
-angle","The picture alone (P)",()=>this.room?.alone(),look))}#report(){const{busy,refusal}=this.link;
-if(this.link.idle)this.#showTool(void 0);if(this.#presses&&this.link.idle&&this.pad.mode===null){this.#presses=
-false;this.#playing.reach()}if(!busy&&refusal&&refusal!==this.model.get("notice"))this.say(refusal)}#viewMoved(){
-this.#see();clearTimeout(this.#saving);this.#saving=setTimeout(()=>{const{x,y,unit}=this.view;save(this.
-model,{view:[x,y,unit]})},SAVE_VIEW_AFTER)}#see(){this.shapes.see();this.reference.place();this.redraw()}#drawNumbers(pen){
-const{model,view,pad,marks}=this;const{pressed}=this.behaviour;const drags=pad.mode==="hand"&&pad.path.
-length>1&&!pad.encloses;const moved=drags&&pressed&&movedPin(pressed,marks,pad.held,model.get("pictu\
-re_size"));if(!moved)return;const{start,keys}=pressed;if(start&&keys?.axis)drawAxis(pen,view,start,moved.
-at);drawNumbers(pen,view,moved)}#draw(pen){const{model,view,pad,marks,brush}=this;const{motion}=this.
-shapes;const through=!motion&&knobInCorner(view,marks,pad.held);this.corner.classList.toggle("glid-t\
-hrough",through);if(motion)return;drawOnion(pen,view,model.get("onion"));drawStiff(pen,view,model.get(
-"stiff"),this.painting);if(this.interactive&&!this.painting){this.ghosts.draw(pen,view,model.get("ou\
-tline").outline,marks.targets.length>0)}const cursor=pad.focused?model.get("cursor"):null;const pins=model.
-get("pins");const held=new Map([...pad.held].filter(([mark])=>!pins.away.includes(Number(mark))));drawMarks(
-pen,view,marks,{hovered:pad.found?.mark,held,cursor});drawLocks(pen,view,marks,pins);if(brush)drawBrush(
-pen,view,brush,pad);else this.#drawNumbers(pen);if(pad.encloses&&pad.path.length>2)drawLasso(pen,view,
-pad.path)}};function render(context){const{model,signal}=context;const canvas=new Canvas(context);follow(model,{
+room?.fullScreen(),showKeys:this.help.toggle};const covered=mark===null&&coveredNear(this.box,at);const pins=mark===
+null?null:pinsOfMenu(mark,selected);openMenu(this.box,at,menuRows(does,pins,covered,this.model.get("\
+pins")))}showMotion(motion=null,playing=STILL,heights=null,parts={}){this.#playing=playing;this.shapes.
+motion=motion;this.shapes.partMotions=parts;this.shapes.lift(heights);this.showLegend();this.shapes.
+refresh();this.redraw()}showLegend(){this.legend.show(this.model,Boolean(this.shapes.motion))}takeFocus(){
+const{painting}=this;const chosen=painting&&!this.#painted;this.#painted=painting;const side=this.box.
+closest(".glid-editor")?.querySelector(".glid-side");if(chosen&&side?.contains(document.activeElement))
+this.box.focus({preventScroll:true})}showNotice(){const first=this.interactive&&!this.marks.targets.
+length;this.notices.tell(this.model.get("notice"),this.painting,first)}fit(){const{model,view,box}=this;
+view.width=model.get("width");view.height=model.get("height");[view.x,view.y,view.unit]=model.get("v\
+iew");box.style.width=`${view.width}px`;box.style.height=`${view.height}px`;this.room?.shrink();this.#see()}reveal(){
+const{selected,targets,images}=this.marks;const now=selected.length===1?selected[0]:void 0;if(now===
+this.#chosen)return;this.#chosen=now;if(now===void 0||this.pad.mode)return;if(!Number.isFinite(targets[now]?.[0]))
+return;if(inSight(this.view,targets[now])||inSight(this.view,images[now]))return;this.view.centreOn(
+targets[now])}pressedAt(){if(!this.shapes.motion)return void 0;this.#presses=true;return this.#playing.
+pause()}#pressed(e){this.#press(e.detail)}#press(key,shift=false){const act=this.behaviour.actions[key];
+if(act)act();else this.pad.press(key,{shiftKey:shift})}#takeFirst(){const take=e=>{if(!this.shapes.motion)
+return false;e.stopImmediatePropagation();e.preventDefault();return true};const goBack=e=>take(e)&&this.#playing.
+release();const capture=true;this.box.addEventListener("pointerdown",e=>e.button===2&&take(e),{capture});
+this.box.addEventListener("contextmenu",take,{capture});const ours=e=>!e.ctrlKey&&!e.metaKey&&KEYS.test(
+keyOf(e));this.box.addEventListener("keydown",e=>ours(e)&&goBack(e),{capture});const openedByKeys=e=>{
+if(e.key!=="F10"||!e.shiftKey)return;e.stopImmediatePropagation();e.preventDefault();this.openMenu()};
+this.box.addEventListener("keydown",openedByKeys,{capture});const followArrow=e=>{const target=arrowAt(
+this.view,this.marks,this.pad.place(e));if(!target||e.target!==this.box)return;this.view.centreOn(target);
+e.stopImmediatePropagation()};this.box.addEventListener("pointerdown",followArrow,{capture})}#makeCorner(){
+const look="glid-help-button";return make("div",{className:"glid-corner"},this.help.button,iconButton(
+"screen","Full screen (W)",()=>this.room?.fullScreen(),look),iconButton("rectangle","The picture alo\
+ne (P)",()=>this.room?.alone(),look))}#report(){const{busy,refusal}=this.link;if(this.link.idle)this.#showTool(
+void 0);if(this.#presses&&this.link.idle&&this.pad.mode===null){this.#presses=false;this.#playing.reach()}
+if(!busy&&refusal&&refusal!==this.model.get("notice"))this.say(refusal)}#viewMoved(){this.#see();clearTimeout(
+this.#saving);this.#saving=setTimeout(()=>{const{x,y,unit}=this.view;save(this.model,{view:[x,y,unit]})},
+SAVE_VIEW_AFTER)}#see(){this.shapes.see();this.reference.place();this.redraw()}#drawNumbers(pen){const{
+model,view,pad,marks}=this;const{pressed}=this.behaviour;const drags=pad.mode==="hand"&&pad.path.length>
+1&&!pad.encloses;const moved=drags&&pressed&&movedPin(pressed,marks,pad.held,model.get("picture_size"));
+if(!moved)return;const{start,keys}=pressed;if(start&&keys?.axis)drawAxis(pen,view,start,moved.at);drawNumbers(
+pen,view,moved)}#draw(pen){const{model,view,pad,marks,brush}=this;const{motion}=this.shapes;const through=!motion&&
+knobInCorner(view,marks,pad.held);this.corner.classList.toggle("glid-through",through);if(motion)return;
+drawOnion(pen,view,model.get("onion"));drawStiff(pen,view,model.get("stiff"),this.painting);if(this.
+interactive&&!this.painting){this.ghosts.draw(pen,view,model.get("outline").outline,marks.targets.length>
+0)}const cursor=pad.focused?model.get("cursor"):null;const pins=model.get("pins");const held=new Map(
+[...pad.held].filter(([mark])=>!pins.away.includes(Number(mark))));drawMarks(pen,view,marks,{hovered:pad.
+found?.mark,held,cursor});drawLocks(pen,view,marks,pins);if(brush)drawBrush(pen,view,brush,pad);else
+this.#drawNumbers(pen);if(pad.encloses&&pad.path.length>2)drawLasso(pen,view,pad.path)}};function render(context){const{model,signal}=context;const canvas=new Canvas(context);follow(model,{
 "change:width change:height change:view":()=>canvas.fit(),"change:coefficients":()=>canvas.shapes.lead||
 canvas.shapes.refresh(),"change:part_maps":()=>canvas.shapes.refresh(),"change:solver_script change:\
 solver change:outline":()=>canvas.prepareSolver(),"change:rest":()=>canvas.rested(),"change:drawing_\
