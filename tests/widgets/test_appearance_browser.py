@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import itertools
+from io import BytesIO
 
 import pytest
 from playwright.sync_api import Locator
+from skimage.io import imread
 
 from .conftest import OpenNotebook
 from .editor_page import ROOMY_EDITOR, SETUP, Hand, choose_view
@@ -24,6 +26,15 @@ _CONTRASTS = """(one) => {
     .map((v) => v / 255).map((v) => v <= 0.04045 ? v / 12.92 : ((v + 0.055) / 1.055) ** 2.4);
   const luminance = 0.2126 * r + 0.7152 * g + 0.0722 * b;
   return [(luminance + 0.05) / 0.05, 1.05 / (luminance + 0.05)];
+}"""
+# The colour of the tracer's stage near the top left corner of the picture, once it is drawn.
+_GROUND = """async (stage) => {
+  for (let i = 0; i < 3; i++) await new Promise((go) => requestAnimationFrame(go));
+  const canvas = stage.querySelector('canvas');
+  const [, left, top] = stage.dataset.viewport.split(' ').map(Number);
+  const dense = canvas.width / canvas.clientWidth;
+  const at = [left + 3, top + 3].map((v) => Math.round(v * dense));
+  return Array.from(canvas.getContext('2d').getImageData(...at, 1, 1).data);
 }"""
 # By how many pixels the longest row of a menu is wider than the menu's text.
 _CUT_OFF = """(menu) => {
@@ -169,5 +180,38 @@ def test_pale_and_dark_outlines_are_seen_in_dark_themes_and_high_contrast(
         )
         book.screenshot("editor-forced-colours")
         assert pressed != other
+    finally:
+        page.emulate_media(forced_colors="none")
+
+
+def test_high_contrast_keeps_what_is_drawn(open_notebook: OpenNotebook) -> None:
+    book = open_notebook([SETUP, ROOMY_EDITOR])
+    page = book.page
+    Hand(book)
+    book.value("None", setup="model.add_handles([(-6.0, 0.0)]); model.save_pose()")
+    page.locator(".glid-segment-ease").first.click()
+    handle = page.locator(".glid-ease").get_by_role("slider", name="How it leaves")
+    handle.wait_for()
+
+    def filled() -> float:
+        """The part of the handle's middle, 9 x 9 pixels, that differs from its corner."""
+        pixels = imread(BytesIO(handle.screenshot())).astype(int)
+        y, x = pixels.shape[0] // 2, pixels.shape[1] // 2
+        middle = pixels[y - 4 : y + 5, x - 4 : x + 5]
+        return float((abs(middle - pixels[0, 0]).sum(axis=-1) > 60).mean())
+
+    try:
+        page.emulate_media(forced_colors="active")
+        assert filled() > 0.7  # the curve alone covers less
+        page.emulate_media(forced_colors="none")
+        page.keyboard.press("Escape")
+        page.get_by_role("tab", name="Trace", exact=True).click()
+        stage = page.locator(".glid-stage[data-viewport]")
+        stage.wait_for()
+        ground = stage.evaluate(_GROUND)
+        page.emulate_media(forced_colors="active")
+        # What lies outside the cage fades and is not hidden.
+        assert stage.evaluate(_GROUND) == ground
+        book.screenshot("tracer-forced-colours")
     finally:
         page.emulate_media(forced_colors="none")
