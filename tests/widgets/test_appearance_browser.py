@@ -10,7 +10,7 @@ from playwright.sync_api import Locator
 from skimage.io import imread
 
 from .conftest import OpenNotebook
-from .editor_page import ROOMY_EDITOR, SETUP, Hand, choose_view
+from .editor_page import NEW_PICTURE, ROOMY_EDITOR, SETUP, Hand, choose_view
 
 pytestmark = [pytest.mark.browser, pytest.mark.slow]
 
@@ -215,3 +215,58 @@ def test_high_contrast_keeps_what_is_drawn(open_notebook: OpenNotebook) -> None:
         book.screenshot("tracer-forced-colours")
     finally:
         page.emulate_media(forced_colors="none")
+
+
+def test_on_a_phone_every_section_leaves_the_timeline_on_the_screen(
+    open_notebook: OpenNotebook,
+) -> None:
+    book = open_notebook([SETUP, NEW_PICTURE, ROOMY_EDITOR])
+    hand, page = Hand(book), book.page
+    book.value("None", setup=PINNED)
+    hand.settle()
+    desktop = page.viewport_size
+    assert desktop is not None
+    page.set_viewport_size({"width": 390, "height": 844})
+    try:
+        page.locator(".glid-editor.glid-narrow").wait_for()
+        book.wait_for("canvas.pane.stage.room[0] < 300")
+        contents = page.locator(".glid-side > .widget-tab-contents")
+        timeline = page.locator(".glid-timeline")
+        for section in ("Motion", "Files", "Proof", "Pin"):
+            page.get_by_role("tab", name=section, exact=True).click()
+            page.locator(".glid-editor").evaluate("one => one.scrollIntoView()")
+            hand.wait_until_still()
+            book.screenshot(f"editor-phone-{section.lower()}")
+            assert box(contents)[3] > 70
+            assert sum(box(timeline)[1::2]) <= 844 - 24  # above JupyterLab's own line
+            # The section's end is scrolled to.
+            contents.evaluate("one => { one.scrollTop = one.scrollHeight; }")
+            last = page.locator(".glid-side .widget-tab-contents > :visible")
+            assert sum(box(last)[1::2]) <= sum(box(contents)[1::2]) + 1
+
+        # The colour bars hide nothing of the canvas, and nothing hides them.
+        book.value("None", setup="canvas.overlay, canvas.show_panels = 'sigma1', True")
+        legend = page.locator(".glid-legend")
+        legend.wait_for()
+        page.locator(".glid-legend-part").nth(1).wait_for()
+        hand.wait_until_still()
+        book.screenshot("editor-phone-legend")
+        for other in (hand.pad.locator(".glid-paper"), page.locator(".glid-tools")):
+            assert not overlap(box(legend), box(other))
+        pads = box(hand.pad)
+        assert pads[0] <= box(legend)[0]
+        assert box(legend)[2] <= pads[2]
+
+        # The whole screen, without the inspector, is filled.
+        hand.pad.focus()
+        page.keyboard.press("w")
+        page.wait_for_function("!!document.fullscreenElement")
+        book.wait_for("canvas.pane.stage.room[2] and canvas.pane.stage.height > 450")
+        hand.wait_until_still()
+        book.screenshot("editor-phone-full-screen")
+        assert 700 < sum(box(page.locator(".glid-foot"))[1::2]) <= 844
+        assert box(page.locator(".glid-foot .glid-said"))[2] > 300
+        page.evaluate("document.exitFullscreen()")
+        page.wait_for_function("!document.fullscreenElement")
+    finally:
+        page.set_viewport_size(desktop)
