@@ -270,3 +270,20 @@ def test_on_a_phone_every_section_leaves_the_timeline_on_the_screen(
         page.wait_for_function("!document.fullscreenElement")
     finally:
         page.set_viewport_size(desktop)
+
+
+def test_a_refusal_is_seen_below_a_long_list_of_pins(open_notebook: OpenNotebook) -> None:
+    book = open_notebook([SETUP, NEW_PICTURE, ROOMY_EDITOR])
+    page = book.page
+    Hand(book)
+    pins = [(float(x), 0.0) for x in range(-6, 7, 2)]
+    book.value("None", setup=f"model.add_handles({pins}); model.select([0])")
+    angle = page.get_by_label("Angle °")
+    angle.fill("much")
+    angle.press("Enter")
+    refusal = page.get_by_text("is not a number")
+    refusal.wait_for()
+    book.screenshot("editor-refusal")
+    contents = page.locator(".glid-side > .widget-tab-contents")
+    assert contents.evaluate("one => one.scrollHeight > one.clientHeight")
+    assert sum(box(refusal)[1::2]) <= sum(box(contents)[1::2])
