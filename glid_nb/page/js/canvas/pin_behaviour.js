@@ -1,7 +1,9 @@
 // How the pad behaves over a shape with pins.
 
+import { ZOOM } from "../pad/view.js";
 import { constrained } from "./constrain.js";
 import { markAt, ringAt } from "./marks.js";
+import { turnWords } from "./numbers.js";
 import { movedWith } from "./pin_marks.js";
 
 /** @import { Found, Mark, Point } from "../types.js" */
@@ -46,6 +48,8 @@ export class PinBehaviour {
       "tool:": () => canvas.takeTool(""),
       "tool:stiff": () => canvas.takeTool("stiff"),
       "tool:erase": () => canvas.takeTool("erase"),
+      "zoom:in": () => canvas.view.zoom(1 / ZOOM),
+      "zoom:out": () => canvas.view.zoom(ZOOM),
     };
   }
 
@@ -163,8 +167,8 @@ export class PinBehaviour {
   /** @param {Found | null} found */
   #tip(found) {
     if (!found) return "";
-    if (found.part) return RING_TIPS[found.part];
     const { marks, model } = this.canvas;
+    if (found.part) return `${turnWords(marks.ring).join(", ")}. ${RING_TIPS[found.part]}`;
     const mark = Number(found.mark);
     const name = ["Pin", mark + 1, model.get("names")[mark]].join(" ").trim();
     if (this.#locked(found)) return `${name}: ${LOCKED_TIP}`;
