@@ -1,5 +1,6 @@
 """The motion between the poses of a deformation, proved in the background, interval by interval."""
 
+import bisect
 import itertools
 import time
 from collections.abc import Callable, Iterable, Iterator
@@ -8,11 +9,13 @@ from typing import Literal, NamedTuple
 
 import numpy as np
 
+from glid_nb._arrays import Array
 from glid_nb.certificate import certificate_of
 from glid_nb.certificate.rounding import rounded_down
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging.order import Order, order_at
 from glid_nb.motion import Motion, MotionError, Piece, unlike_turns
+from glid_nb.pose import Pose
 from glid_nb.session.deformation import Deformation
 from glid_nb.session.document import AS_SEEN, NamedPose
 from glid_nb.session.edit_state import EditError, EditState, Moment
@@ -41,6 +44,15 @@ class Span(NamedTuple):
     def until(self) -> float:
         """The last instant that is proved."""
         return self.pieces[-1].end if self.pieces else self.start
+
+    @property
+    def knots(self) -> tuple[tuple[float, ...], tuple[HarmonicMap, ...]]:
+        """Times and maps between which it is straight, as far as it is proved. If nothing is, the
+        shape stays at its keyframe."""
+        first = self.pieces[0].start_map if self.pieces else self.map
+        ends = [(piece.end, piece.end_map) for piece in self.pieces] or [(self.end, self.map)]
+        times, maps = zip((self.start, first), *ends, strict=True)
+        return times, maps
 
 
 class Animation(Observed):
@@ -153,13 +165,34 @@ class Animation(Observed):
 
     def go_to(self, time: float) -> None:
         """Edit the pose at a time: that of a keyframe, or else a new one, as `keep` makes it."""
+        keyframe = self._keyframe_at(time)
+        if keyframe is None:
+            self.keep(time)
+        else:
+            self.deformation.go_to_pose(keyframe)
+
+    def pins(self, time: float) -> Array:
+        """(h, 2) places of the pins of the pose that `go_to` edits at a time, which `keep` puts
+        where the shape is. NaN for those that the user has hidden."""
+        with self.deformation.locked():
+            state, keyframe = self.deformation.state, self._keyframe_at(time)
+            later = len(state.poses) - 1 if self.is_later(time) else None
+            known = keyframe if later is None else later
+            if known is not None:
+                pose = state.poses[known].pose
+                places = pose.targets
+            else:
+                index = bisect.bisect_right(state.timeline.times, time) - 1
+                pose, map_ = state.poses[max(index, 0)].pose, self.at(time)
+                places = pose.targets if map_ is None or not len(pose) else map_(pose.handles)
+            return shown_pins(state, pose, places)
+
+    def _keyframe_at(self, time: float) -> int | None:
+        """The index of the pose whose keyframe is at a time; None for none."""
         state = self.deformation.state
         far = np.abs(np.subtract(state.timeline.closed_times, round(time, 2)))
         nearest = int(far.argmin())
-        if far[nearest] < LEAST_GAP:
-            self.deformation.go_to_pose(nearest % len(state.poses))
-        else:
-            self.keep(time)
+        return nearest % len(state.poses) if far[nearest] < LEAST_GAP else None
 
     def record(self, on: bool) -> None:
         """Set whether the next drag becomes keyframes."""
@@ -286,6 +319,14 @@ class PartAnimation:
     def observe(self, observer: Observer) -> Callable[[], None]:
         """As `Animation.observe`."""
         return self.animation.observe(observer)
+
+
+def shown_pins(state: EditState, pose: Pose, places: Array) -> Array:
+    """Places (h, ...) of the pins of a pose, NaN for those that the user has hidden."""
+    hidden = np.array([mark.hidden for mark in state.pins.of(pose.handles)], dtype=bool)
+    result = np.array(places, dtype=float)
+    result[hidden] = np.nan
+    return result
 
 
 def _same_motion(task: EditState, other: EditState | None) -> bool:

@@ -25,7 +25,7 @@ from glid_nb.session.edit_state import EditState, Moment
 from glid_nb.session.scenery import Scenery, pressed
 from glid_nb.widgets.brush import BrushGestures, painted_areas
 from glid_nb.widgets.closing import ClosingWidget
-from glid_nb.widgets.gestures import LEFT, Event, place
+from glid_nb.widgets.gestures import LEFT, Event, place, within_reach
 from glid_nb.widgets.layers import EvaluatedIn
 from glid_nb.widgets.overlays import OVERLAYS
 from glid_nb.widgets.page_solver import PageSolver
@@ -111,6 +111,8 @@ class DeformCanvas(ClosingWidget, ipywidgets.HBox):
         """Called with the key of another shape when it is pressed, before the press acts."""
         self.scenery_at: Callable[[float], Seen | None] = lambda _time: None
         """The edited shape and those around it at a time of the motion. The timeline sets this."""
+        self.pins_at: Callable[[float], Array] = lambda _time: np.empty((0, 2))
+        """The places of the edited shape's pins at a time of the motion; it sets this too."""
         self._mesh: dict[str, Any] = {"n_vertices": n_vertices, "evaluated_in": evaluated_in}
         self.pane = self._pane(size, interactive=True)
         self.pane.stage.picture_size = self.image.shape[1::-1]
@@ -425,7 +427,10 @@ class DeformCanvas(ClosingWidget, ipywidgets.HBox):
             seen = (edited, self.scenery) if time is None else self.scenery_at(float(time))
             if seen is None or (gestures.brush.tool and event.get("button") == LEFT):
                 return None
-            if time is None:
+            if time is not None:
+                if within_reach(self.pins_at(float(time)), point, event["reach"]):
+                    return None
+            else:
                 ring = event.get("part") and self.deformation.selection
                 if ring or gestures.hit(point, event["reach"]) is not None:
                     return None

@@ -105,9 +105,9 @@ class PinGestures(Gestures):
         self._fit = fit
         self._press: _PinPress | None = None
         self.copy: Callable[[str], None] = lambda _: None  # copies text to the clipboard
-        self.go_to: Callable[[float, Array], bool] = lambda _time, _point: True
-        """Edits the pose that the timeline shows at a time, if it is drawn at a point (2,). Returns
-        whether it is. The timeline sets this."""
+        self.go_to: Callable[[float, Array, float], bool] = lambda _time, _point, _reach: True
+        """Edits the pose that the timeline shows at a time, if it is drawn at a point (2,) or has a
+        pin within reach. Returns whether it is. The timeline sets this."""
         self._waiting: Event | None = None  # a press into a motion, until it is a drag
         self.cursor: list[float] | None = None  # the place of the keyboard's cursor
 
@@ -155,7 +155,9 @@ class PinGestures(Gestures):
     def _enter_motion(self) -> None:
         """Edit the pose that was shown when a waiting press came, and press there."""
         event, self._waiting = self._waiting, None
-        if event is not None and self.go_to(float(event["at"]), place(event)):
+        if event is None:
+            return
+        if self.go_to(float(event["at"]), place(event), float(event["reach"])):
             self._down(event)
 
     def _source(self, point: Array) -> Array | None:
@@ -407,3 +409,8 @@ def asked(act: Callable[..., Any], *items: str) -> Action:
 def place(event: Event) -> Array:
     """The place of an event, (2,)."""
     return np.array([event["x"], event["y"]], dtype=float)
+
+
+def within_reach(places: Array, point: Array, reach: float) -> bool:
+    """Whether one of some places (k, 2), which may be NaN, is within reach of a point (2,)."""
+    return bool((np.linalg.norm(places - point, axis=-1) <= reach).any())

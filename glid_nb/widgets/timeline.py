@@ -23,7 +23,8 @@ from glid_nb.session.edit_state import EditState
 from glid_nb.session.scenery import Scenery
 from glid_nb.session.worker import LatestWins, weakly
 from glid_nb.widgets.canvas import DeformCanvas, Seen
-from glid_nb.widgets.gestures import Event, Gestures, asked
+from glid_nb.widgets.gestures import Event, Gestures, asked, within_reach
+from glid_nb.widgets.moving_pins import moving_pins
 from glid_nb.widgets.pad import Pad
 from glid_nb.widgets.scene import Scene
 
@@ -63,6 +64,8 @@ class TimelinePanel(Pad):
     part_motions = traitlets.List([]).tag(sync=True)
     """The motions of the shapes around the edited one: for each its ``key``, its ``name``, its
     ``spans`` as in `motion`, and its ``heights``."""
+    pins = traitlets.Dict({"spans": [], "later": None}).tag(sync=True)
+    """Where pins are between keyframes, and ``later``, after the last one: see `moving_pins`."""
     thumbnails = traitlets.Dict({}).tag(sync=True)  # pictures as data URIs, by their keys
 
     def __init__(
@@ -100,6 +103,7 @@ class TimelinePanel(Pad):
         self._gestures = Gestures(model, actions)
         canvas.gestures.go_to = self._go_to
         canvas.scenery_at = self._scenery_at
+        canvas.pins_at = self.animation.pins
         self.serve(model, self._on_events)
         canvas.observe(lambda _: self._show("state"), ["show_onion"])
         canvas.pane.stage.observe(lambda _: self._show("motion"), ["materials"])
@@ -178,11 +182,12 @@ class TimelinePanel(Pad):
                 for key, (spans, state) in known.items()
             ]
 
-    def _go_to(self, time: float, point: Array) -> bool:
-        """Edit the pose at a time, if it is drawn at a point (2,). Returns whether it is."""
+    def _go_to(self, time: float, point: Array, reach: float) -> bool:
+        """As `PinGestures.go_to`."""
         if (seen := self.animation.seen(time)) is None:
             return True
-        if Sheets(*seen, self.canvas.image).source(point) is None:
+        drawn = Sheets(*seen, self.canvas.image).source(point) is not None
+        if not drawn and not within_reach(self.animation.pins(time), point, reach):
             return False  # a press beside the shape makes no keyframe
         self.animation.go_to(time)
         return True
@@ -203,6 +208,7 @@ class TimelinePanel(Pad):
                 self.worker.submit(moment.state.poses)
             if not moment.dragged:
                 self._show_heights(moment.state)
+                self.pins = moving_pins(moment.state, self.animation.spans)
 
     def _show_state(self) -> None:
         state = self.canvas.deformation.state
@@ -248,11 +254,8 @@ class TimelinePanel(Pad):
         return [self._span(scene, span) for span in spans if span.map.domain is scene.domain]
 
     def _span(self, scene: Scene, span: Span) -> dict[str, Any]:
-        """A span as data for the page. If nothing is proved, the shape stays at its keyframe."""
-        pieces = span.pieces
-        start = span.start, pieces[0].start_map if pieces else span.map
-        ends = [(piece.end, piece.end_map) for piece in pieces] or [(span.end, span.map)]
-        times, maps = zip(start, *ends, strict=True)
+        """A span as data for the page."""
+        times, maps = span.knots
         in_page = scene.evaluated_in != "kernel"
         return {
             **{key: getattr(span, key) for key in ("start", "end", "until", "status", "reason")},

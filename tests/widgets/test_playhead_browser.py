@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import numpy as np
 import pytest
 
 from .conftest import OpenNotebook
-from .editor_page import NEW_PICTURE, SETUP, Hand
+from .editor_page import NEW_PICTURE, SETUP, Hand, line
 from .test_timeline_browser import Timeline
 
 pytestmark = [pytest.mark.browser, pytest.mark.slow]
@@ -30,6 +31,21 @@ RECORD = """(track) => {
     if (time !== window.places.at(-1)) window.places.push(time);
   });
   window.recorder.observe(track, { attributes: true, attributeFilter: ["data-time"] });
+}"""
+WHOSE = "(said) => getComputedStyle(said, '::before').content"
+SHADOW = "(key) => getComputedStyle(key).boxShadow"
+# How many hollow pins were drawn last: theirs are the only strokes of this width.
+COUNT_HOLLOW = """() => {
+  window.hollow = 0;
+  const { clearRect, stroke } = CanvasRenderingContext2D.prototype;
+  CanvasRenderingContext2D.prototype.clearRect = function (...a) {
+    if (this.canvas.matches('.glid-pad > .glid-paper')) window.hollow = 0;
+    return clearRect.apply(this, a);
+  };
+  CanvasRenderingContext2D.prototype.stroke = function (...a) {
+    if (this.canvas.matches('.glid-pad > .glid-paper') && this.lineWidth === 6) window.hollow += 1;
+    return stroke.apply(this, a);
+  };
 }"""
 RECORDED = "() => { window.recorder.disconnect(); return window.places; }"
 
@@ -88,6 +104,54 @@ def test_the_playhead_goes_to_a_chosen_keyframe_and_nowhere_else(
     places = page.evaluate(RECORDED)
     assert times[1] not in places, places
     assert places[-1] == pytest.approx(between, abs=0.006)
+
+
+def test_pins_are_seen_and_dragged_between_keyframes(open_notebook: OpenNotebook) -> None:
+    book = open_notebook([SETUP, NEW_PICTURE + EDITOR])
+    hand, page = Hand(book), book.page
+    timeline = Timeline(hand)
+    book.value("None", setup=POSES + "model.set_repeat('ping-pong')")  # which plays on
+    timeline.settle()
+    between = 1.5 * timeline.times[1]
+    page.evaluate(COUNT_HOLLOW)
+
+    def wait_for_hollow(count: int) -> None:
+        page.wait_for_function("(count) => window.hollow === count", arg=count)
+
+    wait_for_hollow(0)
+    timeline.scrub([between])
+    still, place = book.value(f"editor.timeline.animation.pins({timeline.time}).tolist()")
+    wait_for_hollow(2)
+    said = page.locator(".glid-foot .glid-said")
+    assert said.evaluate(WHOSE) == '"Pose 3:"'  # the footer's proof
+    assert timeline.keys.nth(2).evaluate(SHADOW) == "none"
+    book.screenshot("pins-between")
+
+    # None while it plays; all when it stands still again.
+    timeline.button("Play, pause")
+    wait_for_hollow(0)
+    timeline.button("Play, pause")
+    wait_for_hollow(2)
+    timeline.scrub([between])
+
+    # A pin takes the pointer, tells what a drag does, and goes where the hand goes.
+    hand.page.mouse.move(*hand.place(place))
+    page.wait_for_function("document.querySelector('.glid-pad').style.cursor === 'grab'")
+    assert "Pin 2: where it is at this time" in (hand.pad.get_attribute("title") or "")
+    end = [place[0] - 1, place[1] + 1]
+    hand.drag(line(place, end, 8))
+    book.wait_for("len(model.state.poses) == 4")
+    hand.wait_for_target(1, end)
+    np.testing.assert_allclose(hand.targets[0], still, atol=0.01)
+    assert said.evaluate(WHOSE) == "none"
+    wait_for_hollow(0)  # the keyframe is edited, with its own pins
+
+    # After the last keyframe they are where its pins should be.
+    timeline.settle()
+    timeline.scrub([1.25 * timeline.times[-1]])
+    wait_for_hollow(2)
+    hand.page.mouse.move(*hand.place([6, -2]))
+    page.wait_for_function("document.querySelector('.glid-pad').style.cursor === 'grab'")
 
 
 def test_one_place_of_the_editor_gives_advice(open_notebook: OpenNotebook) -> None:

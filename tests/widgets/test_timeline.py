@@ -137,6 +137,59 @@ def test_a_drag_between_keyframes_makes_one_and_goes_on(panel: TimelinePanel) ->
     assert model.state.timeline.times == (0.0, 1.0)
 
 
+def test_pins_are_told_for_every_time_as_a_drag_there_takes_them(panel: TimelinePanel) -> None:
+    canvas, model = panel.canvas, panel.canvas.deformation
+    for x in (-6.0, 6.0, 0.0):
+        model.add_handle((x, 0.0))
+    act(panel, "keep", time=0)
+    model.drag(1, (6, 2))
+    act(panel, "set_easing", index=0, easing="in-out")
+    model.mark_pins([0], locked=True)
+    model.mark_pins([2], hidden=True)
+    assert panel.animation.wait(TIMEOUT)
+
+    (span,) = panel.pins["spans"]
+    knots = span["times"]
+    assert len(knots) > 2
+    assert (span["end"], span["locked"]) == (1.0, [0])
+    floats = np.frombuffer(span["floats"], np.float32).reshape(len(knots), 3, 2)
+    assert np.isnan(floats[:, 2]).all()
+    for time in (0.1, 0.5, 0.77):
+        mixed = [np.interp(time, knots, floats[:, i, j]) for i in (0, 1) for j in (0, 1)]
+        here = panel.animation.pins(time)
+        np.testing.assert_allclose(mixed, here[:2].ravel(), atol=1e-5)
+        assert np.isnan(here[2]).all()
+        map_ = panel.animation.at(time)
+        assert map_ is not None
+        np.testing.assert_allclose(here[:2], map_(model.pose.handles[:2]))
+    later = np.frombuffer(panel.pins["later"]["floats"], np.float32).reshape(3, 2)
+    np.testing.assert_allclose(later[1], [6, 2])
+    np.testing.assert_array_equal(panel.animation.pins(3.0)[1], [6, 2])
+    np.testing.assert_array_equal(panel.animation.pins(1.0)[1], [6, 2])
+
+    # Beside the shape, though within reach of a pin, a press takes it.
+    place = panel.animation.pins(0.5)[1]
+    edge = np.abs(canvas.deformation.map(canvas.deformation.state.domain.cage.exterior)).max(0)
+    beside = np.array([edge[0] + 0.4, place[1]])
+    event: dict[str, Any] = {"button": 0, "shift": False, "unit": 0.05}
+    event["reach"] = float(np.linalg.norm(beside - place)) + 0.01
+    above = np.array([0.0, 1.0])
+    for kind, (x, y) in (("down", beside), ("move", beside + above), ("up", beside + above)):
+        canvas.handle([{**event, "type": kind, "x": x, "y": y, "at": 0.5}])
+    assert model.state.timeline.times == (0.0, 0.5, 1.0)
+    np.testing.assert_allclose(model.pose.targets[1], place + above)
+
+
+def test_pins_of_a_shape_without_any_are_none(panel: TimelinePanel) -> None:
+    model = panel.canvas.deformation
+    act(panel, "keep", time=0)
+    assert panel.animation.wait(TIMEOUT)
+    assert [span["floats"] for span in panel.pins["spans"]] == [b""]
+    assert panel.pins["later"] == {"floats": b"", "locked": []}
+    assert panel.animation.pins(0.5).shape == (0, 2)
+    assert model.state.timeline.times == (0.0, 1.0)
+
+
 def test_a_finer_cage_is_not_shown_the_motion_of_the_coarser(panel: TimelinePanel) -> None:
     """The bug was an IndexError in the shader's coefficients."""
     model, coarse = panel.canvas.deformation, panel.canvas.deformation.state.domain

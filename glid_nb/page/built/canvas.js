@@ -240,7 +240,7 @@ hift+Delete",press("Delete",true)],null,["Bring forward","Page Up",press("PageUp
 ge Down",press("PageDown")],["Leave angle and scale free","X",press("x")],["Lock or unlock","L",press(
 "l")],["Hide","H",press("h")],...count>1?[["Group","G",press("g")]]:[],null]}function shapeRows({pin},covered){
 return covered?[["Add a pin here","Click",pin],null]:[]}function nearest(things,reach){let best2=null;let least=Infinity;for(const thing of things){const far=thing.
-d+(thing.loss??0);if(thing.d>reach||far>=least)continue;best2=thing;least=far}return best2}function nearestEdge(loops,point,reach){const edges=loops.flatMap(loop=>loop.map((start,j)=>{const foot=footOn(
+d+(thing.loss??0);if(!(thing.d<=reach)||far>=least)continue;best2=thing;least=far}return best2}function nearestEdge(loops,point,reach){const edges=loops.flatMap(loop=>loop.map((start,j)=>{const foot=footOn(
 start,loop[(j+1)%loop.length],point);return{foot,d:distance(foot,point)}}));return nearest(edges,reach)}
 function footOn(start,end,point){const along=[end[0]-start[0],end[1]-start[1]];const dot=(point[0]-start[0])*
 along[0]+(point[1]-start[1])*along[1];const share=Math.min(Math.max(dot/(distance(start,end)**2||1e-30),
@@ -258,44 +258,49 @@ function knobInCorner(view,marks,held){const[x,y]=dial(view,marks,held)?.knob??[
 CORNER[0]-KNOB&&y<CORNER[1]+KNOB}function ringAt(view,marks,place,reach){const ring=dial(view,marks);
 if(!ring)return null;if(distance(place,ring.knob)<=Math.max(KNOB+KNOB_REACH,reach))return{part:"knob"};
 const far=Math.abs(distance(place,ring.centre)-ring.radius);return far<=reach?{part:"turn"}:null}function markAt(marks,point,reach){
-return pinAt(marks,false,point,reach)??pinAt(marks,true,point,reach)}function pinAt(marks,reached,point,reach){
-const places=reached?marks.images:marks.targets;const pins=places.map((place,mark)=>{const loss=marks.
-hidden.includes(mark)?reach/3:0;return{mark,reached,d:distance(place,point),loss}});return nearest(pins,
-reach)}function arrowsTo(view,targets){return targets.filter(target=>!inSight(view,target)).map(target=>{
-const[x,y]=view.toScreen(target);const height=within2(y,view.height);const besideButtons=height<CORNER[1]?
-CORNER[0]:0;const width=within2(x,view.width-besideButtons);return{at:[width,height],target,angle:Math.
-atan2(y-height,x-width)}})}function arrowAt(view,marks,place){const arrow=arrowsTo(view,marks.targets).
-find(({at})=>distance(at,place)<ARROW_REACH);return arrow?.target??null}function inSight(view,point){
+return pinAt(marks,false,point,reach)??pinAt(marks,true,point,reach)}function pinBetweenAt(places,point,reach){
+const pins=places.map((place,mark)=>({mark,d:distance(place,point),loss:0}));return nearest(pins,reach)}
+function pinAt(marks,reached,point,reach){const places=reached?marks.images:marks.targets;const pins=places.
+map((place,mark)=>{const loss=marks.hidden.includes(mark)?reach/3:0;return{mark,reached,d:distance(place,
+point),loss}});return nearest(pins,reach)}function arrowsTo(view,targets){return targets.filter(target=>!inSight(
+view,target)).map(target=>{const[x,y]=view.toScreen(target);const height=within2(y,view.height);const besideButtons=height<
+CORNER[1]?CORNER[0]:0;const width=within2(x,view.width-besideButtons);return{at:[width,height],target,
+angle:Math.atan2(y-height,x-width)}})}function arrowAt(view,marks,place){const arrow=arrowsTo(view,marks.
+targets).find(({at})=>distance(at,place)<ARROW_REACH);return arrow?.target??null}function inSight(view,point){
 const[x,y]=view.toScreen(point);return x>=0&&y>=0&&x<=view.width&&y<=view.height}function within2(at,size){
 return Math.min(size-EDGE2,Math.max(EDGE2,at))}var TARGET=7.5;var IMAGE=3.5;var RING=12;var APART=2;var BORDER="rgba(255,255,255,0.85)";var PALE="r\
 gba(255,255,255,0.9)";var INK="#2b2b2b";var TARGET_FILL="#00d5e0";var TARGET_EDGE="#063f45";var HIDDEN="\
 #067a82";var CHOSEN="#0072b2";var WANTED="#d55e00";var FREE="rgba(40,40,40,0.75)";var STIFF="#4b0f7a";
-function lines(pen,pairs,strokes){pen.lineCap="round";tracePath(pen,pairs,false);strokePath(pen,strokes)}
-function drawOnion(pen,view,outlines){for(const[color,loops]of outlines){tracePath(pen,loops.map(loop=>view.
-line(loop)));strokePath(pen,[[3.6,BORDER],[1.8,color]])}}function hatching(pen,strength){const size=Math.
-round(16-9*strength);const tile=make("canvas",{width:size,height:size});const ink=penOf(tile);const diagonals=[
-[[0,size],[size,0]],[[-1,1],[1,-1]],[[size-1,size+1],[size+1,size-1]]];tracePath(ink,diagonals,false);
-strokePath(ink,[[3,"rgba(255,255,255,0.75)"],[1.5,STIFF]]);return pen.createPattern(tile,"repeat")??
-STIFF}function drawStiff(pen,view,areas,painting){pen.globalAlpha=painting?1:.4;for(const[strength,loops]of areas){
-const style=painting?hatching(pen,strength):"transparent";fillPath(pen,loops.map(loop=>view.line(loop)),
-style,"nonzero");strokePath(pen,[[3.4,BORDER],[1.5,STIFF]])}pen.globalAlpha=1}function drawBrush(pen,view,{
-radius,strength},{path,rests}){const wide=radius/view.unit;const last=path.at(-1);if(last){tracePath(
-pen,[view.line([...path,last])],false);pen.lineCap="round";pen.lineJoin="round";pen.globalAlpha=.45;
-strokePath(pen,[[2*wide,strength?STIFF:"#ffffff"]]);pen.globalAlpha=1}if(!rests)return;circle(pen,rests,
-wide,[[3.4,BORDER],[1.4,STIFF]])}function drawLasso(pen,view,path){fillPath(pen,[view.line(path)],"r\
-gba(0,114,178,0.12)");const strokes=[[3,BORDER],[1.4,CHOSEN]];strokePath(pen,strokes,[5,3])}function drawMarks(pen,view,marks,{
-hovered,held,cursor}){const targets=view.line(marks.targets.map((point,i)=>held.get(i)??point));const images=view.
-line(marks.images);drawMisses(pen,targets,images);targets.forEach((target,i)=>{if(marks.selected.includes(
-i))disk(pen,target,RING,"rgba(0,114,178,0.28)",CHOSEN,2);else if(i===hovered)disk(pen,target,RING,"r\
-gba(0,114,178,0.14)");drawTarget(pen,target,marks.hidden.includes(i))});drawRing(pen,view,marks,held);
-drawArrows(pen,view,marks);images.forEach((image,i)=>{if(marks.hidden.includes(i))return;disk(pen,image,
-IMAGE+1,PALE);disk(pen,image,IMAGE,"#111")});if(cursor)drawCursor(pen,view.toScreen(cursor))}function drawMisses(pen,targets,images){
-const pairs=targets.map((target,i)=>[images[i],target]);const apart=pairs.filter(([image,target])=>image&&
-distance(image,target)>=APART);lines(pen,apart,[[3.6,BORDER],[1.6,INK]])}function drawTarget(pen,place,hidden){
-if(!hidden){disk(pen,place,TARGET,TARGET_FILL,TARGET_EDGE,1.4);return}const strokes=[[3.4,BORDER],[1.6,
-HIDDEN]];circle(pen,place,TARGET,strokes,[3.5,2.4])}function drawRing(pen,view,marks,held){const ring=dial(
-view,marks,held);if(!ring)return;const[,,turned,scaled]=marks.ring;const{centre,radius,knob}=ring;const[
-x,y]=knob;const color=turned?WANTED:FREE;circle(pen,centre,radius,[[4,BORDER]]);circle(pen,centre,radius,
+var HOLLOW=[[6,PALE],[4,TARGET_EDGE],[2,TARGET_FILL]];var FAINT=.7;function lines(pen,pairs,strokes){
+pen.lineCap="round";tracePath(pen,pairs,false);strokePath(pen,strokes)}function drawOnion(pen,view,outlines){
+for(const[color,loops]of outlines){tracePath(pen,loops.map(loop=>view.line(loop)));strokePath(pen,[[
+3.6,BORDER],[1.8,color]])}}function hatching(pen,strength){const size=Math.round(16-9*strength);const tile=make(
+"canvas",{width:size,height:size});const ink=penOf(tile);const diagonals=[[[0,size],[size,0]],[[-1,1],
+[1,-1]],[[size-1,size+1],[size+1,size-1]]];tracePath(ink,diagonals,false);strokePath(ink,[[3,"rgba(2\
+55,255,255,0.75)"],[1.5,STIFF]]);return pen.createPattern(tile,"repeat")??STIFF}function drawStiff(pen,view,areas,painting){
+pen.globalAlpha=painting?1:.4;for(const[strength,loops]of areas){const style=painting?hatching(pen,strength):
+"transparent";fillPath(pen,loops.map(loop=>view.line(loop)),style,"nonzero");strokePath(pen,[[3.4,BORDER],
+[1.5,STIFF]])}pen.globalAlpha=1}function drawBrush(pen,view,{radius,strength},{path,rests}){const wide=radius/
+view.unit;const last=path.at(-1);if(last){tracePath(pen,[view.line([...path,last])],false);pen.lineCap=
+"round";pen.lineJoin="round";pen.globalAlpha=.45;strokePath(pen,[[2*wide,strength?STIFF:"#ffffff"]]);
+pen.globalAlpha=1}if(!rests)return;circle(pen,rests,wide,[[3.4,BORDER],[1.4,STIFF]])}function drawLasso(pen,view,path){
+fillPath(pen,[view.line(path)],"rgba(0,114,178,0.12)");const strokes=[[3,BORDER],[1.4,CHOSEN]];strokePath(
+pen,strokes,[5,3])}function drawMarks(pen,view,marks,{hovered,held,cursor}){const targets=view.line(
+marks.targets.map((point,i)=>held.get(i)??point));const images=view.line(marks.images);drawMisses(pen,
+targets,images);targets.forEach((target,i)=>{if(marks.selected.includes(i))disk(pen,target,RING,"rgb\
+a(0,114,178,0.28)",CHOSEN,2);else if(i===hovered)disk(pen,target,RING,"rgba(0,114,178,0.14)");drawTarget(
+pen,target,marks.hidden.includes(i))});drawRing(pen,view,marks,held);drawArrows(pen,view,marks);images.
+forEach((image,i)=>{if(marks.hidden.includes(i))return;disk(pen,image,IMAGE+1,PALE);disk(pen,image,IMAGE,
+"#111")});if(cursor)drawCursor(pen,view.toScreen(cursor))}function drawBetween(pen,view,places,{hovered,
+held}){view.line(places.map((place,i)=>held.get(i)??place)).forEach((place,i)=>{const touched=i===hovered||
+held.has(i);if(touched)disk(pen,place,RING,"rgba(0,114,178,0.14)");pen.globalAlpha=touched?1:FAINT;circle(
+pen,place,TARGET,HOLLOW)});pen.globalAlpha=1}function drawMisses(pen,targets,images){const pairs=targets.
+map((target,i)=>[images[i],target]);const apart=pairs.filter(([image,target])=>image&&distance(image,
+target)>=APART);lines(pen,apart,[[3.6,BORDER],[1.6,INK]])}function drawTarget(pen,place,hidden){if(!hidden){
+disk(pen,place,TARGET,TARGET_FILL,TARGET_EDGE,1.4);return}const strokes=[[3.4,BORDER],[1.6,HIDDEN]];
+circle(pen,place,TARGET,strokes,[3.5,2.4])}function drawRing(pen,view,marks,held){const ring=dial(view,
+marks,held);if(!ring)return;const[,,turned,scaled]=marks.ring;const{centre,radius,knob}=ring;const[x,
+y]=knob;const color=turned?WANTED:FREE;circle(pen,centre,radius,[[4,BORDER]]);circle(pen,centre,radius,
 [[2,color]],turned?[]:[6,4]);lines(pen,[[centre,knob]],[[3,BORDER],[1.2,color]]);const square=rectangle(
 [x-KNOB,y-KNOB],[x+KNOB,y+KNOB]);fillPath(pen,[square],scaled?WANTED:"#fff");strokePath(pen,[[1.6,scaled?
 "#fff":FREE]])}function drawArrows(pen,view,marks){for(const{at,angle}of arrowsTo(view,marks.targets)){
@@ -358,15 +363,15 @@ e"],["Esc","cancel a drag; select nothing"]]],["Poses",[["Ctrl+Z, Ctrl+Shift+Z",
 ck to the undeformed shape"]]],["Stiff areas",[["B, E","paint stiff areas, erase them; Esc ends pain\
 ting"]]],["View",[["Wheel, two fingers","zoom"],["Middle button, Space and drag","move the view"],["\
 F","see everything"],["P","the picture alone, for lectures; Esc brings the rest back"],["W","the who\
-le screen, without the inspector"],["I","hide the inspector, show it again"]]],["Timeline",[["K","ma\
-ke a keyframe of what is shown"],["Space","play the motion through the poses, pause; on the canvas t\
-oo"],["Arrow keys, Home, End","step a frame, with Shift to the next pose; first, last pose"],["Click\
- a curve between poses, Enter","ease the motion there: drag its two handles, or arrow keys"],["Shift\
-+Home, Shift+End","play over and over from here, to here; so do the two marks on the ruler, seen bel\
-ow a pointer"],["Line below the poses","green: proved, the higher the safer; grey hatching: not yet;\
- orange: not proved"],["Ctrl and wheel","zoom the timeline; then the wheel alone moves along it"],["\
-Double click a pose, F2","type its name"],["Alt and arrow keys","move the pose in time; Delete remov\
-es it"]]]];var Legend=class{element=make("div",{className:"glid-legend"});show(model,moving){const bars=[model.
+le screen, without the inspector"],["I","hide the inspector, show it again"]]],["Timeline",[["K; a d\
+rag of a hollow pin","make a keyframe at the time that is shown"],["Space","play the motion through \
+the poses, pause; on the canvas too"],["Arrow keys, Home, End","step a frame, with Shift to the next\
+ pose; first, last pose"],["Click a curve between poses, Enter","ease the motion there: drag its two\
+ handles, or arrow keys"],["Shift+Home, Shift+End","play over and over from here, to here; so do the\
+ two marks on the ruler, seen below a pointer"],["Line below the poses","green: proved, the higher t\
+he safer; grey hatching: not yet; orange: not proved"],["Ctrl and wheel","zoom the timeline; then th\
+e wheel alone moves along it"],["Double click a pose, F2","type its name"],["Alt and arrow keys","mo\
+ve the pose in time; Delete removes it"]]]];var Legend=class{element=make("div",{className:"glid-legend"});show(model,moving){const bars=[model.
 get("legend"),model.get("panel_legend")].filter(bar=>bar.title);this.element.replaceChildren(...bars.
 map(bar=>colorBar(bar,moving)));this.element.hidden=!bars.length;this.element.dataset.corner=model.get(
 "legend_corner")}};function colorBar({title,moving,colors,ticks,about},moves){const gradient=`backgr\
@@ -415,9 +420,11 @@ x,y]){const[cx,cy]=[x+BESIDE2,y+BESIDE2];pen.beginPath();pen.arc(cx,cy-HIGH,WIDE
 tracePath(pen,[body]);strokePath(pen,[[2.5,PAPER]]);fillPath(pen,[body],INK3)}var REACH={mouse:13,pen:16,touch:26};var KEYS=/^(Arrow\w+|Page\w+|Delete|Backspace|Escape|Enter|[0fa,.[\]<>+=xmbelhgn-])$/i;
 var TARGET_TIP="where it should be. Drag it; Alt turns it; a right click shows more; Shift-click sel\
 ects several";var IMAGE_TIP="where the shape is now. The cyan disk is where it should be";var LOCKED_TIP="\
-locked where it is; L unlocks it when it is selected";var COVERED=". Another part of the shape cover\
-s it";var RING_TIPS={turn:"Drag around the pin to turn the shape there; X frees it again",knob:"Drag\
- around the pin to turn the shape there, away from it to scale it; X frees it again"};var PinBehaviour=class{reach=REACH;keys=KEYS;pressed=null;constructor(canvas){
+locked where it is; L unlocks it when it is selected";var BETWEEN_TIP="where it is at this time. A d\
+rag makes a keyframe here";var BETWEEN_LOCKED="locked; unlock it at a keyframe (L)";var COVERED=". A\
+nother part of the shape covers it";var RING_TIPS={turn:"Drag around the pin to turn the shape there\
+; X frees it again",knob:"Drag around the pin to turn the shape there, away from it to scale it; X f\
+rees it again"};var PinBehaviour=class{reach=REACH;keys=KEYS;pressed=null;#between=null;constructor(canvas){
 this.canvas=canvas;this.actions={"?":canvas.help.toggle,b:()=>canvas.toggleTool("stiff"),e:()=>canvas.
 toggleTool("erase"),contextmenu:()=>canvas.openMenu(),i:()=>canvas.room?.toggleInspector(),k:()=>void canvas.
 box.dispatchEvent(new CustomEvent("glid:key",{bubbles:true})),p:()=>canvas.room?.alone(),reference:()=>canvas.
@@ -427,25 +434,33 @@ zoom:out":()=>canvas.view.zoom(ZOOM)}}pressing(key){if(key==="Escape")this.canva
 return this.canvas.painting}changed(){this.canvas.followHand();this.canvas.redraw()}menu(place,found){
 if(!this.canvas.shapes.motion)this.canvas.openMenu(place,found)}pressedAt(){return this.canvas.pressedAt()}tapped(){
 this.canvas.box.dispatchEvent(new CustomEvent("glid:play",{bubbles:true}))}find(point,reach){const{view,
-marks,reachable:reachable2,shapes,painting}=this.canvas;if(shapes.motion||painting)return null;const mark=markAt(
-reachable2,point,reach);return mark??ringAt(view,marks,view.toScreen(point),reach/view.unit/2)}encloses(found,e){
-const start=this.canvas.pad.grip?.points.get(found?.mark??"");this.pressed={found,start,pins:this.canvas.
-marks.targets.length};if(found)return null;if(e.shiftKey)return"box";return e.ctrlKey||e.metaKey?"la\
-sso":null}get constrains(){const{axis,whole}=this.pressed?.keys??{};return Boolean(axis||whole)}madePin(){
-const{pad,model}=this.canvas;const{pressed}=this;if(!pressed||pressed.found||this.painting||pad.mode!==
-"hand")return void 0;const count=model.get("rest").pose?.targets.length??0;return count===pressed.pins+
-1&&!pad.encloses?pressed.pins:void 0}held({mark}){const{selected,targets}=this.canvas.allMarks;const moved=movedWith(
-Number(mark),selected,this.canvas.model.get("pins"));return new Map(moved.map(i=>[i,targets[i]]))}constrain(point,e){
+marks,reachable:reachable2,shapes,painting}=this.canvas;if(painting)return null;if(shapes.motion)return pinBetweenAt(
+this.canvas.between.places,point,reach);const mark=markAt(reachable2,point,reach);return mark??ringAt(
+view,marks,view.toScreen(point),reach/view.unit/2)}encloses(found,e){const start=this.canvas.pad.grip?.
+points.get(found?.mark??"");this.pressed={found,start,pins:this.canvas.marks.targets.length};if(found)
+return null;if(e.shiftKey)return"box";return e.ctrlKey||e.metaKey?"lasso":null}get constrains(){const{
+axis,whole}=this.pressed?.keys??{};return Boolean(axis||whole)}madePin(){const{pad,model}=this.canvas;
+const{pressed}=this;if(!pressed||pressed.found||this.painting||pad.mode!=="hand")return void 0;const count=model.
+get("rest").pose?.targets.length??0;return count===pressed.pins+1&&!pad.encloses?pressed.pins:void 0}held({
+mark}){const{shapes,between}=this.canvas;if(shapes.motion)return this.#heldBetween(Number(mark),between);
+this.#between=null;const{selected,targets}=this.canvas.allMarks;const moved=movedWith(Number(mark),selected,
+this.canvas.model.get("pins"));return new Map(moved.map(i=>[i,targets[i]]))}#heldBetween(mark,{places,
+locked}){this.#between={mark,places};return new Map(locked.includes(mark)?[]:[[mark,places[mark]]])}motionLeft(){
+const{pad,shapes,allMarks,model}=this.canvas;const between=this.#between;if(!between||!pad.grip||shapes.
+motion)return;const{mark,places}=between;const moved=movedWith(mark,allMarks.selected,model.get("pin\
+s"));pad.grip.points=new Map(moved.map(i=>[i,places[i]]));this.canvas.followHand()}constrain(point,e){
 const{model,pad}=this.canvas;const{pressed}=this;const[from]=pad.path;if(!pressed||!from||pressed.found?.
 part||pad.encloses||e.altKey)return point;pressed.keys={axis:e.shiftKey,whole:e.ctrlKey||e.metaKey};
 pressed.start??=from;const[x,y]=pressed.start;const free=[x+point[0]-from[0],y+point[1]-from[1]];const[
 u,v]=constrained([x,y],free,pressed.keys,model.get("picture_size"));return[u-x+from[0],v-y+from[1]]}cursor(found){
 this.canvas.box.title=this.#tip(found);if(found?.mark!==void 0&&this.#locked(found))return"pointer";
-return found?"grab":"crosshair"}#locked({mark}){return this.canvas.model.get("pins").locked.includes(
-Number(mark))}#tip(found){if(!found)return"";const{marks,model}=this.canvas;if(found.part)return`${turnWords(
-marks.ring).join(", ")}. ${RING_TIPS[found.part]}`;const mark=Number(found.mark);const name=["Pin",mark+
-1,model.get("names")[mark]].join(" ").trim();if(this.#locked(found))return`${name}: ${LOCKED_TIP}`;const tip=found.
-reached?IMAGE_TIP:TARGET_TIP;return`${name}: ${tip}${marks.hidden.includes(mark)?COVERED:""}`}};async function copied(text){try{await navigator.clipboard.writeText(text);return true}catch{return copiedBySelection(
+return found?"grab":"crosshair"}#locked({mark}){const{shapes,between,model}=this.canvas;const{locked}=shapes.
+motion?between:model.get("pins");return locked.includes(Number(mark))}#tip(found){if(!found)return"";
+const{marks,model,shapes}=this.canvas;if(found.part)return`${turnWords(marks.ring).join(", ")}. ${RING_TIPS[found.
+part]}`;const mark=Number(found.mark);if(shapes.motion){return`Pin ${mark+1}: ${this.#locked(found)?
+BETWEEN_LOCKED:BETWEEN_TIP}`}const name=["Pin",mark+1,model.get("names")[mark]].join(" ").trim();if(this.#locked(
+found))return`${name}: ${LOCKED_TIP}`;const tip=found.reached?IMAGE_TIP:TARGET_TIP;return`${name}: ${tip}${marks.
+hidden.includes(mark)?COVERED:""}`}};async function copied(text){try{await navigator.clipboard.writeText(text);return true}catch{return copiedBySelection(
 text)}}function copiedBySelection(text){const focused=document.activeElement;const area=document.createElement(
 "textarea");area.value=text;area.setAttribute("readonly","");Object.assign(area.style,{position:"fix\
 ed",top:"0",left:"0",opacity:"0"});document.body.append(area);area.select();try{return document.execCommand(
@@ -760,8 +775,8 @@ now()-start)}return times.length>1?Math.min(...times.slice(1)):0}var PAUSE=500;v
 if(mayWait&&this.#timer!==void 0){this.#waits=event;return Promise.resolve(null)}this.#flush();if(mayWait)
 this.#pause();return this.#put(event)}close(){clearTimeout(this.#timer)}#pause(){this.#timer=setTimeout(
 ()=>{if(this.#flush())this.#pause()},PAUSE)}#flush(){clearTimeout(this.#timer);this.#timer=void 0;const event=this.#waits;
-this.#waits=null;if(event)void this.#put(event);return event!==null}};var SAVE_VIEW_AFTER=250;var STILL={release(){},pause:()=>void 0,reach(){}};var Canvas=class{legend=new Legend;notices=new Notices;help=help(
-HELP);ghosts=new Ghosts;#chosen;#saving;#playing=STILL;#tool;#painted=false;#presses=false;constructor({
+this.#waits=null;if(event)void this.#put(event);return event!==null}};var SAVE_VIEW_AFTER=250;var STILL={release(){},pause:()=>void 0,reach(){}};var NO_PINS={places:[],locked:[]};
+var Canvas=class{legend=new Legend;notices=new Notices;help=help(HELP);ghosts=new Ghosts;between=NO_PINS;#chosen;#saving;#playing=STILL;#tool;#painted=false;#presses=false;constructor({
 model,el,signal}){this.model=model;this.interactive=model.get("interactive");const paper=make("canva\
 s",{className:"glid-paper"});this.box=make("div",{className:"glid-pad",role:"application","aria-labe\
 l":"Deformation canvas: arrow keys move, Enter pins a point",inert:!this.interactive},paper,this.legend.
@@ -801,50 +816,52 @@ press:(key,shift=false)=>{return()=>this.#press(key,shift)},pin:()=>void this.pa
 clipboard.paste(),alone:()=>this.room?.alone(),fullScreen:()=>this.room?.fullScreen(),showKeys:this.
 help.toggle};const count=mark!==null&&selected.includes(mark)?selected.length:1;const covered=mark===
 null&&coveredNear(this.box,at);const hides=this.model.get("pins").away.length>0;openMenu(this.box,at,
-menuRows(does,mark===null?null:count,covered,hides))}showMotion(motion=null,playing=STILL,heights=null,parts={}){
-this.#playing=playing;this.shapes.motion=motion;this.shapes.partMotions=parts;this.shapes.lift(heights);
-this.showLegend();this.shapes.refresh();this.redraw()}showLegend(){this.legend.show(this.model,Boolean(
-this.shapes.motion))}takeFocus(){const{painting}=this;const chosen=painting&&!this.#painted;this.#painted=
-painting;const side=this.box.closest(".glid-editor")?.querySelector(".glid-side");if(chosen&&side?.contains(
-document.activeElement))this.box.focus({preventScroll:true})}showNotice(){const first=this.interactive&&
-!this.marks.targets.length;this.notices.tell(this.model.get("notice"),this.painting,first)}fit(){const{
-model,view,box}=this;view.width=model.get("width");view.height=model.get("height");[view.x,view.y,view.
-unit]=model.get("view");box.style.width=`${view.width}px`;box.style.height=`${view.height}px`;this.room?.
-shrink();this.#see()}reveal(){const{selected,targets,images}=this.marks;const now=selected.length===
-1?selected[0]:void 0;if(now===this.#chosen)return;this.#chosen=now;if(now===void 0||this.pad.mode)return;
-if(!Number.isFinite(targets[now]?.[0]))return;if(inSight(this.view,targets[now])||inSight(this.view,
-images[now]))return;this.view.centreOn(targets[now])}pressedAt(){if(!this.shapes.motion)return void 0;
-this.#presses=true;return this.#playing.pause()}#pressed(e){this.#press(e.detail)}#press(key,shift=false){
-const act=this.behaviour.actions[key];if(act)act();else this.pad.press(key,{shiftKey:shift})}#takeFirst(){
-const take=e=>{if(!this.shapes.motion)return false;e.stopImmediatePropagation();e.preventDefault();return true};
-const goBack=e=>take(e)&&this.#playing.release();const capture=true;this.box.addEventListener("point\
-erdown",e=>e.button===2&&take(e),{capture});this.box.addEventListener("contextmenu",take,{capture});
-const ours=e=>!e.ctrlKey&&!e.metaKey&&KEYS.test(keyOf(e));this.box.addEventListener("keydown",e=>ours(
-e)&&goBack(e),{capture});const openedByKeys=e=>{if(e.key!=="F10"||!e.shiftKey)return;e.stopImmediatePropagation();
-e.preventDefault();this.openMenu()};this.box.addEventListener("keydown",openedByKeys,{capture});const followArrow=e=>{
-const target=arrowAt(this.view,this.marks,this.pad.place(e));if(!target||e.target!==this.box)return;
-this.view.centreOn(target);e.stopImmediatePropagation()};this.box.addEventListener("pointerdown",followArrow,
-{capture})}#makeCorner(){const look="glid-help-button";return make("div",{className:"glid-corner"},this.
-help.button,iconButton("screen","Full screen (W)",()=>this.room?.fullScreen(),look),iconButton("rect\
-angle","The picture alone (P)",()=>this.room?.alone(),look))}#report(){const{busy,refusal}=this.link;
-if(this.link.idle)this.#showTool(void 0);this.#settleNumbers();if(this.#presses&&this.link.idle&&this.
-pad.mode===null){this.#presses=false;this.#playing.reach()}if(!busy&&refusal&&refusal!==this.model.get(
-"notice"))this.say(refusal)}#viewMoved(){this.#see();clearTimeout(this.#saving);this.#saving=setTimeout(
-()=>{const{x,y,unit}=this.view;save(this.model,{view:[x,y,unit]})},SAVE_VIEW_AFTER)}#see(){this.shapes.
-see();this.reference.place();this.redraw()}get#drags(){const{mode,path,encloses:encloses2}=this.pad;
-return mode==="hand"&&path.length>1&&!encloses2&&!this.painting}#settleNumbers(){if(this.link.idle&&
-!this.#drags)this.numbers.settle(this.model.get("marks"))}#drawNumbers(pen){const{model,view,pad,marks}=this;
-const{pressed}=this.behaviour;const drags=this.#drags&&pressed;const moved=drags&&movedPin(pressed,marks,
-pad.held,model.get("picture_size"));if(!moved)return;this.numbers.follow(this.allMarks,pad.held);const{
-start,keys}=pressed;if(start&&keys?.axis)drawAxis(pen,view,start,moved.at);drawNumbers(pen,view,moved)}#draw(pen){
-const{model,view,pad,marks,brush}=this;const{motion}=this.shapes;const through=!motion&&knobInCorner(
-view,marks,pad.held);this.corner.classList.toggle("glid-through",through);if(motion)return;drawOnion(
-pen,view,model.get("onion"));drawStiff(pen,view,model.get("stiff"),this.painting);if(this.interactive&&
-!this.painting){this.ghosts.draw(pen,view,model.get("outline").outline,marks.targets.length>0)}const cursor=pad.
-focused?model.get("cursor"):null;const pins=model.get("pins");const held=new Map([...pad.held].filter(
-([mark])=>!pins.away.includes(Number(mark))));drawMarks(pen,view,marks,{hovered:pad.found?.mark,held,
-cursor});drawLocks(pen,view,marks,pins);if(brush)drawBrush(pen,view,brush,pad);else this.#drawNumbers(
-pen);if(pad.encloses&&pad.path.length>2)drawLasso(pen,view,pad.path)}};function render(context){const{model,signal}=context;const canvas=new Canvas(context);follow(model,{
+menuRows(does,mark===null?null:count,covered,hides))}showMotion(motion=null,playing=STILL,heights=null,parts={},pins=null){
+this.between=pins??NO_PINS;this.#playing=playing;this.shapes.motion=motion;this.shapes.partMotions=parts;
+this.shapes.lift(heights);this.showLegend();this.shapes.refresh();this.pad.hover();this.redraw()}showLegend(){
+this.legend.show(this.model,Boolean(this.shapes.motion))}takeFocus(){const{painting}=this;const chosen=painting&&
+!this.#painted;this.#painted=painting;const side=this.box.closest(".glid-editor")?.querySelector(".g\
+lid-side");if(chosen&&side?.contains(document.activeElement))this.box.focus({preventScroll:true})}showNotice(){
+const first=this.interactive&&!this.marks.targets.length;this.notices.tell(this.model.get("notice"),
+this.painting,first)}fit(){const{model,view,box}=this;view.width=model.get("width");view.height=model.
+get("height");[view.x,view.y,view.unit]=model.get("view");box.style.width=`${view.width}px`;box.style.
+height=`${view.height}px`;this.room?.shrink();this.#see()}reveal(){const{selected,targets,images}=this.
+marks;const now=selected.length===1?selected[0]:void 0;if(now===this.#chosen)return;this.#chosen=now;
+if(now===void 0||this.pad.mode)return;if(!Number.isFinite(targets[now]?.[0]))return;if(inSight(this.
+view,targets[now])||inSight(this.view,images[now]))return;this.view.centreOn(targets[now])}pressedAt(){
+if(!this.shapes.motion)return void 0;this.#presses=true;return this.#playing.pause()}#pressed(e){this.#press(
+e.detail)}#press(key,shift=false){const act=this.behaviour.actions[key];if(act)act();else this.pad.press(
+key,{shiftKey:shift})}#takeFirst(){const take=e=>{if(!this.shapes.motion)return false;e.stopImmediatePropagation();
+e.preventDefault();return true};const goBack=e=>take(e)&&this.#playing.release();const capture=true;
+this.box.addEventListener("pointerdown",e=>e.button===2&&take(e),{capture});this.box.addEventListener(
+"contextmenu",take,{capture});const ours=e=>!e.ctrlKey&&!e.metaKey&&KEYS.test(keyOf(e));this.box.addEventListener(
+"keydown",e=>ours(e)&&goBack(e),{capture});const openedByKeys=e=>{if(e.key!=="F10"||!e.shiftKey)return;
+e.stopImmediatePropagation();e.preventDefault();this.openMenu()};this.box.addEventListener("keydown",
+openedByKeys,{capture});const followArrow=e=>{const target=arrowAt(this.view,this.marks,this.pad.place(
+e));if(!target||e.target!==this.box||this.shapes.motion)return;this.view.centreOn(target);e.stopImmediatePropagation()};
+this.box.addEventListener("pointerdown",followArrow,{capture})}#makeCorner(){const look="glid-help-b\
+utton";return make("div",{className:"glid-corner"},this.help.button,iconButton("screen","Full screen\
+ (W)",()=>this.room?.fullScreen(),look),iconButton("rectangle","The picture alone (P)",()=>this.room?.
+alone(),look))}#report(){const{busy,refusal}=this.link;if(this.link.idle)this.#showTool(void 0);this.#settleNumbers();
+if(this.#presses&&this.link.idle&&this.pad.mode===null){this.#presses=false;this.#playing.reach();this.
+behaviour.motionLeft()}if(!busy&&refusal&&refusal!==this.model.get("notice"))this.say(refusal)}#viewMoved(){
+this.#see();clearTimeout(this.#saving);this.#saving=setTimeout(()=>{const{x,y,unit}=this.view;save(this.
+model,{view:[x,y,unit]})},SAVE_VIEW_AFTER)}#see(){this.shapes.see();this.reference.place();this.redraw()}get#drags(){
+const{mode,path,encloses:encloses2}=this.pad;return mode==="hand"&&path.length>1&&!encloses2&&!this.
+painting}#settleNumbers(){if(this.link.idle&&!this.#drags)this.numbers.settle(this.model.get("marks"))}#drawNumbers(pen){
+const{model,view,pad,marks}=this;const{pressed}=this.behaviour;const drags=this.#drags&&pressed;const moved=drags&&
+movedPin(pressed,marks,pad.held,model.get("picture_size"));if(!moved)return;this.numbers.follow(this.
+allMarks,pad.held);const{start,keys}=pressed;if(start&&keys?.axis)drawAxis(pen,view,start,moved.at);
+drawNumbers(pen,view,moved)}#draw(pen){const{model,view,pad,marks,brush}=this;const{motion}=this.shapes;
+const through=!motion&&knobInCorner(view,marks,pad.held);this.corner.classList.toggle("glid-through",
+through);if(motion){const{places}=this.between;drawBetween(pen,view,places,{hovered:pad.found?.mark,
+held:pad.held});return}drawOnion(pen,view,model.get("onion"));drawStiff(pen,view,model.get("stiff"),
+this.painting);if(this.interactive&&!this.painting){this.ghosts.draw(pen,view,model.get("outline").outline,
+marks.targets.length>0)}const cursor=pad.focused?model.get("cursor"):null;const pins=model.get("pins");
+const held=new Map([...pad.held].filter(([mark])=>!pins.away.includes(Number(mark))));drawMarks(pen,
+view,marks,{hovered:pad.found?.mark,held,cursor});drawLocks(pen,view,marks,pins);if(brush)drawBrush(
+pen,view,brush,pad);else this.#drawNumbers(pen);if(pad.encloses&&pad.path.length>2)drawLasso(pen,view,
+pad.path)}};function render(context){const{model,signal}=context;const canvas=new Canvas(context);follow(model,{
 "change:width change:height change:view":()=>canvas.fit(),"change:coefficients":()=>canvas.shapes.lead||
 canvas.shapes.refresh(),"change:part_maps":()=>canvas.shapes.refresh(),"change:solver_script change:\
 solver change:outline":()=>canvas.prepareSolver(),"change:rest":()=>canvas.rested(),"change:drawing_\

@@ -172,14 +172,18 @@ ewBox="-2 -2 16 16" aria-hidden="true"><path d="${path}"/></svg>`}function drawi
 y)*SIZE;const arms=handles&&[`M0 ${SIZE} L${handles[0]*SIZE} ${up(handles[1])}`,`M${SIZE} 0 L${handles[2]*
 SIZE} ${up(handles[3])}`];const box=[-MARGIN,-MARGIN,SIZE+2*MARGIN,SIZE+2*MARGIN].join(" ");return`<\
 svg viewBox="${box}" aria-hidden="true"><rect width="${SIZE}" height="${SIZE}"/><path class="glid-ea\
-se-arms" d="${arms?arms.join(" "):""}"/><path d="${pathOf(easing,SIZE)}"/></svg>`}var Player=class{clock=null;time=0;seen=false;only=0;range=null;later=null;#intervals=[];#others=new Map;#frame=0;constructor(show,moved,ended=()=>{}){
+se-arms" d="${arms?arms.join(" "):""}"/><path d="${pathOf(easing,SIZE)}"/></svg>`}function pinsAt({spans},at){const span=spans.find(({end})=>at<=end)??spans.at(-1);const floats=toFloats(
+span?.floats);if(!span||!floats.length)return{places:[],locked:[]};const motion=new Motion({times:span.
+times,repeat:"once"},floats);return{places:pairs(motion.at(at)),locked:span.locked}}function pinsLater({
+later}){return{places:pairs(toFloats(later?.floats)),locked:later?.locked??[]}}function pairs(numbers){
+return Array.from({length:numbers.length/2},(_,i)=>[numbers[2*i],numbers[2*i+1]])}var Player=class{clock=null;time=0;seen=false;only=0;range=null;later=null;#intervals=[];#others=new Map;#frame=0;constructor(show,moved,ended=()=>{}){
 this.show=show;this.moved=moved;this.ended=ended}set(intervals,repeat,others={}){this.#intervals=intervals.
 map(partOf);const entries=Object.entries(others);this.#others=new Map(entries.map(([key,theirs])=>[key,
 theirs.map(partOf)]));const first=intervals[0];const last=intervals.at(-1);const times=first&&last?[
 first.start,last.end]:null;this.clock=times&&new Motion({times,repeat},new Float32Array(0));if(this.
 seen&&!this.playing){if(this.later===null)this.#seek(this.time);else this.scrub(this.later)}}get playing(){
 return this.#frame!==0}get place(){if(this.later!==null)return this.later;const last=this.clock?.last??
-Infinity;return this.time>last?2*last-this.time:this.time}scrub(time){this.pause();const{clock}=this;
+Infinity;return this.time>last?2*last-this.time:this.time}scrub(time){this.#stop();const{clock}=this;
 const last=clock?.last??this.only;if(time>last&&clock?.repeat!=="loop")this.#wait(time);else if(clock)
 this.#seek(Math.min(Math.max(time,clock.start),last));else this.release(last)}play(){const{clock}=this;
 if(this.playing||!clock){this.pause();return}this.later=null;const once=clock.repeat==="once"&&!this.
@@ -188,8 +192,10 @@ this.time+(last===null?0:(now-last)/1e3));last=now;await this.#seek(time);if(!th
 time>=clock.end){this.pause();this.ended()}else this.#frame=requestAnimationFrame(step)};this.#frame=
 requestAnimationFrame(step);this.moved()}#inRange(time){if(!this.range)return time;const[start,end]=this.
 range;if(time>=start&&time<end)return time;return time<start||this.time>=end?start:start+(time-start)%
-(end-start)}pause(){cancelAnimationFrame(this.#frame);this.#frame=0;this.moved()}release(time){this.
-pause();this.time=time;this.later=null;if(this.seen){this.seen=false;this.show(null)}this.moved()}#wait(time){
+(end-start)}pause(){const{playing}=this;this.#stop();if(playing)this.renew();this.moved()}renew(){if(!this.
+seen||this.playing)return;if(this.later===null)this.#showAt(this.place,this.place);else this.#showAt(
+this.time,this.later)}#stop(){cancelAnimationFrame(this.#frame);this.#frame=0}release(time){this.#stop();
+this.time=time;this.later=null;if(this.seen){this.seen=false;this.show(null)}this.moved()}#wait(time){
 this.later=time;this.time=this.clock?.last??this.only;this.seen=true;this.#showAt(this.time,time);this.
 moved()}#seek(time){const{clock}=this;if(!clock){this.release(0);return}this.later=null;this.time=time===
 clock.end?time:clock.within(time);this.seen=true;const{place}=this;const shown=this.#showAt(place,place);
@@ -197,7 +203,7 @@ this.moved();return shown}#showAt(place,time){const own=partAt(this.#intervals,p
 ...this.#others].map(([key,parts])=>({key,part:partAt(parts,place)}));const untils=others.map(({part})=>part?.
 until??place);const at=Math.min(place,own?.until??place,...untils);const moved=others.flatMap(({key,
 part})=>{const floats=part?.motion?.at(at);return floats?[[key,floats]]:[]});return this.show(own?.motion?.
-at(at)??null,time,Object.fromEntries(moved))}};function partOf({end,until,times,floats}){const motion=floats.
+at(at)??null,time,Object.fromEntries(moved),at)}};function partOf({end,until,times,floats}){const motion=floats.
 length?new Motion({times,repeat:"once"},floats):null;return{end,until,motion}}function partAt(parts,place){
 return parts.find(({end})=>place<=end)??parts.at(-1)}var LATER=.15;var LEAST=1.15;var MOST_LABELS=12;var LABEL=48;var STEPS=[.02,.04,.1,.2,.5,1,2,5,10,30,
 60,300,600];var LONGEST_STEP=1800;var SAME=1e-9;var WHOLE=1e-6;var ROUNDING=.006;function withReturn({
@@ -348,87 +354,92 @@ release:()=>this.release(),pause:()=>{this.player.pause();this.#goal=this.player
 place},reach:()=>{const{keyframes,active}=this.shown;if(keyAt(keyframes,this.player.place)===active)
 this.release()}};constructor({model,el,signal}){this.model=model;this.root=make("div",{className:"gl\
 id-skin glid-timeline",role:"group","aria-label":"Timeline"});this.root.dataset.lmSuppressShortcuts=
-"true";this.link=new Link(model,this.root,signal,()=>this.tell());this.player=new Player((floats,time,others)=>this.#show(
-floats,time,others),()=>this.showHead(),()=>this.#selectHere());this.bar=new Bar({play:()=>this.play(),
-keep:()=>this.keep(),act:(type,content)=>void this.act(type,content),edit:(type,content)=>void this.
-edit(type,content),zoom:by=>this.track.zoom.zoom(by),ease:()=>this.#ease()});this.bar.ease.addEventListener(
-"pointerdown",()=>this.#easePressed());this.ease=new EaseEditor((index,easing)=>void this.act("set_e\
-asing",{index,easing}),index=>this.#easeClosed(index));this.track=new Track({scrub:time=>this.#scrub(
-time),scrubbed:()=>this.#selectHere(),select:index=>this.select(index),move:(index,time)=>void this.
-act("move_pose",{index,time}),rename:(index,name)=>void this.act("rename_pose",{index,name}),range:range=>void this.
-act("set_loop_range",{range}),ease:(index,button)=>this.#openEase(index,button),easePressed:()=>this.#easePressed(),
-hover:text=>{this.#hovered=text;this.tell()},dropped:()=>{this.showKeys();this.showHead()}});const parts=[
-this.bar.element,this.note,legend(),this.track.zoom.box];this.root.append(make("div",{className:"gli\
-d-timeline-parts"},...parts),this.ease.element);this.root.addEventListener("keydown",e=>this.#keydown(
-e));this.root.addEventListener("keyup",e=>{if(e.key===" "&&!this.#typing(e))e.preventDefault()});this.
-bar.element.addEventListener("click",e=>{const target=e.target;if(e.detail&&target.closest("button"))
-this.track.focus()});el.classList.add("glid-host");el.append(this.root)}get shown(){return this.model.
-get("shown")}get spans(){return this.model.get("motion").spans}get segments(){const others=this.model.
-get("part_motions");return worstOf([{name:this.shown.part??"",spans:this.spans},...others])}get active(){
-return this.shown.keyframes[this.shown.active]}act(type,content={}){return this.link.put({type,...content})}edit(type,content={}){
-return this.act(type,{index:this.shown.active,...content})}release=()=>{this.#goal=null;this.player.
-release(this.active.time)};edited(){if(this.player.seen)this.player.release(this.#goal??this.active.
-time)}select(index){if(index===this.shown.active)this.release();else this.#go("go_to_pose",{index},this.
-shown.keyframes[index].time)}async#go(type,content,time){this.#goal=time;await this.act(type,content);
-if(this.#goal===time)this.#goal=null}tell(){const{note}=this;const{text,kind}=this.#told();note.ariaLive=
-kind==="state"||kind==="hover"?"off":"polite";if(note.textContent!==text)note.textContent=text;note.
-title=text;note.dataset.kind=kind;note.dataset.tone=kind==="bad"?"bad":""}#told(){const{refusal}=this.
+"true";this.link=new Link(model,this.root,signal,()=>this.tell());this.player=new Player((...shown)=>this.#show(
+...shown),()=>this.showHead(),()=>this.#selectHere());this.bar=new Bar({play:()=>this.play(),keep:()=>this.
+keep(),act:(type,content)=>void this.act(type,content),edit:(type,content)=>void this.edit(type,content),
+zoom:by=>this.track.zoom.zoom(by),ease:()=>this.#ease()});this.bar.ease.addEventListener("pointerdow\
+n",()=>this.#easePressed());this.ease=new EaseEditor((index,easing)=>void this.act("set_easing",{index,
+easing}),index=>this.#easeClosed(index));this.track=new Track({scrub:time=>this.#scrub(time),scrubbed:()=>this.#selectHere(),
+select:index=>this.select(index),move:(index,time)=>void this.act("move_pose",{index,time}),rename:(index,name)=>void this.
+act("rename_pose",{index,name}),range:range=>void this.act("set_loop_range",{range}),ease:(index,button)=>this.#openEase(
+index,button),easePressed:()=>this.#easePressed(),hover:text=>{this.#hovered=text;this.tell()},dropped:()=>{
+this.showKeys();this.showHead()}});const parts=[this.bar.element,this.note,legend(),this.track.zoom.
+box];this.root.append(make("div",{className:"glid-timeline-parts"},...parts),this.ease.element);this.
+root.addEventListener("keydown",e=>this.#keydown(e));this.root.addEventListener("keyup",e=>{if(e.key===
+" "&&!this.#typing(e))e.preventDefault()});this.bar.element.addEventListener("click",e=>{const target=e.
+target;if(e.detail&&target.closest("button"))this.track.focus()});el.classList.add("glid-host");el.append(
+this.root)}get shown(){return this.model.get("shown")}get spans(){return this.model.get("motion").spans}get segments(){
+const others=this.model.get("part_motions");return worstOf([{name:this.shown.part??"",spans:this.spans},
+...others])}get active(){return this.shown.keyframes[this.shown.active]}act(type,content={}){return this.
+link.put({type,...content})}edit(type,content={}){return this.act(type,{index:this.shown.active,...content})}release=()=>{
+this.#goal=null;this.player.release(this.active.time)};edited(){if(this.player.seen)this.player.release(
+this.#goal??this.active.time)}select(index){if(index===this.shown.active)this.release();else this.#go(
+"go_to_pose",{index},this.shown.keyframes[index].time)}async#go(type,content,time){this.#goal=time;await this.
+act(type,content);if(this.#goal===time)this.#goal=null}tell(){const{note}=this;const{text,kind}=this.#told();
+note.ariaLive=kind==="state"||kind==="hover"?"off":"polite";if(note.textContent!==text)note.textContent=
+text;note.title=text;note.dataset.kind=kind;note.dataset.tone=kind==="bad"?"bad":""}#told(){const{refusal}=this.
 link;if(refusal)return{text:refusal,kind:"bad"};if(this.#hovered)return{text:this.#hovered,kind:"hov\
 er"};return noteOn(this.shown,this.segments)}showHead(){const{keyframes}=this.shown;if(!keyframes)return;
 const{place,seen,playing}=this.player;const end=this.spans.at(-1)?.end??keyframes[keyframes.length-1].
-time;this.track.showHead(place,seen);this.bar.showTime(place,end,playing)}showRate(){this.track.showRate(
-this.model.get("rate"))}showKeys(){this.track.showKeys(this.shown,this.model.get("thumbnails"));const segment=this.#segment(
-this.ease.index);if(segment)this.ease.show(segment.title,segment.easing);else this.ease.close()}showState(){
-const{keyframes,active}=this.shown;const now=`${active}/${keyframes.length}`;const moved=this.root.dataset.
-active!==now;this.root.dataset.active=now;this.bar.update(this.shown);this.showKeys();this.showMotion();
-if(moved)this.release();else if(!this.player.seen)this.player.release(this.#goal??this.active.time)}showMotion(){
-const{player,shown,spans}=this;player.only=shown.keyframes?.[0].time??0;player.range=shown.range??null;
-player.set(intervalsOf(spans),shown.repeat,this.#others);const computing=spans.some(({status})=>status===
-"computing");if(shown.kernel&&!player.playing&&player.seen&&computing)this.release();this.tell();this.
-track.showSegments(this.segments,noteOn(shown,this.segments).text);this.showHead()}get#others(){const motions=this.
-model.get("part_motions");return Object.fromEntries(motions.map(({key,spans})=>[key,intervalsOf(spans)]))}showOthers(){
-const layers=this.model.get("part_motions").map(one=>[one.key,layersOf(one.heights)]);this.#otherLayers=
-Object.fromEntries(layers);this.showMotion()}showHeights(){this.#layers=layersOf(this.model.get("hei\
-ghts"))}#show(floats,time,others={}){const{stage}=this;if(!stage)return;const moving=time!==void 0;const heights=moving?
-this.#layers?.at(time)??null:null;const parts=Object.entries(others).map(([key,theirs])=>{return[key,
-{floats:theirs,heights:this.#otherLayers[key]?.at(time??0)??null}]});const seen=moving?floats??true:
-null;stage.trigger("glid:motion",seen,this.#playing,heights,Object.fromEntries(parts));if(this.shown.
-kernel)return this.act("frame",{time:time??null,replaces:"frame"})}play(){this.player.play();if(!this.
-player.playing||this.#played)return;this.#played=true;void this.act("played")}keep(){const{player}=this;
-if(player.seen)this.#go("keep",{time:player.place},player.place);else this.act("keep",{time:this.active.
-time})}#segment(index){const[start,end]=withReturn(this.shown).slice(index,index+2);return index>=0&&
-end?{title:`${start.name} → ${end.name}`,easing:start.easing}:null}#ease(){const{active,keyframes}=this.
-shown;const last=withReturn(this.shown).length-2;const{bar,track}=this;const index=Math.min(active,last);
-const own=track.eases.children[index];if(keyframes.length>1)this.#openEase(index,own&&!own.hidden?own:
-bar.ease)}#easePressed(){this.#easeBefore=this.ease.index}#openEase(index,at){const segment=this.#segment(
-index);if(segment&&this.#easeBefore!==index){this.ease.open(index,segment.title,segment.easing,at)}this.#easeBefore=
--1}#easeClosed(index){const{activeElement}=document;const lost=!activeElement||activeElement===document.
-body;if(!lost&&!this.ease.element.contains(activeElement))return;const button=this.track.eases.children[index];
-if(button instanceof HTMLElement&&!button.hidden)button.focus({preventScroll:true});else this.track.
-focus()}#scrub(time){this.player.scrub(Math.min(time,this.track.span))}#selectHere(){const index=keyAt(
-this.shown.keyframes,this.player.place);if(index>=0)this.select(index)}#typing(e){return this.bar.element.
-contains(e.target)}#keydown(e){const history=undoOrRedo(e);if(!history&&(e.ctrlKey||e.metaKey))return;
-e.stopPropagation();const does=this.#typing(e)?null:this.#keyDoes(e);if(!history&&!does)return;e.preventDefault();
-if(history)this.act(history);else does?.()}#rangeEnd(which){const{player}=this;this.track.range.key(
-which,player.seen?player.place:this.active.time)}#keyDoes(e){const{keyframes}=this.shown;switch(e.key){case"\
- ":return()=>void(e.repeat||this.play());case"ArrowLeft":return()=>this.#step(e,-1);case"ArrowRight":
-return()=>this.#step(e,1);case"Enter":return e.target===this.track.ruler?()=>this.#ease():null;case"\
-F2":return()=>this.track.rename();case"Delete":case"Backspace":return()=>void this.edit("delete_pose");case"\
-Home":return()=>e.shiftKey?this.#rangeEnd(0):this.select(0);case"End":return()=>e.shiftKey?this.#rangeEnd(
-1):this.select(keyframes.length-1);case"Escape":return()=>{this.track.drop();this.release()};default:
-return null}}#step(e,sign){const{player,track}=this;const{keyframes,active}=this.shown;if(e.altKey){
-const time=track.landing(active,this.active.time+sign*NUDGE);this.edit("move_pose",{time})}else if(e.
-shiftKey){this.select(nextKey(keyframes,player.place,sign)??active)}else{this.#scrub(player.place+sign/
-track.rate)}}};function intervalsOf(spans){return spans.map(span=>({...span,floats:toFloats(span.floats)}))}
-function layersOf({times,floats}){return times.length?new Motion({times,repeat:"once"},toFloats(floats)):
-null}function render(context){const{model,el,signal}=context;const timeline=new Timeline(context);const{player}=timeline;
+time;this.track.showHead(place,seen);this.bar.showTime(place,end,playing);this.#tellElsewhere(seen&&
+place!==this.active.time)}#tellElsewhere(elsewhere){const now=elsewhere?this.active.name:"";if((this.
+root.dataset.elsewhere??"")===now)return;const editor=this.root.closest(".glid-editor");if(elsewhere){
+this.root.dataset.elsewhere=now;editor?.style.setProperty("--glid-edited",JSON.stringify(`${now}:`))}else{
+delete this.root.dataset.elsewhere;editor?.style.removeProperty("--glid-edited")}}showRate(){this.track.
+showRate(this.model.get("rate"))}showKeys(){this.track.showKeys(this.shown,this.model.get("thumbnail\
+s"));const segment=this.#segment(this.ease.index);if(segment)this.ease.show(segment.title,segment.easing);else
+this.ease.close()}showState(){const{keyframes,active}=this.shown;const now=`${active}/${keyframes.length}`;
+const moved=this.root.dataset.active!==now;this.root.dataset.active=now;this.bar.update(this.shown);
+this.showKeys();this.showMotion();if(moved)this.release();else if(!this.player.seen)this.player.release(
+this.#goal??this.active.time)}showMotion(){const{player,shown,spans}=this;player.only=shown.keyframes?.[0].
+time??0;player.range=shown.range??null;player.set(intervalsOf(spans),shown.repeat,this.#others);const computing=spans.
+some(({status})=>status==="computing");if(shown.kernel&&!player.playing&&player.seen&&computing)this.
+release();this.tell();this.track.showSegments(this.segments,noteOn(shown,this.segments).text);this.showHead()}get#others(){
+const motions=this.model.get("part_motions");return Object.fromEntries(motions.map(({key,spans})=>[key,
+intervalsOf(spans)]))}showOthers(){const layers=this.model.get("part_motions").map(one=>[one.key,layersOf(
+one.heights)]);this.#otherLayers=Object.fromEntries(layers);this.showMotion()}showPins(){this.player.
+renew()}showHeights(){this.#layers=layersOf(this.model.get("heights"))}#show(floats,time,others={},at=void 0){
+const{stage}=this;if(!stage)return;const moving=time!==void 0;const heights=moving?this.#layers?.at(
+time)??null:null;const parts=Object.entries(others).map(([key,theirs])=>{return[key,{floats:theirs,heights:this.#otherLayers[key]?.
+at(time??0)??null}]});const seen=moving?floats??true:null;const pins=at===void 0?null:this.#pinsAt(at);
+stage.trigger("glid:motion",seen,this.#playing,heights,Object.fromEntries(parts),pins);if(this.shown.
+kernel)return this.act("frame",{time:time??null,replaces:"frame"})}#pinsAt(at){const{player,model}=this;
+if(player.playing)return null;const pins=model.get("pins");return player.later===null?pinsAt(pins,at):
+pinsLater(pins)}play(){this.player.play();if(!this.player.playing||this.#played)return;this.#played=
+true;void this.act("played")}keep(){const{player}=this;if(player.seen)this.#go("keep",{time:player.place},
+player.place);else this.act("keep",{time:this.active.time})}#segment(index){const[start,end]=withReturn(
+this.shown).slice(index,index+2);return index>=0&&end?{title:`${start.name} → ${end.name}`,easing:start.
+easing}:null}#ease(){const{active,keyframes}=this.shown;const last=withReturn(this.shown).length-2;const{
+bar,track}=this;const index=Math.min(active,last);const own=track.eases.children[index];if(keyframes.
+length>1)this.#openEase(index,own&&!own.hidden?own:bar.ease)}#easePressed(){this.#easeBefore=this.ease.
+index}#openEase(index,at){const segment=this.#segment(index);if(segment&&this.#easeBefore!==index){this.
+ease.open(index,segment.title,segment.easing,at)}this.#easeBefore=-1}#easeClosed(index){const{activeElement}=document;
+const lost=!activeElement||activeElement===document.body;if(!lost&&!this.ease.element.contains(activeElement))
+return;const button=this.track.eases.children[index];if(button instanceof HTMLElement&&!button.hidden)
+button.focus({preventScroll:true});else this.track.focus()}#scrub(time){this.player.scrub(Math.min(time,
+this.track.span))}#selectHere(){const index=keyAt(this.shown.keyframes,this.player.place);if(index>=
+0)this.select(index)}#typing(e){return this.bar.element.contains(e.target)}#keydown(e){const history=undoOrRedo(
+e);if(!history&&(e.ctrlKey||e.metaKey))return;e.stopPropagation();const does=this.#typing(e)?null:this.#keyDoes(
+e);if(!history&&!does)return;e.preventDefault();if(history)this.act(history);else does?.()}#rangeEnd(which){
+const{player}=this;this.track.range.key(which,player.seen?player.place:this.active.time)}#keyDoes(e){
+const{keyframes}=this.shown;switch(e.key){case" ":return()=>void(e.repeat||this.play());case"ArrowLe\
+ft":return()=>this.#step(e,-1);case"ArrowRight":return()=>this.#step(e,1);case"Enter":return e.target===
+this.track.ruler?()=>this.#ease():null;case"F2":return()=>this.track.rename();case"Delete":case"Back\
+space":return()=>void this.edit("delete_pose");case"Home":return()=>e.shiftKey?this.#rangeEnd(0):this.
+select(0);case"End":return()=>e.shiftKey?this.#rangeEnd(1):this.select(keyframes.length-1);case"Esca\
+pe":return()=>{this.track.drop();this.release()};default:return null}}#step(e,sign){const{player,track}=this;
+const{keyframes,active}=this.shown;if(e.altKey){const time=track.landing(active,this.active.time+sign*
+NUDGE);this.edit("move_pose",{time})}else if(e.shiftKey){this.select(nextKey(keyframes,player.place,
+sign)??active)}else{this.#scrub(player.place+sign/track.rate)}}};function intervalsOf(spans){return spans.
+map(span=>({...span,floats:toFloats(span.floats)}))}function layersOf({times,floats}){return times.length?
+new Motion({times,repeat:"once"},toFloats(floats)):null}function render(context){const{model,el,signal}=context;const timeline=new Timeline(context);const{player}=timeline;
 const tapped=e=>{const target=e.target;if(target.closest(".glid-editor")===el.closest(".glid-editor"))
 timeline.play()};window.addEventListener("glid:play",tapped,{signal});const keyed=e=>{const target=e.
 target;if(target.closest(".glid-editor")===el.closest(".glid-editor"))timeline.keep()};window.addEventListener(
 "glid:key",keyed,{signal});follow(model,{"change:shown":()=>timeline.showState(),"change:rate":()=>timeline.
 showRate(),"change:motion":()=>timeline.showMotion(),"change:heights":()=>timeline.showHeights(),"ch\
-ange:part_motions":()=>timeline.showOthers(),"change:thumbnails":()=>timeline.showKeys()});const edited=()=>timeline.
-edited();findStage(context,timeline).then(()=>timeline.stage?.on("change:coefficients",edited));return()=>{
-player.pause();timeline.stage?.off("change:coefficients",edited)}}async function findStage({model,signal},timeline){
-const found=await model.widget_manager.get_model(model.get("stage"));if(!signal.aborted)timeline.stage=
-found}var main_default={render};export{main_default as default};
+ange:part_motions":()=>timeline.showOthers(),"change:pins":()=>timeline.showPins(),"change:thumbnail\
+s":()=>timeline.showKeys()});const edited=()=>timeline.edited();findStage(context,timeline).then(()=>timeline.
+stage?.on("change:coefficients",edited));return()=>{player.pause();timeline.stage?.off("change:coeff\
+icients",edited)}}async function findStage({model,signal},timeline){const found=await model.widget_manager.
+get_model(model.get("stage"));if(!signal.aborted)timeline.stage=found}var main_default={render};export{main_default as default};

@@ -183,7 +183,7 @@ const before=pointers.get(id)??place;const other=[...pointers].find(([one])=>one
 return;const apart=one=>Math.max(distance(one,other),1);const middle=[(place[0]+other[0])/2,(place[1]+
 other[1])/2];this.zoom(apart(before)/apart(place),middle)}};function turnOf(e){return e.deltaMode===
 LINES?e.deltaY*WHEEL_LINE:e.deltaY}function nearest(things,reach){let best=null;let least=Infinity;for(const thing of things){const far=thing.
-d+(thing.loss??0);if(thing.d>reach||far>=least)continue;best=thing;least=far}return best}function nearestVertex(loops,point,reach){
+d+(thing.loss??0);if(!(thing.d<=reach)||far>=least)continue;best=thing;least=far}return best}function nearestVertex(loops,point,reach){
 const vertices=loops.flatMap((loop,i)=>loop.map((vertex,j)=>({loop:i,index:j,d:distance(vertex,point)})));
 return nearest(vertices,reach)}function nearestEdge(loops,point,reach){const edges=loops.flatMap(loop=>loop.
 map((start,j)=>{const foot=footOn(start,loop[(j+1)%loop.length],point);return{foot,d:distance(foot,point)}}));

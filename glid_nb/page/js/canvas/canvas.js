@@ -11,7 +11,7 @@ import { painter } from "../pad/pen.js";
 import { View } from "../pad/view.js";
 import { Ahead, marksOf } from "./ahead.js";
 import { menuRows } from "./context_menu.js";
-import { drawBrush, drawLasso, drawMarks, drawOnion, drawStiff } from "./draw.js";
+import { drawBetween, drawBrush, drawLasso, drawMarks, drawOnion, drawStiff } from "./draw.js";
 import { FollowedNumbers } from "./followed.js";
 import { Ghosts } from "./ghosts.js";
 import { HELP } from "./help_table.js";
@@ -32,7 +32,7 @@ import { Spacing } from "./spacing.js";
 /** @import { Pen } from "../pad/pen.js" */
 /** @import { PartSeen } from "./moved_shape.js" */
 /** @import { Seen } from "./shapes.js" */
-/** @import { Brush, CanvasTraits, Tool } from "./traits.js" */
+/** @import { Brush, CanvasTraits, PinsBetween, Tool } from "./traits.js" */
 
 /**
  * The motion that the timeline shows.
@@ -46,12 +46,16 @@ import { Spacing } from "./spacing.js";
 const SAVE_VIEW_AFTER = 250; // ms
 /** @type {Playing} */
 const STILL = { release() {}, pause: () => undefined, reach() {} };
+/** @type {PinsBetween} */
+const NO_PINS = { places: [], locked: [] };
 
 export class Canvas {
   legend = new Legend();
   notices = new Notices();
   help = help(HELP);
   ghosts = new Ghosts();
+  /** The pins of a motion that is seen; none while it plays. */
+  between = NO_PINS;
 
   /** @type {number | undefined} the pin that was selected alone when marks came last */
   #chosen;
@@ -271,14 +275,17 @@ export class Canvas {
    * @param {Playing} playing
    * @param {Float32Array | null} heights of the picture's vertices
    * @param {Record<string, PartSeen>} parts what is seen of the shapes around, by their keys
+   * @param {PinsBetween | null} pins that a drag takes
    */
-  showMotion(motion = null, playing = STILL, heights = null, parts = {}) {
+  showMotion(motion = null, playing = STILL, heights = null, parts = {}, pins = null) {
+    this.between = pins ?? NO_PINS;
     this.#playing = playing;
     this.shapes.motion = motion;
     this.shapes.partMotions = parts;
     this.shapes.lift(heights);
     this.showLegend();
     this.shapes.refresh();
+    this.pad.hover();
     this.redraw();
   }
 
@@ -374,7 +381,7 @@ export class Canvas {
     this.box.addEventListener("keydown", openedByKeys, { capture });
     const followArrow = (/** @type {PointerEvent} */ e) => {
       const target = arrowAt(this.view, this.marks, this.pad.place(e));
-      if (!target || e.target !== this.box) return;
+      if (!target || e.target !== this.box || this.shapes.motion) return;
       this.view.centreOn(target);
       e.stopImmediatePropagation();
     };
@@ -401,6 +408,7 @@ export class Canvas {
     if (this.#presses && this.link.idle && this.pad.mode === null) {
       this.#presses = false;
       this.#playing.reach();
+      this.behaviour.motionLeft();
     }
     if (!busy && refusal && refusal !== this.model.get("notice")) this.say(refusal);
   }
@@ -449,7 +457,11 @@ export class Canvas {
     const { motion } = this.shapes;
     const through = !motion && knobInCorner(view, marks, pad.held);
     this.corner.classList.toggle("glid-through", through);
-    if (motion) return; // pins belong to the pose that is edited
+    if (motion) {
+      const { places } = this.between;
+      drawBetween(pen, view, places, { hovered: pad.found?.mark, held: pad.held });
+      return; // the other pins belong to the pose that is edited
+    }
     drawOnion(pen, view, model.get("onion"));
     drawStiff(pen, view, model.get("stiff"), this.painting);
     if (this.interactive && !this.painting) {

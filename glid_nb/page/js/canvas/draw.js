@@ -29,6 +29,13 @@ const CHOSEN = "#0072b2";
 const WANTED = "#d55e00"; // of the ring
 const FREE = "rgba(40,40,40,0.75)"; // of the ring
 const STIFF = "#4b0f7a"; // told by its hatching, whatever the colours
+/** @type {Strokes} */
+const HOLLOW = [
+  [6, PALE],
+  [4, TARGET_EDGE],
+  [2, TARGET_FILL],
+];
+const FAINT = 0.7; // of pins that belong to another pose
 
 /**
  * Lines between pairs of points.
@@ -189,6 +196,26 @@ export function drawMarks(pen, view, marks, { hovered, held, cursor }) {
     disk(pen, image, IMAGE, "#111");
   });
   if (cursor) drawCursor(pen, view.toScreen(cursor));
+}
+
+/**
+ * The pins of a motion that stands still: hollow, as they are of another pose.
+ *
+ * @param {Pen} pen
+ * @param {View} view
+ * @param {Point[]} places
+ * @param {object} now
+ * @param {Mark | undefined} now.hovered what lies below the pointer
+ * @param {Map<Mark, Point>} now.held where the pointer holds them
+ */
+export function drawBetween(pen, view, places, { hovered, held }) {
+  view.line(places.map((place, i) => held.get(i) ?? place)).forEach((place, i) => {
+    const touched = i === hovered || held.has(i);
+    if (touched) disk(pen, place, RING, "rgba(0,114,178,0.14)");
+    pen.globalAlpha = touched ? 1 : FAINT;
+    circle(pen, place, TARGET, HOLLOW);
+  });
+  pen.globalAlpha = 1;
 }
 
 /**

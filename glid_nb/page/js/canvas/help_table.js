@@ -66,7 +66,7 @@ export const HELP = [
   [
     "Timeline",
     [
-      ["K", "make a keyframe of what is shown"],
+      ["K; a drag of a hollow pin", "make a keyframe at the time that is shown"],
       ["Space", "play the motion through the poses, pause; on the canvas too"],
       ["Arrow keys, Home, End", "step a frame, with Shift to the next pose; first, last pose"],
       [

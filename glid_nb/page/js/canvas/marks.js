@@ -97,6 +97,18 @@ export function markAt(marks, point, reach) {
 }
 
 /**
+ * The nearest of the pins of a motion within reach of a point; null for none.
+ *
+ * @param {Point[]} places
+ * @param {Point} point
+ * @param {number} reach world units
+ */
+export function pinBetweenAt(places, point, reach) {
+  const pins = places.map((place, mark) => ({ mark, d: distance(place, point), loss: 0 }));
+  return nearest(pins, reach);
+}
+
+/**
  * @param {Marks} marks
  * @param {boolean} reached whether images are looked at, not targets
  * @param {Point} point

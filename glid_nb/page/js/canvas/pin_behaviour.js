@@ -2,13 +2,14 @@
 
 import { ZOOM } from "../pad/view.js";
 import { constrained } from "./constrain.js";
-import { markAt, ringAt } from "./marks.js";
+import { markAt, pinBetweenAt, ringAt } from "./marks.js";
 import { turnWords } from "./numbers.js";
 import { movedWith } from "./pin_marks.js";
 
 /** @import { Found, Mark, Point } from "../types.js" */
 /** @import { Behaviour } from "../pad/pad.js" */
 /** @import { Pressing } from "./numbers.js" */
+/** @import { PinsBetween } from "./traits.js" */
 /** @import { Canvas } from "./canvas.js" */
 
 const REACH = { mouse: 13, pen: 16, touch: 26 }; // CSS pixels
@@ -17,6 +18,8 @@ const TARGET_TIP =
   "where it should be. Drag it; Alt turns it; a right click shows more; Shift-click selects several";
 const IMAGE_TIP = "where the shape is now. The cyan disk is where it should be";
 const LOCKED_TIP = "locked where it is; L unlocks it when it is selected";
+const BETWEEN_TIP = "where it is at this time. A drag makes a keyframe here";
+const BETWEEN_LOCKED = "locked; unlock it at a keyframe (L)";
 const COVERED = ". Another part of the shape covers it";
 const RING_TIPS = {
   turn: "Drag around the pin to turn the shape there; X frees it again",
@@ -29,6 +32,8 @@ export class PinBehaviour {
   keys = KEYS;
   /** @type {Pressing | null} the last press of the left button, unless it paints */
   pressed = null;
+  /** @type {{ mark: number, places: Point[] } | null} the pin of a motion that is dragged */
+  #between = null;
 
   /** @param {Canvas} canvas */
   constructor(canvas) {
@@ -90,7 +95,8 @@ export class PinBehaviour {
    */
   find(point, reach) {
     const { view, marks, reachable, shapes, painting } = this.canvas;
-    if (shapes.motion || painting) return null;
+    if (painting) return null;
+    if (shapes.motion) return pinBetweenAt(this.canvas.between.places, point, reach);
     const mark = markAt(reachable, point, reach);
     return mark ?? ringAt(view, marks, view.toScreen(point), reach / view.unit / 2);
   }
@@ -127,9 +133,35 @@ export class PinBehaviour {
    * @returns {Map<Mark, Point>}
    */
   held({ mark }) {
+    const { shapes, between } = this.canvas;
+    if (shapes.motion) return this.#heldBetween(Number(mark), between);
+    this.#between = null;
     const { selected, targets } = this.canvas.allMarks;
     const moved = movedWith(Number(mark), selected, this.canvas.model.get("pins"));
     return new Map(moved.map((i) => [i, targets[i]]));
+  }
+
+  /**
+   * Holds one pin of a motion. Which others move with it is known at the keyframe that the drag makes.
+   *
+   * @param {number} mark
+   * @param {PinsBetween} between
+   * @returns {Map<Mark, Point>}
+   */
+  #heldBetween(mark, { places, locked }) {
+    this.#between = { mark, places };
+    return new Map(locked.includes(mark) ? [] : [[mark, places[mark]]]);
+  }
+
+  /** The keyframe that a drag into a motion made is edited: the drag goes on there. */
+  motionLeft() {
+    const { pad, shapes, allMarks, model } = this.canvas;
+    const between = this.#between;
+    if (!between || !pad.grip || shapes.motion) return;
+    const { mark, places } = between;
+    const moved = movedWith(mark, allMarks.selected, model.get("pins"));
+    pad.grip.points = new Map(moved.map((i) => [i, places[i]]));
+    this.canvas.followHand();
   }
 
   /**
@@ -161,15 +193,20 @@ export class PinBehaviour {
 
   /** @param {Found} found */
   #locked({ mark }) {
-    return this.canvas.model.get("pins").locked.includes(Number(mark));
+    const { shapes, between, model } = this.canvas;
+    const { locked } = shapes.motion ? between : model.get("pins");
+    return locked.includes(Number(mark));
   }
 
   /** @param {Found | null} found */
   #tip(found) {
     if (!found) return "";
-    const { marks, model } = this.canvas;
+    const { marks, model, shapes } = this.canvas;
     if (found.part) return `${turnWords(marks.ring).join(", ")}. ${RING_TIPS[found.part]}`;
     const mark = Number(found.mark);
+    if (shapes.motion) {
+      return `Pin ${mark + 1}: ${this.#locked(found) ? BETWEEN_LOCKED : BETWEEN_TIP}`;
+    }
     const name = ["Pin", mark + 1, model.get("names")[mark]].join(" ").trim();
     if (this.#locked(found)) return `${name}: ${LOCKED_TIP}`;
     const tip = found.reached ? IMAGE_TIP : TARGET_TIP;

@@ -14,6 +14,15 @@ export interface Marks {
   ring: Ring | [];
 }
 
+/**
+ * The pins that a drag takes while a motion stands still: those of the keyframe before, where the
+ * shape carries them. Places of hidden ones are not numbers.
+ */
+export interface PinsBetween {
+  places: Point[];
+  locked: number[];
+}
+
 /** Pins by their indices: which are locked, which the user hid, and the group's number of each. */
 export interface PinMarks {
   locked: number[];

@@ -18,7 +18,7 @@ export function nearest(things, reach) {
   let least = Infinity;
   for (const thing of things) {
     const far = thing.d + (thing.loss ?? 0);
-    if (thing.d > reach || far >= least) continue;
+    if (!(thing.d <= reach) || far >= least) continue; // a place may be no number
     best = thing;
     least = far;
   }

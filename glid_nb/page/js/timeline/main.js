@@ -30,6 +30,7 @@ function render(context) {
     "change:motion": () => timeline.showMotion(),
     "change:heights": () => timeline.showHeights(),
     "change:part_motions": () => timeline.showOthers(),
+    "change:pins": () => timeline.showPins(),
     "change:thumbnails": () => timeline.showKeys(),
   });
 

@@ -20,11 +20,11 @@ import { Motion } from "../motion/motion.js";
 
 /**
  * Draws coefficients, or, where they are null, has the kernel draw the time, and resolves when it
- * has. Without a time: the pose that is edited. The last argument are coefficients of other shapes,
- * by their keys.
+ * has. Without a time: the pose that is edited. Then come coefficients of other shapes, by their
+ * keys, and the time of what is drawn, if that is proved no farther.
  *
- * @typedef {(floats: Float32Array | null, time?: number, others?: Record<string, Float32Array>) =>
- *   Promise<unknown> | void} Show
+ * @typedef {(floats: Float32Array | null, time?: number, others?: Record<string, Float32Array>,
+ *   at?: number) => Promise<unknown> | void} Show
  */
 
 /** @typedef {{ end: number, until: number, motion: Motion | null }} Part of a motion */
@@ -94,7 +94,7 @@ export class Player {
    * @param {number} time
    */
   scrub(time) {
-    this.pause();
+    this.#stop();
     const { clock } = this;
     const last = clock?.last ?? this.only;
     if (time > last && clock?.repeat !== "loop") this.#wait(time);
@@ -140,10 +140,24 @@ export class Player {
     return time < start || this.time >= end ? start : start + ((time - start) % (end - start));
   }
 
+  /** Stays where it is. What is seen is shown once more, now that it stands still. */
   pause() {
+    const { playing } = this;
+    this.#stop();
+    if (playing) this.renew();
+    this.moved();
+  }
+
+  /** Shows what is seen once more, if it stands still. */
+  renew() {
+    if (!this.seen || this.playing) return;
+    if (this.later === null) this.#showAt(this.place, this.place);
+    else this.#showAt(this.time, this.later);
+  }
+
+  #stop() {
     cancelAnimationFrame(this.#frame);
     this.#frame = 0;
-    this.moved();
   }
 
   /**
@@ -152,7 +166,7 @@ export class Player {
    * @param {number} time of that pose
    */
   release(time) {
-    this.pause();
+    this.#stop();
     this.time = time;
     this.later = null;
     if (this.seen) {
@@ -202,7 +216,7 @@ export class Player {
       const floats = part?.motion?.at(at);
       return floats ? [[key, floats]] : [];
     });
-    return this.show(own?.motion?.at(at) ?? null, time, Object.fromEntries(moved));
+    return this.show(own?.motion?.at(at) ?? null, time, Object.fromEntries(moved), at);
   }
 }
 

@@ -6,6 +6,7 @@ import { undoOrRedo } from "../pad/keys.js";
 import { Link } from "../pad/link.js";
 import { Bar, legend } from "./bar.js";
 import { EaseEditor } from "./ease_editor.js";
+import { pinsAt, pinsLater } from "./moving_pins.js";
 import { Player } from "./player.js";
 import { keyAt, nextKey, withReturn } from "./scale.js";
 import { Track } from "./track.js";
@@ -55,7 +56,7 @@ export class Timeline {
     this.root.dataset.lmSuppressShortcuts = "true"; // JupyterLab must not take the keys first
     this.link = new Link(model, this.root, signal, () => this.tell());
     this.player = new Player(
-      (floats, time, others) => this.#show(floats, time, others),
+      (...shown) => this.#show(...shown),
       () => this.showHead(),
       () => this.#selectHere(),
     );
@@ -205,6 +206,25 @@ export class Timeline {
     const end = this.spans.at(-1)?.end ?? keyframes[keyframes.length - 1].time;
     this.track.showHead(place, seen);
     this.bar.showTime(place, end, playing);
+    this.#tellElsewhere(seen && place !== this.active.time);
+  }
+
+  /**
+   * While another time is seen, the edited pose is not marked, and the editor's footer names it.
+   *
+   * @param {boolean} elsewhere
+   */
+  #tellElsewhere(elsewhere) {
+    const now = elsewhere ? this.active.name : "";
+    if ((this.root.dataset.elsewhere ?? "") === now) return;
+    const editor = /** @type {HTMLElement | null} */ (this.root.closest(".glid-editor"));
+    if (elsewhere) {
+      this.root.dataset.elsewhere = now;
+      editor?.style.setProperty("--glid-edited", JSON.stringify(`${now}:`));
+    } else {
+      delete this.root.dataset.elsewhere;
+      editor?.style.removeProperty("--glid-edited");
+    }
   }
 
   showRate() {
@@ -254,6 +274,10 @@ export class Timeline {
     this.showMotion();
   }
 
+  showPins() {
+    this.player.renew();
+  }
+
   showHeights() {
     this.#layers = layersOf(this.model.get("heights"));
   }
@@ -265,8 +289,9 @@ export class Timeline {
    * @param {Float32Array | null} floats
    * @param {number} [time]
    * @param {Record<string, Float32Array>} others coefficients of the shapes around, by their keys
+   * @param {number} [at] the time of what is drawn
    */
-  #show(floats, time, others = {}) {
+  #show(floats, time, others = {}, at = undefined) {
     const { stage } = this;
     if (!stage) return;
     const moving = time !== undefined;
@@ -275,8 +300,21 @@ export class Timeline {
       return [key, { floats: theirs, heights: this.#otherLayers[key]?.at(time ?? 0) ?? null }];
     });
     const seen = moving ? (floats ?? true) : null;
-    stage.trigger("glid:motion", seen, this.#playing, heights, Object.fromEntries(parts));
+    const pins = at === undefined ? null : this.#pinsAt(at);
+    stage.trigger("glid:motion", seen, this.#playing, heights, Object.fromEntries(parts), pins);
     if (this.shown.kernel) return this.act("frame", { time: time ?? null, replaces: "frame" });
+  }
+
+  /**
+   * The pins that can be dragged; null while it plays.
+   *
+   * @param {number} at
+   */
+  #pinsAt(at) {
+    const { player, model } = this;
+    if (player.playing) return null;
+    const pins = model.get("pins");
+    return player.later === null ? pinsAt(pins, at) : pinsLater(pins);
   }
 
   /** Plays, or pauses. The kernel hears of the first time. */

@@ -1,6 +1,7 @@
 // What the kernel says of a timeline: the traits of `TimelinePanel` in glid_nb/widgets/timeline.py.
 
 import type { Repeat } from "../motion/motion.js";
+import type { Point } from "../types.js";
 import type { Easing } from "./ease.js";
 
 export interface Keyframe {
@@ -52,6 +53,24 @@ export interface Heights {
   floats: DataView;
 }
 
+/** The places of pins, pair after pair, and the indices of those that are locked. */
+export interface Pins {
+  floats: DataView;
+  locked: number[];
+}
+
+/** The pins that a drag takes: at the knots of each span, and after the last keyframe. */
+export interface MovingPins {
+  spans: (Pins & { end: number; times: number[] })[];
+  later: Pins | null;
+}
+
+/** Those pins at a time. Places of hidden ones are not numbers. */
+export interface PinsThen {
+  places: Point[];
+  locked: number[];
+}
+
 /** The motion of a shape around the edited one. */
 export interface PartMotion {
   key: string;
@@ -68,5 +87,6 @@ export interface TimelineTraits {
   motion: { spans: Span[] };
   heights: Heights;
   part_motions: PartMotion[];
+  pins: MovingPins;
   thumbnails: Record<string, string>;
 }

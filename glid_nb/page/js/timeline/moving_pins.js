@@ -1,0 +1,41 @@
+// The pins that a drag takes while a motion is seen: those of the keyframe before, where the shape
+// carries them. Between two knots they move on straight lines, as the coefficients do.
+
+import { Motion } from "../motion/motion.js";
+import { toFloats } from "../pad/dom.js";
+
+/** @import { Point } from "../types.js" */
+/** @import { MovingPins, PinsThen } from "./traits.js" */
+
+/**
+ * Where pins are at a time of the motion.
+ *
+ * @param {MovingPins} pins
+ * @param {number} at
+ * @returns {PinsThen}
+ */
+export function pinsAt({ spans }, at) {
+  const span = spans.find(({ end }) => at <= end) ?? spans.at(-1);
+  const floats = toFloats(span?.floats);
+  if (!span || !floats.length) return { places: [], locked: [] };
+  const motion = new Motion({ times: span.times, repeat: "once" }, floats);
+  return { places: pairs(motion.at(at)), locked: span.locked };
+}
+
+/**
+ * Where pins are after the last keyframe.
+ *
+ * @param {MovingPins} pins
+ * @returns {PinsThen}
+ */
+export function pinsLater({ later }) {
+  return { places: pairs(toFloats(later?.floats)), locked: later?.locked ?? [] };
+}
+
+/**
+ * @param {Float32Array} numbers
+ * @returns {Point[]}
+ */
+function pairs(numbers) {
+  return Array.from({ length: numbers.length / 2 }, (_, i) => [numbers[2 * i], numbers[2 * i + 1]]);
+}
