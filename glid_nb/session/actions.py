@@ -292,6 +292,12 @@ def set_repeat(state: EditState, repeat: Repeat) -> EditState:
     return replace(state, timeline=state.timeline.repeated(repeat))
 
 
+def play_all(state: EditState, repeat: Repeat) -> EditState:
+    """Play the whole motion, repeated like this, not a part of it."""
+    timeline = replace(state.timeline.repeated(repeat), loop_range=None)
+    return state if timeline == state.timeline else replace(state, timeline=timeline)
+
+
 def set_loop_range(state: EditState, part: tuple[float, float] | None) -> EditState:
     """Set the part of the motion that plays over and over; None for the whole motion."""
     timeline = replace(state.timeline, loop_range=part)

@@ -193,6 +193,7 @@ class Deformation(Undoable[EditState], AbstractContextManager["Deformation"]):
     move_pose = _step(actions.move_pose)
     set_easing = _step(actions.set_easing)
     set_repeat = _step(actions.set_repeat)
+    play_all = _step(actions.play_all)
     set_loop_range = _step(actions.set_loop_range)
     keep_between = _step(actions.keep_between)
     keep_after = _step(actions.keep_after)

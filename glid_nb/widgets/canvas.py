@@ -81,6 +81,11 @@ class DeformCanvas(ClosingWidget, ipywidgets.HBox):
     show_onion = traitlets.Bool(False)
     """Whether the outlines of the previous and the next pose are drawn."""
 
+    # What was measured last: the domain, the time, the pins that the shape covers, the panels.
+    _measured: tuple[Domain | None, float] = None, 0.0
+    _hidden: Any = ()
+    _panels: PanelCertificate | None = None
+
     def __init__(
         self,
         image: ImageSource,
@@ -117,20 +122,22 @@ class DeformCanvas(ClosingWidget, ipywidgets.HBox):
         self.gestures.copy = lambda text: self.pane.stage.send({"copy": text})
         self.brush = self.gestures.brush
         """The brush for stiff areas."""
-        self._measured: tuple[Domain | None, float] = None, 0.0  # measured domain, and the time
-        self._hidden: Any = ()
-        self._panels: PanelCertificate | None = None
         super().__init__([self.pane], **kwargs)
         self.add_class("glid-deform")
         self._asked: tuple[int | None, int | None] = width, height
         self._given = size
         self._resize()
-        self.pane.stage.observe(self._resize, ["width", "height"])
-        self.pane.stage.observe(self._take_room, ["room"])
-        self.pane.stage.observe(self._on_view, ["view"])
-        # Frames come from the solver's thread, events from the page's thread. Both hold the model's
-        # lock. The solver's next frame acknowledges events and so sets the pace, except during the
-        # preparation of the solver.
+        self._follow_model(owned)
+        self._follow_traits()
+
+    def _follow_model(self, owned: bool) -> None:
+        """Draw the model, now and whenever it changes, and hear the page's events.
+
+        Frames come from the solver's thread, events from the page's thread. Both hold the model's
+        lock. The solver's next frame acknowledges events and so sets the pace, except during the
+        preparation of the solver.
+        """
+        model = self.deformation
         with model.locked():
             self.pane.stage.serve(model, self.handle, self._will_draw)
             self._unfollow = model.observe(self._on_model)
@@ -141,7 +148,14 @@ class DeformCanvas(ClosingWidget, ipywidgets.HBox):
                 self.fit()
             self._show_source()
             self._draw("legend")
-        self.pane.stage.observe(self._on_drawn, ["drawn"])
+
+    def _follow_traits(self) -> None:
+        """Draw what changes of the stage, of this widget and of the brush."""
+        stage = self.pane.stage
+        stage.observe(self._resize, ["width", "height"])
+        stage.observe(self._take_room, ["room"])
+        stage.observe(self._on_view, ["view"])
+        stage.observe(self._on_drawn, ["drawn"])
         self.observe(lambda _: self._draw("state"), ["show_cage", "show_offset_cage", "show_onion"])
         self.observe(lambda _: self._draw("legend"), ["overlay", "show_panels"])
         self.observe(self._show_source, ["show_source"])

@@ -66,6 +66,12 @@ class FieldRows(ipywidgets.GridBox):
         for part in old:
             part.close()
 
+    def show_row(self, name: str, shown: bool) -> None:
+        """Show or hide a row."""
+        first = 2 * list(self.controls).index(name)
+        for part in self.children[first : first + 2]:
+            part.layout.display = None if shown else "none"
+
     def show(self, value: Any) -> None:
         """Show the fields of a value."""
         for name, control in self.controls.items():

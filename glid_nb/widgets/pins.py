@@ -40,17 +40,15 @@ class PinBar(EditControls):
         numbers = [self.x, self.y, self.angle, self.scale, self.depth]
         order = ipywidgets.HBox([self.back, self.front])
         self._of_a_pin: list[Any] = [self.name, *numbers, self.back, self.front, self.weight]
-        self._of_a_pin += [self.lock, self.hide]
+        self._of_a_pin += [self.lock, self.hide, self.remove, self.release]
         # What would move a pin that is locked.
-        self._moving = [*numbers[:-1], self.weight, self.release]
-        buttons = ipywidgets.HBox([self.release, self.mirror, self.reset])
-        marks = ipywidgets.HBox([self.lock, self.hide, self.group, self.ungroup])
-        marks.add_class("glid-wide")
+        self._moving = [*numbers[:-1], self.weight, self.remove, self.release]
+        marks = _in_words(self.lock, self.hide, self.group, self.ungroup)
+        buttons = _in_words(self.remove, self.release, self.mirror, self.reset)
         controls = [marks, self.name, *numbers, order, self.weight, buttons]
         numbers_box = ipywidgets.GridBox(controls).add_class("glid-pin")
         super().__init__(deformation, [self.list, numbers_box], **kwargs)
         self.name.add_class("glid-wide")
-        buttons.add_class("glid-wide")
 
     def _made_list(self, model: Deformation) -> RowList:
         def choose(pins: list[int]) -> None:
@@ -93,6 +91,9 @@ class PinBar(EditControls):
         tip = "By how much the shape is {} at the pin; empty: free ({}, X)".format
         self.angle = field("Angle °", tip("turned", "&lt; and &gt;"), **free)
         self.scale = field("Scale", tip("scaled", "+ and -"), **free)
+        # The page writes these while a pin is dragged (page/js/canvas/followed.js).
+        for name in ("x", "y", "angle", "scale"):
+            getattr(self, name).add_class(f"glid-number-{name}")
         tooltip = "How firmly the pin is held: soft to the left, firm to the right"
         scale: Any = {"min": -6, "max": 2, "step": 0.25, "value": 1, "readout_format": ".2g"}
         scale |= {"tooltip": tooltip, "layout": full, "continuous_update": False}
@@ -117,47 +118,55 @@ class PinBar(EditControls):
         self._bind(self.depth, lambda d: model.set_depths(model.selection, _number(d, *_DEPTH)))
 
     def _add_buttons(self, model: Deformation) -> None:
-        narrow = ipywidgets.Layout(width="34px")
 
-        def acting(icon: str, tooltip: str, act: Any) -> ipywidgets.Button:
-            return button("", icon, tooltip, lambda: self._act(act), narrow)
+        def acting(label: str, icon: str, tooltip: str, act: Any) -> ipywidgets.Button:
+            return button(label, icon, tooltip, lambda: self._act(act))
 
-        def moving(icon: str, tooltip: str, steps: int) -> ipywidgets.Button:
-            return acting(icon, tooltip, lambda: model.bring_forward(model.selection, steps))
+        def moving(label: str, tooltip: str, steps: int) -> ipywidgets.Button:
+            return acting(label, "", tooltip, lambda: model.bring_forward(model.selection, steps))
+
+        def remove(keep_shape: bool) -> None:
+            model.remove_handles(*self._unlocked(), keep_shape=keep_shape)
 
         tooltip = "Send selected pins, and what is around them, back (Page Down)"
-        self.back = moving("level-down", tooltip, -1)
-        self.front = moving("level-up", "Bring selected pins forward (Page Up)", 1)
-        self.release = acting(
-            "unlink",
-            "Remove selected pins and keep the shape until the next change",
-            lambda: model.remove_handles(*self._unlocked(), keep_shape=True),
-        )
-        self.reset = acting("home", "The undeformed shape (0)", model.reset)
-        self.mirror = acting("exchange", "Swap left and right of the pose (M)", model.mirror_pose)
+        self.back = moving("Back", tooltip, -1)
+        self.front = moving("Front", "Bring selected pins forward (Page Up)", 1)
+        tooltip = "Remove selected pins (Delete)"
+        self.remove = acting("Remove", "trash", tooltip, lambda: remove(False))
+        tooltip = "Remove selected pins and keep the shape until the next change (Shift+Delete)"
+        self.release = acting("Keep shape", "unlink", tooltip, lambda: remove(True))
+        self.reset = acting("Rest pose", "home", "The undeformed shape (0)", model.reset)
+        tooltip = "Swap left and right of the pose (M)"
+        self.mirror = acting("Mirror", "exchange", tooltip, model.mirror_pose)
 
     def _add_marks(self, model: Deformation) -> None:
         """The buttons that lock, hide and group the selected pins."""
         look: Any = {"width": "auto"}
-        self.lock = toggle("", "lock", "Lock selected pins: the hand cannot move them (L)", look)
-        self.hide = toggle("", "eye-slash", "Hide selected pins; they still hold (H)", look)
+        tip = "Lock selected pins: the hand cannot move them (L)"
+        self.lock = toggle("Lock", "lock", tip, look)
+        tip = "Hide selected pins; they still hold (H)"
+        self.hide = toggle("Hide", "eye-slash", tip, look)
         self._bind(self.lock, lambda on: model.mark_pins(model.selection, locked=on))
         self._bind(self.hide, lambda on: model.mark_pins(model.selection, hidden=on))
 
-        def acting(icon: str, tooltip: str, act: Any) -> ipywidgets.Button:
-            return button("", icon, tooltip, lambda: self._act(lambda: act(model.selection)))
+        def acting(label: str, icon: str, tooltip: str, act: Any) -> ipywidgets.Button:
+            return button(label, icon, tooltip, lambda: self._act(lambda: act(model.selection)))
 
         tip = "Group selected pins: they are selected and moved together (G)"
-        self.group = acting("object-group", tip, model.group_pins)
+        self.group = acting("Group", "object-group", tip, model.group_pins)
         tip = "Dissolve the groups of selected pins (Shift+G)"
-        self.ungroup = acting("object-ungroup", tip, model.ungroup_pins)
+        self.ungroup = acting("Ungroup", "object-ungroup", tip, model.ungroup_pins)
 
     def _unlocked(self) -> list[int]:
         model = self.deformation
         return [i for i in model.selection if not model.state.marks[i].locked]
 
     def _on_model(self, what: str) -> None:
-        super()._on_model("state" if what == "selection" else what)
+        if what == "selection":  # also at the beginning of a drag; its numbers are the page's
+            self.refusal.value = ""
+            self._follow()
+        else:
+            super()._on_model(what)
 
     def _show(self) -> None:
         pose, selection = self.deformation.pose, self.deformation.selection
@@ -188,6 +197,11 @@ class PinBar(EditControls):
         self.angle.value = _free_or(np.degrees(shown.angles[0]))
         self.scale.value = _free_or(shown.scales[0])
         self.weight.value = float(shown.weights[0])
+
+
+def _in_words(*buttons: ipywidgets.Widget) -> ipywidgets.GridBox:
+    """Buttons with words, two in a row."""
+    return ipywidgets.GridBox(buttons).add_class("glid-words").add_class("glid-wide")
 
 
 def rows_of(pose: Pose, marks: Sequence[PinMark]) -> list[Row]:

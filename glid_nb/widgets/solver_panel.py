@@ -53,7 +53,7 @@ class SolverPanel(EditControls):
             1.0, min=1e-3, max=100.0, step=0.1, layout=_FULL, tooltip="The energy's parameter s"
         )
         rows = {"name": ("Energy", self.energy), "s": ("s", self.s)}
-        energy = FieldRows(rows, self._set_energy)
+        self._energy_rows = energy = FieldRows(rows, self._set_energy)
         self.options = FieldRows(
             _option_controls(deformation.state.current.options),
             lambda name, value: act(lambda: model.set_options(**{name: value})),
@@ -95,6 +95,7 @@ class SolverPanel(EditControls):
             control.disabled = name not in current.method.options
         self.pause.value = self.deformation.paused
         self.step.disabled = not self.deformation.paused
+        self.step.layout.display = None if self.deformation.paused else "none"
         self._show_steps()
 
     def _show_method(self, method: Method) -> None:
@@ -112,6 +113,7 @@ class SolverPanel(EditControls):
             self.energy.options = [*self.energy.options, _CUSTOM]
         self.energy.value = energy.name
         self.s.disabled = "s" not in energy.parameters()
+        self._energy_rows.show_row("s", not self.s.disabled)
         if not self.s.disabled:
             self.s.value = float(getattr(energy, "s", 1.0))
 

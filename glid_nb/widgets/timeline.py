@@ -95,7 +95,7 @@ class TimelinePanel(Pad):
             "rename_pose": asked(model.rename_pose, "index", "name"),
             "move_pose": asked(model.move_pose, "index", "time"),
             "set_easing": asked(model.set_easing, "index", "easing"),
-            "set_repeat": asked(model.set_repeat, "repeat"),
+            "play_all": asked(model.play_all, "repeat"),
             "set_loop_range": asked(model.set_loop_range, "range"),
         }
         actions |= {k: asked(getattr(model, k), "index") for k in _OF_A_POSE}

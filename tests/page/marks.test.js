@@ -77,6 +77,22 @@ test("the knob turns and scales, the ring turns, and inside it is nothing", () =
   assert.equal(ringAt(view(), marks(), [200, 150], 5), null);
 });
 
+test("the ring is as large for every scale; only a wanted scale moves the knob, within limits", () => {
+  const radii = [0.1, 1, 3, 20].map((scale) => {
+    const free = dial(view(), marks({ ring: [0, scale, false, false] }));
+    const wanted = dial(view(), marks({ ring: [0, scale, false, true] }));
+    assert.deepEqual(free?.knob, [242, 150]);
+    assert.equal(free?.radius, wanted?.radius);
+    return [wanted?.radius, wanted?.knob[0]];
+  });
+  assert.deepEqual(radii, [
+    [42, 221],
+    [42, 242],
+    [42, 305],
+    [42, 305],
+  ]);
+});
+
 test("the knob stays inside the view, and off its pin", () => {
   for (const target of /** @type {Point[]} */ ([
     [19, 0],

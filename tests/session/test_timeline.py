@@ -34,6 +34,7 @@ steps = st.one_of(
     st.tuples(st.just("move_pose"), index, time),
     st.tuples(st.just("set_easing"), index, easing),
     st.tuples(st.just("set_repeat"), st.sampled_from(["once", "loop", "ping-pong"])),
+    st.tuples(st.just("play_all"), st.sampled_from(["once", "loop", "ping-pong"])),
     st.tuples(st.just("set_loop_range"), st.none() | st.tuples(st.floats(0, 4), st.floats(5, 9))),
     st.tuples(st.just("keep_between"), time),
     st.tuples(st.just("keep_after"), time),
@@ -137,6 +138,15 @@ def test_a_loop_range_is_played_as_far_as_the_motion_reaches() -> None:
     for whole in (None, (0.0, 9.0), (5.0, 6.0)):
         assert actions.set_loop_range(state, whole).timeline.played_range is None
     assert actions.set_loop_range(state_of(1), (0.0, 1.0)).timeline.played_range is None
+
+
+def test_playing_all_ends_the_loop_range_and_sets_the_repetition_at_once() -> None:
+    state = actions.set_loop_range(state_of(3), (0.5, 3))
+    all_of_it = actions.play_all(state, "loop").timeline
+    assert (all_of_it.loop_range, all_of_it.repeat) == (None, "loop")
+    assert actions.play_all(state_of(3), "once").timeline == state_of(3).timeline
+    unchanged = state_of(3)
+    assert actions.play_all(unchanged, "once") is unchanged
 
 
 def test_what_lies_between_can_be_kept() -> None:

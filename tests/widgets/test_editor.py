@@ -746,7 +746,9 @@ def test_the_panel_and_the_model_show_each_other() -> None:
         assert model.solve(TIMEOUT)
         model.paused = True  # nothing here needs a solve
         assert panel.pause.value
+        assert panel.s.layout.display == "none"  # the energy has none
         panel.energy.value = "amips"
+        assert panel.s.layout.display is None
         panel.s.value = 0.5
         assert model.state.current.energy == glid.energies.AMIPS(0.5)
         model.undo()

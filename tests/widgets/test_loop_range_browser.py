@@ -91,6 +91,15 @@ def test_a_range_set_on_the_ruler_plays_over_and_over(open_notebook: OpenNoteboo
     only.wait_for(state="hidden")
     page.keyboard.press("Control+z")
     book.wait_for(f"{RANGE} is not None")
+
+    # The menu plays all of it, in a loop, as one step.
+    menu = root.get_by_label("Play once, in a loop, or there and back")
+    menu.select_option("Loop")
+    book.wait_for(f"{RANGE} is None and model.state.timeline.repeat == 'loop'")
+    page.locator(".glid-timeline[data-idle=true]").wait_for()
+    root.locator(".glid-ruler").focus()
+    page.keyboard.press("Control+z")
+    book.wait_for(f"{RANGE} is not None and model.state.timeline.repeat == 'once'")
     book.theme("JupyterLab Dark")
     page.set_viewport_size({"width": 390, "height": 844})
     root.scroll_into_view_if_needed()

@@ -282,9 +282,9 @@ def test_a_single_step_says_what_it_did(model: Deformation) -> None:
         told = f"Hessian {'projected' if last.hessian_modified else 'exact'} · step length "
         assert f"Iteration {count} · {told}{last.step:.3g}" in panel.steps.value
         assert f"of {last.panels} panels split" in panel.steps.value
-    assert panel.steps.layout.display is None
+    assert panel.steps.layout.display is panel.step.layout.display is None
     model.paused = False
-    assert panel.steps.layout.display == "none"
+    assert panel.steps.layout.display == panel.step.layout.display == "none"
     panel.close()
 
 

@@ -32,8 +32,8 @@ def test_pins_are_locked_hidden_and_grouped(open_notebook: OpenNotebook) -> None
     hand.settle()
     side, paper = page.locator(".glid-side"), page.locator(".glid-paper").first
 
-    def button(name: str) -> Locator:
-        return side.get_by_role("button", name=name)
+    def button(title: str) -> Locator:
+        return side.get_by_title(title)
 
     def wait_until_drawn(point: tuple[float, float], drawn: bool) -> None:
         place = hand.place(point)
@@ -81,6 +81,7 @@ def test_pins_are_locked_hidden_and_grouped(open_notebook: OpenNotebook) -> None
     hand.click((0, 0))
     page.keyboard.up("Shift")
     book.wait_for("set(model.selection) == {0, 1}")
+    assert button("Group selected pins").inner_text().strip() == "Group"  # in words
     button("Group selected pins").click()
     book.wait_for("model.state.marks[0].group == model.state.marks[1].group == 1")
     hand.pad.focus()

@@ -40,6 +40,43 @@ _CUT = """(root) => {
   return found;
 }"""
 
+# By how much the inspector can be scrolled.
+_SCROLLS = "(one) => one.scrollHeight - one.clientHeight"
+# What the shells of both tabs share: of bar, stage, inspector, a head in it, and the foot.
+_LOOKS = """([tab, bar, stage, side, head, foot]) => {
+  const style = (what, ...names) => {
+    const found = getComputedStyle(document.querySelector(`${tab} ${what}`));
+    return names.map((name) => found[name]);
+  };
+  return {
+    bar: style(bar, 'height', 'padding'),
+    stage: style(stage, 'backgroundColor'),
+    side: style(side, 'width', 'color', 'borderLeftColor'),
+    head: style(head, 'fontSize', 'fontWeight', 'color', 'letterSpacing', 'textTransform'),
+    foot: style(foot, 'height', 'borderTopColor'),
+  };
+}"""
+_DEFORM = [
+    ".glid-shell",
+    ".glid-toolbar",
+    ".glid-pane",
+    ".glid-side",
+    ".glid-heading h4",
+    ".glid-foot",
+]
+_TRACE = [
+    ".glid-tracer",
+    ".glid-toolbar",
+    ".glid-stage",
+    ".glid-panel",
+    ".glid-panel h4",
+    ".glid-status",
+]
+_KNOB = """(one) => {
+  const { width, height, borderRadius } = getComputedStyle(one);
+  return [width, height, borderRadius];
+}"""
+
 
 def box(of: Locator) -> list[float]:
     return of.evaluate(
@@ -78,6 +115,8 @@ def test_everything_is_on_one_screen(open_notebook: OpenNotebook, theme: str) ->
                 if section == "Pin" or size[0] > 600:
                     cut = root.evaluate(_CUT) if section == "Pin" else []
                     assert cut == [], "\n".join([name, *cut])
+                    contents = page.locator(".glid-side > .widget-tab-contents")
+                    assert contents.evaluate(_SCROLLS) == 0, f"{name}-{section}"
                 book.screenshot(f"{name}-{section}")
             bar, stage, side, timeline, foot = (box(page.locator(part)) for part in PARTS)
             assert bar[3] == 44
@@ -86,8 +125,10 @@ def test_everything_is_on_one_screen(open_notebook: OpenNotebook, theme: str) ->
             if size[0] > 600:
                 assert foot[3] == 28
                 assert side[2] == 280
-                assert (side[1], side[3]) == (stage[1], stage[3])  # as high as the stage
-                assert sum(stage[::2]) == side[0]
+                # As high as stage and timeline, which lies under the stage only.
+                assert (side[1], side[1] + side[3]) == (stage[1], timeline[1] + timeline[3])
+                assert side[1] + side[3] == foot[1]
+                assert sum(stage[::2]) == sum(timeline[::2]) == side[0]
                 assert stage[2] > 500
             else:
                 assert stage[1] < bar[1] < side[1] < timeline[1] < foot[1]
@@ -171,3 +212,49 @@ def test_the_bar_does_what_the_keys_do(open_notebook: OpenNotebook) -> None:
     page.locator(".glid-view-menu").wait_for(state="hidden")
     assert book.value("model.selection") == [0]
     assert page.locator(".glid-view-button").inner_text() == "Picture and grid"
+
+
+def test_the_menu_has_groups_with_names_and_buttons_zoom(open_notebook: OpenNotebook) -> None:
+    book = open_notebook([SETUP, EDITOR])
+    hand, page = Hand(book), book.page
+    tools, menu = page.locator(".glid-tools"), page.locator(".glid-view-menu")
+    page.locator(".glid-view-button").click()
+    shows = menu.get_by_role("group", name="Show")
+    assert shows.get_by_role("menuitemradio").first.inner_text() == "Picture"
+    overlays = menu.get_by_role("group", name="Overlays")
+    assert overlays.get_by_role("menuitemcheckbox").first.inner_text() == "Cage"
+    assert menu.get_by_role("group").count() == 2
+    book.screenshot("shell-view-menu")
+    page.keyboard.press("Escape")
+
+    book.wait_for("canvas.pane.stage.drawn")
+    before = book.value("canvas.pane.stage.view[2]")
+    tools.get_by_role("button", name="Zoom in (wheel)").click()
+    book.wait_for(f"abs(canvas.pane.stage.view[2] - {before} / 1.25) < 1e-9")
+    tools.get_by_role("button", name="Zoom out (wheel)").click()
+    book.wait_for(f"abs(canvas.pane.stage.view[2] - {before}) < 1e-9")
+    hand.wait_until_still()
+
+
+@pytest.mark.parametrize("theme", ["JupyterLab Light", "JupyterLab Dark"])
+def test_both_tabs_are_one_shell(open_notebook: OpenNotebook, theme: str) -> None:
+    book = open_notebook([SETUP, EDITOR])
+    hand, page = Hand(book), book.page
+    book.value("None", setup=f"{PINNED}; model.tell('hand')")
+    hand.settle()
+    book.theme(theme)
+    try:
+        page.get_by_role("tab", name="Files").click()
+        page.locator(".glid-heading h4").get_by_text("Session").wait_for()
+        deform = page.evaluate(_LOOKS, _DEFORM)
+        page.get_by_role("tab", name="Proof").click()
+        knob = page.locator(".glid-side .noUi-handle:visible").first
+        assert knob.evaluate(_KNOB) == ["14px", "14px", "7px"]
+        page.get_by_role("tab", name="Trace").click()
+        slider = page.locator(".glid-tracer .glid-slider").first
+        slider.wait_for()
+        assert slider.evaluate("(one) => getComputedStyle(one).appearance") == "none"
+        assert page.evaluate(_LOOKS, _TRACE) == deform
+        assert deform["side"][0] == "280px"
+    finally:
+        book.theme("JupyterLab Light")

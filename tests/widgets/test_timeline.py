@@ -76,8 +76,8 @@ def test_the_page_is_given_what_is_proved_and_its_events_act(panel: TimelinePane
     assert "200 characters" in str(act(panel, "rename_pose", index=1, name="x" * 300))
     act(panel, "move_pose", index=1, time=2.5)
     act(panel, "set_easing", index=0, easing="in")
-    act(panel, "set_repeat", repeat="loop")
-    assert "repeat is 'often'" in str(act(panel, "set_repeat", repeat="often"))
+    act(panel, "play_all", repeat="loop")
+    assert "repeat is 'often'" in str(act(panel, "play_all", repeat="often"))
     act(panel, "record", on=True)
     act(panel, "onion", on=True)
     assert [(k["name"], k["time"], k["easing"]) for k in panel.shown["keyframes"]] == [

@@ -103,21 +103,22 @@ pen.setLineDash(dash);for(const[width,style]of strokes){pen.lineWidth=width;pen.
 stroke()}pen.setLineDash([])}function scaleOf(element){const{width,height}=element.getBoundingClientRect();const across=width/element.
 offsetWidth||1;return{across,down:height/element.offsetHeight||across}}function placeIn(element,{clientX,
 clientY}){const{left,top}=element.getBoundingClientRect();const{across,down}=scaleOf(element);return[
-(clientX-left)/across,(clientY-top)/down]}var WHEEL_SPEED=.0015;var WHEEL_LINE=33;var LINES=1;var PINCH=5;function distance([x,y],[u,v]){return Math.
-hypot(x-u,y-v)}var View=class{x=0;y=0;unit=1;width=0;height=0;constructor(changed,{up=1,nearest:nearest2,
-farthest}){this.changed=changed;this.up=up;this.nearest=nearest2;this.farthest=farthest}toWorld([px,
-py]){const x=this.x+(px-this.width/2)*this.unit;const y=this.y-this.up*(py-this.height/2)*this.unit;
-return[x,y]}toScreen([x,y]){const px=(x-this.x)/this.unit+this.width/2;const py=this.up*(this.y-y)/this.
-unit+this.height/2;return[px,py]}line(points){return points.map(point=>this.toScreen(point))}centreOn([
-x,y]){this.x=x;this.y=y;this.changed()}pan(dx,dy){this.x-=dx*this.unit;this.y+=this.up*dy*this.unit;
-this.changed()}zoom(factor,place=[this.width/2,this.height/2]){const[x,y]=this.toWorld(place);const unit=Math.
-min(this.farthest,Math.max(this.nearest,this.unit*factor));this.x=x+(this.x-x)*(unit/this.unit);this.
-y=y+(this.y-y)*(unit/this.unit);this.unit=unit;this.changed()}wheel(e,place){e.preventDefault();this.
-zoom(Math.exp(turnOf(e)*WHEEL_SPEED*(e.ctrlKey?PINCH:1)),place)}follow(pointers,id,place){const before=pointers.
-get(id)??place;const other=[...pointers].find(([one])=>one!==id)?.[1];const share=other?.5:1;pointers.
-set(id,place);this.pan(share*(place[0]-before[0]),share*(place[1]-before[1]));if(!other)return;const apart=one=>Math.
-max(distance(one,other),1);const middle=[(place[0]+other[0])/2,(place[1]+other[1])/2];this.zoom(apart(
-before)/apart(place),middle)}};function turnOf(e){return e.deltaMode===LINES?e.deltaY*WHEEL_LINE:e.deltaY}var CLICK=4;var LONG_PRESS=600;var LONG_PRESS_GRACE=100;var LONG_PRESS_SLACK=8;var PATH_STEP=3;var Pad=class{pointers=new Map;mode=null;grip=null;held=new Map;path=[];encloses=null;found=null;rests=null;#start=[
+(clientX-left)/across,(clientY-top)/down]}var ZOOM=1.25;var WHEEL_SPEED=.0015;var WHEEL_LINE=33;var LINES=1;var PINCH=5;function distance([x,y],[
+u,v]){return Math.hypot(x-u,y-v)}var View=class{x=0;y=0;unit=1;width=0;height=0;constructor(changed,{
+up=1,nearest:nearest2,farthest}){this.changed=changed;this.up=up;this.nearest=nearest2;this.farthest=
+farthest}toWorld([px,py]){const x=this.x+(px-this.width/2)*this.unit;const y=this.y-this.up*(py-this.
+height/2)*this.unit;return[x,y]}toScreen([x,y]){const px=(x-this.x)/this.unit+this.width/2;const py=this.
+up*(this.y-y)/this.unit+this.height/2;return[px,py]}line(points){return points.map(point=>this.toScreen(
+point))}centreOn([x,y]){this.x=x;this.y=y;this.changed()}pan(dx,dy){this.x-=dx*this.unit;this.y+=this.
+up*dy*this.unit;this.changed()}zoom(factor,place=[this.width/2,this.height/2]){const[x,y]=this.toWorld(
+place);const unit=Math.min(this.farthest,Math.max(this.nearest,this.unit*factor));this.x=x+(this.x-x)*
+(unit/this.unit);this.y=y+(this.y-y)*(unit/this.unit);this.unit=unit;this.changed()}wheel(e,place){e.
+preventDefault();this.zoom(Math.exp(turnOf(e)*WHEEL_SPEED*(e.ctrlKey?PINCH:1)),place)}follow(pointers,id,place){
+const before=pointers.get(id)??place;const other=[...pointers].find(([one])=>one!==id)?.[1];const share=other?
+.5:1;pointers.set(id,place);this.pan(share*(place[0]-before[0]),share*(place[1]-before[1]));if(!other)
+return;const apart=one=>Math.max(distance(one,other),1);const middle=[(place[0]+other[0])/2,(place[1]+
+other[1])/2];this.zoom(apart(before)/apart(place),middle)}};function turnOf(e){return e.deltaMode===
+LINES?e.deltaY*WHEEL_LINE:e.deltaY}var CLICK=4;var LONG_PRESS=600;var LONG_PRESS_GRACE=100;var LONG_PRESS_SLACK=8;var PATH_STEP=3;var Pad=class{pointers=new Map;mode=null;grip=null;held=new Map;path=[];encloses=null;found=null;rests=null;#start=[
 0,0];#pans=false;#space=false;#tap=false;#longPress;constructor(element,view,link,behaviour){this.element=
 element;this.view=view;this.link=link;this.behaviour=behaviour;element.tabIndex=0;link.signal.addEventListener(
 "abort",()=>clearTimeout(this.#longPress));element.addEventListener("pointerdown",e=>this.#down(e));
@@ -248,10 +249,10 @@ along[0]+(point[1]-start[1])*along[1];const share=Math.min(Math.max(dot/(distanc
 0),1);return[start[0]+share*along[0],start[1]+share*along[1]]}function encloses(loop,[x,y]){let winding=0;loop.forEach(([x0,y0],i)=>{const[x1,y1]=loop[(i+1)%loop.
 length];const left=(x1-x0)*(y-y0)-(x-x0)*(y1-y0);if(y0<=y&&y1>y&&left>0)winding+=1;if(y0>y&&y1<=y&&left<
 0)winding-=1});return winding!==0}var KNOB=6;var KNOB_REACH=4;var RADIUS=42;var LEAST_RADIUS=24;var EDGE2=14;var CORNER=[36,112];var ARROW_REACH=12;
-function dial(view,marks,held){const last=marks.selected.at(-1);const[angle,scale]=marks.ring;if(angle===
-void 0||scale===void 0)return null;if(last===void 0||!marks.targets[last])return null;const centre=view.
-toScreen(held?.get(last)??marks.targets[last]);const radius=RADIUS*Math.min(2.5,Math.max(.5,scale));
-return{centre,radius,knob:knobInside(view,centre,radius,angle)}}function knobInside(view,centre,radius,angle){
+function dial(view,marks,held){const last=marks.selected.at(-1);const[angle,scale,,scaled]=marks.ring;
+if(angle===void 0||scale===void 0)return null;if(last===void 0||!marks.targets[last])return null;const centre=view.
+toScreen(held?.get(last)??marks.targets[last]);const far=RADIUS*(scaled?Math.min(2.5,Math.max(.5,scale)):
+1);return{centre,radius:RADIUS,knob:knobInside(view,centre,far,angle)}}function knobInside(view,centre,radius,angle){
 const places=[0,1,-1,2,-2,3,-3,4].map(eighths=>{const direction=angle+eighths*Math.PI/4;const x=centre[0]+
 radius*Math.cos(direction);const y=centre[1]-radius*Math.sin(direction);return[within2(x,view.width),
 within2(y,view.height)]});return places.find(place=>distance(place,centre)>=LEAST_RADIUS)??places[0]}
@@ -308,7 +309,29 @@ y]=knob;const color=turned?WANTED:FREE;circle(pen,centre,radius,[[4,BORDER]]);ci
 const corner=(turn,radius)=>[at[0]+radius*Math.cos(angle+turn),at[1]+radius*Math.sin(angle+turn)];fillPath(
 pen,[[corner(0,11),corner(2.4,9),corner(-2.4,9)]],TARGET_FILL);strokePath(pen,[[1.6,TARGET_EDGE]])}}
 function drawCursor(pen,[x,y]){const arm=(dx,dy)=>[[x+4*dx,y+4*dy],[x+13*dx,y+13*dy]];lines(pen,[arm(
-1,0),arm(-1,0),arm(0,1),arm(0,-1)],[[4,PALE],[1.6,WANTED]])}var COUNT=3;var GRID=24;var USED="glid-nb-pinned";var RADIUS2=8;function ghostPins({cage,holes}){const loops=[
+1,0),arm(-1,0),arm(0,1),arm(0,-1)],[[4,PALE],[1.6,WANTED]])}function wordsOf([x,y],[angle=0,scale=1,turned,scaled]){return{x:rounded(x),y:rounded(y),angle:turned?
+significant(angle*180/Math.PI):"",scale:scaled?significant(scale):"",detail:`${short(x)}, ${short(y)}`}}
+function rounded(number2){return String(Number(number2.toFixed(3))||0)}function significant(number2){
+return String(Number(Number(number2.toFixed(4)).toPrecision(4))||0)}function short(number2){return(Number(
+number2.toFixed(2))||0).toFixed(2).replace("-","−")}function meansStill(said,wrote,now){if(now===wrote||
+said===wrote)return false;const apart=one=>Math.abs(numberIn(one)-numberIn(now));return now===said||
+apart(said)<apart(wrote)}function numberIn(text){const numbers=text.replaceAll("−","-").split(",").
+map(Number.parseFloat);return numbers[0]+Math.PI*(numbers[1]??0)}var Written=class{said="";wrote="";constructor(element){
+this.element=element;this.said=this.text;this.wrote=this.said}get text(){const{element}=this;return element instanceof
+HTMLInputElement?element.value:element.textContent??""}put(text){if(this.text!==this.wrote)this.said=
+this.text;this.wrote=text;if(this.text===text)return;if(this.element instanceof HTMLInputElement)this.
+element.value=text;else this.element.textContent=text}settle(now){if(this.text===this.wrote&&meansStill(
+this.said,this.wrote,now))this.put(this.said)}};var FollowedNumbers=class{#written=new Map;constructor(pad){
+this.pad=pad}follow(marks,held){for(const[element,text]of this.#texts(marks,held)){const written=this.#written.
+get(element)??new Written(element);this.#written.set(element,written);written.put(text)}}settle(marks){
+if(!this.#written.size)return;for(const[element,text]of this.#texts(marks,new Map)){this.#written.get(
+element)?.settle(text)}this.#written.clear()}#texts({targets,selected,ring},held){const side=this.pad.
+closest(".glid-editor")?.querySelector(".glid-side .glid-bars");const last=selected.at(-1);if(!side||
+last===void 0||!targets[last])return[];const{detail:_,...fields}=wordsOf(held.get(last)??targets[last],
+ring);const found=Object.entries(fields).map(([name,text])=>{return[side.querySelector(`.glid-number\
+-${name} input`),text]});const cells=side.querySelectorAll(".glid-entry-detail");for(const[i,cell]of cells.
+entries()){const place=held.get(i)??targets[i];if(place)found.push([cell,wordsOf(place,[]).detail])}
+return found.filter(([element])=>element)}};var COUNT=3;var GRID=24;var USED="glid-nb-pinned";var RADIUS2=8;function ghostPins({cage,holes}){const loops=[
 cage,...holes];const candidates=gridOver(cage).filter(point=>encloses(cage,point)&&!holes.some(hole=>encloses(
 hole,point))).map(point=>({point,clearance:nearestEdge(loops,point,Infinity)?.d??0}));if(!candidates.
 length)return[];const places=[best(candidates,[middleOf(candidates)])];while(places.length<COUNT)places.
@@ -376,17 +399,18 @@ if(pressed.found?.part)return{at,words:turnWords(marks.ring)};const[x,y]=at;cons
 x)}   y ${coordinate(y)}`];if(pressed.keys?.whole&&size.length){const[px,py]=pixelAt(at,size).map(Math.
 round);words2.push(`pixel ${px}, ${py}`)}return{at,words:words2}}function pinOf({found,pins},{selected,
 targets}){if(found?.mark!==void 0)return Number(found.mark);return found?.part||targets.length>pins?
-selected.at(-1):void 0}function turnWords([angle=0,scale=1,turned,scaled]){const words2=[];if(turned)
-words2.push(`${Number((angle*180/Math.PI).toFixed(1))}°`);if(scaled)words2.push(`× ${scale.toFixed(
-2)}`);return words2}function coordinate(number2){return(number2||0).toFixed(3).replace("-","−")}function drawNumbers(pen,view,{
-at,words:words2}){if(!words2.length)return;const[x,y]=view.toScreen(at);pen.font=FONT;const width=Math.
-max(...words2.map(text=>pen.measureText(text).width))+2*PADDING;const height=LINE*words2.length+PADDING;
-const beside=x+BESIDE+width<=view.width?x+BESIDE:x-BESIDE-width;const left=Math.max(beside,2);const top=Math.
-min(Math.max(y-BESIDE-height,2),view.height-height-2);pen.beginPath();pen.roundRect(left,top,width,height,
-4);pen.fillStyle=GROUND;pen.fill();pen.fillStyle=INK2;pen.textBaseline="middle";words2.forEach((text,i)=>{
-pen.fillText(text,left+PADDING,top+PADDING/2+LINE*(i+.5))})}function drawAxis(pen,view,start,at){const[
-x,y]=view.toScreen(start);const across=start[1]===at[1];const line=across?[[0,y],[view.width,y]]:[[x,
-0],[x,view.height]];tracePath(pen,[line],false);strokePath(pen,[[1,GUIDE]],[4,4])}var BESIDE2=9;var WIDE=5;var HIGH=3.5;var PAPER="rgba(255,255,255,0.9)";var INK3="#2b2b2b";function withoutHidden(marks,{
+selected.at(-1):void 0}function turnWords([angle=0,scale=1,turned,scaled]){const freely=wanted=>wanted?
+"":" free";const degrees=Number((angle*180/Math.PI).toFixed(1))||0;return[`${degrees}°${freely(turned)}`,
+`× ${scale.toFixed(2)}${freely(scaled)}`]}function coordinate(number2){return(number2||0).toFixed(3).
+replace("-","−")}function drawNumbers(pen,view,{at,words:words2}){if(!words2.length)return;const[x,
+y]=view.toScreen(at);pen.font=FONT;const width=Math.max(...words2.map(text=>pen.measureText(text).width))+
+2*PADDING;const height=LINE*words2.length+PADDING;const beside=x+BESIDE+width<=view.width?x+BESIDE:x-
+BESIDE-width;const left=Math.max(beside,2);const top=Math.min(Math.max(y-BESIDE-height,2),view.height-
+height-2);pen.beginPath();pen.roundRect(left,top,width,height,4);pen.fillStyle=GROUND;pen.fill();pen.
+fillStyle=INK2;pen.textBaseline="middle";words2.forEach((text,i)=>{pen.fillText(text,left+PADDING,top+
+PADDING/2+LINE*(i+.5))})}function drawAxis(pen,view,start,at){const[x,y]=view.toScreen(start);const across=start[1]===
+at[1];const line=across?[[0,y],[view.width,y]]:[[x,0],[x,view.height]];tracePath(pen,[line],false);strokePath(
+pen,[[1,GUIDE]],[4,4])}var BESIDE2=9;var WIDE=5;var HIGH=3.5;var PAPER="rgba(255,255,255,0.9)";var INK3="#2b2b2b";function withoutHidden(marks,{
 away},elsewhere){if(!away.length)return marks;const placed=points=>points.map((point,i)=>away.includes(
 i)?[elsewhere,elsewhere]:point);return{...marks,targets:placed(marks.targets),images:placed(marks.images)}}
 function movedWith(pressed,selected,{locked,groups}){if(locked.includes(pressed))return[];if(selected.
@@ -407,22 +431,23 @@ this.canvas=canvas;this.actions={"?":canvas.help.toggle,b:()=>canvas.toggleTool(
 toggleTool("erase"),contextmenu:()=>canvas.openMenu(),i:()=>canvas.room?.toggleInspector(),k:()=>void canvas.
 box.dispatchEvent(new CustomEvent("glid:key",{bubbles:true})),p:()=>canvas.room?.alone(),reference:()=>canvas.
 reference.toggle(),w:()=>canvas.room?.fullScreen(),"tool:":()=>canvas.takeTool(""),"tool:stiff":()=>canvas.
-takeTool("stiff"),"tool:erase":()=>canvas.takeTool("erase")}}pressing(key){if(key==="Escape")this.canvas.
-putBrushAway()}get painting(){return this.canvas.painting}changed(){this.canvas.followHand();this.canvas.
-redraw()}menu(place,found){if(!this.canvas.shapes.motion)this.canvas.openMenu(place,found)}pressedAt(){
-return this.canvas.pressedAt()}tapped(){this.canvas.box.dispatchEvent(new CustomEvent("glid:play",{bubbles:true}))}find(point,reach){
-const{view,marks,reachable:reachable2,shapes,painting}=this.canvas;if(painting)return null;if(shapes.
-motion)return pinBetweenAt(this.canvas.between.places,point,reach);const mark=markAt(reachable2,point,
-reach);return mark??ringAt(view,marks,view.toScreen(point),reach/view.unit/2)}encloses(found,e){const start=this.
-canvas.pad.grip?.points.get(found?.mark??"");this.pressed={found,start,pins:this.canvas.marks.targets.
-length};if(found)return null;if(e.shiftKey)return"box";return e.ctrlKey||e.metaKey?"lasso":null}get constrains(){
-const{axis,whole}=this.pressed?.keys??{};return Boolean(axis||whole)}madePin(){const{pad,model}=this.
-canvas;const{pressed}=this;if(!pressed||pressed.found||this.painting||pad.mode!=="hand")return void 0;
-const count=model.get("rest").pose?.targets.length??0;return count===pressed.pins+1&&!pad.encloses?pressed.
-pins:void 0}held({mark}){const{shapes,between}=this.canvas;if(shapes.motion)return this.#heldBetween(
-Number(mark),between);this.#between=null;const{selected,targets}=this.canvas.allMarks;const moved=movedWith(
-Number(mark),selected,this.canvas.model.get("pins"));return new Map(moved.map(i=>[i,targets[i]]))}#heldBetween(mark,{
-places,locked}){this.#between={mark,places};return new Map(locked.includes(mark)?[]:[[mark,places[mark]]])}motionLeft(){
+takeTool("stiff"),"tool:erase":()=>canvas.takeTool("erase"),"zoom:in":()=>canvas.view.zoom(1/ZOOM),"\
+zoom:out":()=>canvas.view.zoom(ZOOM)}}pressing(key){if(key==="Escape")this.canvas.putBrushAway()}get painting(){
+return this.canvas.painting}changed(){this.canvas.followHand();this.canvas.redraw()}menu(place,found){
+if(!this.canvas.shapes.motion)this.canvas.openMenu(place,found)}pressedAt(){return this.canvas.pressedAt()}tapped(){
+this.canvas.box.dispatchEvent(new CustomEvent("glid:play",{bubbles:true}))}find(point,reach){const{view,
+marks,reachable:reachable2,shapes,painting}=this.canvas;if(painting)return null;if(shapes.motion)return pinBetweenAt(
+this.canvas.between.places,point,reach);const mark=markAt(reachable2,point,reach);return mark??ringAt(
+view,marks,view.toScreen(point),reach/view.unit/2)}encloses(found,e){const start=this.canvas.pad.grip?.
+points.get(found?.mark??"");this.pressed={found,start,pins:this.canvas.marks.targets.length};if(found)
+return null;if(e.shiftKey)return"box";return e.ctrlKey||e.metaKey?"lasso":null}get constrains(){const{
+axis,whole}=this.pressed?.keys??{};return Boolean(axis||whole)}madePin(){const{pad,model}=this.canvas;
+const{pressed}=this;if(!pressed||pressed.found||this.painting||pad.mode!=="hand")return void 0;const count=model.
+get("rest").pose?.targets.length??0;return count===pressed.pins+1&&!pad.encloses?pressed.pins:void 0}held({
+mark}){const{shapes,between}=this.canvas;if(shapes.motion)return this.#heldBetween(Number(mark),between);
+this.#between=null;const{selected,targets}=this.canvas.allMarks;const moved=movedWith(Number(mark),selected,
+this.canvas.model.get("pins"));return new Map(moved.map(i=>[i,targets[i]]))}#heldBetween(mark,{places,
+locked}){this.#between={mark,places};return new Map(locked.includes(mark)?[]:[[mark,places[mark]]])}motionLeft(){
 const{pad,shapes,allMarks,model}=this.canvas;const between=this.#between;if(!between||!pad.grip||shapes.
 motion)return;const{mark,places}=between;const moved=movedWith(mark,allMarks.selected,model.get("pin\
 s"));pad.grip.points=new Map(moved.map(i=>[i,places[i]]));this.canvas.followHand()}constrain(point,e){
@@ -433,11 +458,11 @@ u,v]=constrained([x,y],free,pressed.keys,model.get("picture_size"));return[u-x+f
 this.canvas.box.title=this.#tip(found);if(found?.mark!==void 0&&this.#locked(found))return"pointer";
 return found?"grab":"crosshair"}#locked({mark}){const{shapes,between,model}=this.canvas;const{locked}=shapes.
 motion?between:model.get("pins");return locked.includes(Number(mark))}#tip(found){if(!found)return"";
-if(found.part)return RING_TIPS[found.part];const{marks,model,shapes}=this.canvas;const mark=Number(found.
-mark);if(shapes.motion){return`Pin ${mark+1}: ${this.#locked(found)?BETWEEN_LOCKED:BETWEEN_TIP}`}const name=[
-"Pin",mark+1,model.get("names")[mark]].join(" ").trim();if(this.#locked(found))return`${name}: ${LOCKED_TIP}`;
-const tip=found.reached?IMAGE_TIP:TARGET_TIP;return`${name}: ${tip}${marks.hidden.includes(mark)?COVERED:
-""}`}};async function copied(text){try{await navigator.clipboard.writeText(text);return true}catch{return copiedBySelection(
+const{marks,model,shapes}=this.canvas;if(found.part)return`${turnWords(marks.ring).join(", ")}. ${RING_TIPS[found.
+part]}`;const mark=Number(found.mark);if(shapes.motion){return`Pin ${mark+1}: ${this.#locked(found)?
+BETWEEN_LOCKED:BETWEEN_TIP}`}const name=["Pin",mark+1,model.get("names")[mark]].join(" ").trim();if(this.#locked(
+found))return`${name}: ${LOCKED_TIP}`;const tip=found.reached?IMAGE_TIP:TARGET_TIP;return`${name}: ${tip}${marks.
+hidden.includes(mark)?COVERED:""}`}};async function copied(text){try{await navigator.clipboard.writeText(text);return true}catch{return copiedBySelection(
 text)}}function copiedBySelection(text){const focused=document.activeElement;const area=document.createElement(
 "textarea");area.value=text;area.setAttribute("readonly","");Object.assign(area.style,{position:"fix\
 ed",top:"0",left:"0",opacity:"0"});document.body.append(area);area.select();try{return document.execCommand(
@@ -769,78 +794,81 @@ farthest:1});this.shapes=new Shapes(model,this.view);this.shapes.led=()=>this.re
 model,lead=>this.shapes.showLead(lead));this.reference=new Reference(this.box,model,this.view);this.
 redraw=painter(paper,this.view,signal,pen=>this.#draw(pen));this.link=new Link(model,this.box,signal,
 ()=>this.#report());this.room=this.interactive?new Room(this.box,model,signal):null;this.behaviour=new PinBehaviour(
-this);this.pad=new Pad(this.box,this.view,this.#listener(signal),this.behaviour);this.clipboard=new PoseClipboard(
-this);this.corner=this.#makeCorner();if(this.interactive){this.box.append(shield(this.corner),this.help.
-table,resizeGrip(model));keysAround(this.box,e=>this.pad.keydown(e),signal);this.box.addEventListener(
-"glid:press",e=>this.#pressed(e))}this.#takeFirst()}close(){clearTimeout(this.#saving);this.ahead.close();
-this.shapes.close();this.reference.close()}get allMarks(){return marksOf(this.model.get("marks"),this.
-shapes.lead)}get marks(){return withoutHidden(this.allMarks,this.model.get("pins"),Number.NaN)}get reachable(){
-return withoutHidden(this.allMarks,this.model.get("pins"),Infinity)}prepareSolver(){if(this.interactive)
-void this.ahead.prepare()}rested(){if(this.pad.grip)return;const made=this.behaviour.madePin();if(made===
-void 0)this.ahead.giveBack();else this.#hold(made)}#hold(made){const{pad,view,behaviour}=this;const[
-from]=pad.path;const[place]=pad.pointers.values();pad.grip={from,points:new Map([[made,from]])};if(!behaviour.
-constrains)pad.held.set(made,view.toWorld(place));this.followHand()}followHand(){if(this.pad.grip&&!this.
-shapes.motion)this.ahead.follow(this.pad.held)}#listener(signal){const put=event=>{const drags=event.
-type==="up"||this.pad.grip&&/^(down|move)$/.test(event.type);if(!drags)this.ahead.giveBack();const leads=this.
-ahead.leads&&this.shapes.movesVertices;return spacing.put(event,leads&&event.type==="move")};const spacing=new Spacing(
-event=>this.link.put(event));signal.addEventListener("abort",()=>spacing.close());return{put,signal}}get brush(){
-const{radius,strength}=this.model.get("brush");const{tool}=this;return tool?{radius,strength:tool===
-"stiff"?strength:0}:null}get tool(){const told=this.model.get("brush").tool;return told===void 0?"":
-this.#tool??told}toggleTool(tool){this.takeTool(this.tool===tool?"":tool)}takeTool(name){this.pad.link.
-put({type:"tool",name});this.#showTool(name)}putBrushAway(){if(this.painting)this.#showTool("")}#showTool(tool){
-if(tool===this.#tool)return;this.#tool=tool;this.box.dispatchEvent(new CustomEvent("glid:tool",{bubbles:true,
-detail:this.tool}));this.takeFocus();this.showNotice();this.pad.hover();this.redraw()}get painting(){
-return this.brush!==null}say(notice){save(this.model,{notice})}openMenu(place,found={mark:this.marks.
-selected.at(-1)}){const{selected,targets}=this.marks;const mark=found?.mark===void 0?null:Number(found.
-mark);const centre=[this.view.x,this.view.y];const pinned=mark!==null&&Number.isFinite(targets[mark]?.[0]);
-const point=pinned?targets[mark]:this.model.get("cursor")??centre;const at=place??this.view.toScreen(
-point);const does={press:(key,shift=false)=>{return()=>this.#press(key,shift)},pin:()=>void this.pad.
-send("pin",at),paste:()=>void this.clipboard.paste(),alone:()=>this.room?.alone(),fullScreen:()=>this.
-room?.fullScreen(),showKeys:this.help.toggle};const covered=mark===null&&coveredNear(this.box,at);const pins=mark===
-null?null:pinsOfMenu(mark,selected);openMenu(this.box,at,menuRows(does,pins,covered,this.model.get("\
-pins")))}showMotion(motion=null,playing=STILL,heights=null,parts={},pins=null){this.between=pins??NO_PINS;
-this.#playing=playing;this.shapes.motion=motion;this.shapes.partMotions=parts;this.shapes.lift(heights);
-this.showLegend();this.shapes.refresh();this.pad.hover();this.redraw()}showLegend(){this.legend.show(
-this.model,Boolean(this.shapes.motion))}takeFocus(){const{painting}=this;const chosen=painting&&!this.#painted;
-this.#painted=painting;const side=this.box.closest(".glid-editor")?.querySelector(".glid-side");if(chosen&&
-side?.contains(document.activeElement))this.box.focus({preventScroll:true})}showNotice(){const first=this.
-interactive&&!this.marks.targets.length;this.notices.tell(this.model.get("notice"),this.painting,first)}fit(){
-const{model,view,box}=this;view.width=model.get("width");view.height=model.get("height");[view.x,view.
-y,view.unit]=model.get("view");box.style.width=`${view.width}px`;box.style.height=`${view.height}px`;
-this.room?.shrink();this.#see()}reveal(){const{selected,targets,images}=this.marks;const now=selected.
-length===1?selected[0]:void 0;if(now===this.#chosen)return;this.#chosen=now;if(now===void 0||this.pad.
-mode)return;if(!Number.isFinite(targets[now]?.[0]))return;if(inSight(this.view,targets[now])||inSight(
-this.view,images[now]))return;this.view.centreOn(targets[now])}pressedAt(){if(!this.shapes.motion)return void 0;
-this.#presses=true;return this.#playing.pause()}#pressed(e){this.#press(e.detail)}#press(key,shift=false){
-const act=this.behaviour.actions[key];if(act)act();else this.pad.press(key,{shiftKey:shift})}#takeFirst(){
-const take=e=>{if(!this.shapes.motion)return false;e.stopImmediatePropagation();e.preventDefault();return true};
-const goBack=e=>take(e)&&this.#playing.release();const capture=true;this.box.addEventListener("point\
-erdown",e=>e.button===2&&take(e),{capture});this.box.addEventListener("contextmenu",take,{capture});
-const ours=e=>!e.ctrlKey&&!e.metaKey&&KEYS.test(keyOf(e));this.box.addEventListener("keydown",e=>ours(
-e)&&goBack(e),{capture});const openedByKeys=e=>{if(e.key!=="F10"||!e.shiftKey)return;e.stopImmediatePropagation();
-e.preventDefault();this.openMenu()};this.box.addEventListener("keydown",openedByKeys,{capture});const followArrow=e=>{
-const target=arrowAt(this.view,this.marks,this.pad.place(e));if(!target||e.target!==this.box||this.shapes.
-motion)return;this.view.centreOn(target);e.stopImmediatePropagation()};this.box.addEventListener("po\
-interdown",followArrow,{capture})}#makeCorner(){const look="glid-help-button";return make("div",{className:"\
-glid-corner"},this.help.button,iconButton("screen","Full screen (W)",()=>this.room?.fullScreen(),look),
-iconButton("rectangle","The picture alone (P)",()=>this.room?.alone(),look))}#report(){const{busy,refusal}=this.
-link;if(this.link.idle)this.#showTool(void 0);if(this.#presses&&this.link.idle&&this.pad.mode===null){
-this.#presses=false;this.#playing.reach();this.behaviour.motionLeft()}if(!busy&&refusal&&refusal!==this.
-model.get("notice"))this.say(refusal)}#viewMoved(){this.#see();clearTimeout(this.#saving);this.#saving=
-setTimeout(()=>{const{x,y,unit}=this.view;save(this.model,{view:[x,y,unit]})},SAVE_VIEW_AFTER)}#see(){
-this.shapes.see();this.reference.place();this.redraw()}#drawNumbers(pen){const{model,view,pad,marks}=this;
-const{pressed}=this.behaviour;const drags=pad.mode==="hand"&&pad.path.length>1&&!pad.encloses;const moved=drags&&
-pressed&&movedPin(pressed,marks,pad.held,model.get("picture_size"));if(!moved)return;const{start,keys}=pressed;
-if(start&&keys?.axis)drawAxis(pen,view,start,moved.at);drawNumbers(pen,view,moved)}#draw(pen){const{
-model,view,pad,marks,brush}=this;const{motion}=this.shapes;const through=!motion&&knobInCorner(view,
-marks,pad.held);this.corner.classList.toggle("glid-through",through);if(motion){const{places}=this.between;
-drawBetween(pen,view,places,{hovered:pad.found?.mark,held:pad.held});return}drawOnion(pen,view,model.
-get("onion"));drawStiff(pen,view,model.get("stiff"),this.painting);if(this.interactive&&!this.painting){
-this.ghosts.draw(pen,view,model.get("outline").outline,marks.targets.length>0)}const cursor=pad.focused?
-model.get("cursor"):null;const pins=model.get("pins");const held=new Map([...pad.held].filter(([mark])=>!pins.
-away.includes(Number(mark))));drawMarks(pen,view,marks,{hovered:pad.found?.mark,held,cursor});drawLocks(
-pen,view,marks,pins);if(brush)drawBrush(pen,view,brush,pad);else this.#drawNumbers(pen);if(pad.encloses&&
-pad.path.length>2)drawLasso(pen,view,pad.path)}};function render(context){const{model,signal}=context;const canvas=new Canvas(context);follow(model,{
+this);this.pad=new Pad(this.box,this.view,this.#listener(signal),this.behaviour);this.numbers=new FollowedNumbers(
+this.box);this.clipboard=new PoseClipboard(this);this.corner=this.#makeCorner();if(this.interactive){
+this.box.append(shield(this.corner),this.help.table,resizeGrip(model));keysAround(this.box,e=>this.pad.
+keydown(e),signal);this.box.addEventListener("glid:press",e=>this.#pressed(e))}this.#takeFirst()}close(){
+clearTimeout(this.#saving);this.ahead.close();this.shapes.close();this.reference.close()}get allMarks(){
+return marksOf(this.model.get("marks"),this.shapes.lead)}get marks(){return withoutHidden(this.allMarks,
+this.model.get("pins"),Number.NaN)}get reachable(){return withoutHidden(this.allMarks,this.model.get(
+"pins"),Infinity)}prepareSolver(){if(this.interactive)void this.ahead.prepare()}rested(){if(this.pad.
+grip)return;const made=this.behaviour.madePin();if(made===void 0)this.ahead.giveBack();else this.#hold(
+made)}#hold(made){const{pad,view,behaviour}=this;const[from]=pad.path;const[place]=pad.pointers.values();
+pad.grip={from,points:new Map([[made,from]])};if(!behaviour.constrains)pad.held.set(made,view.toWorld(
+place));this.followHand()}followHand(){if(this.pad.grip&&!this.shapes.motion)this.ahead.follow(this.
+pad.held)}#listener(signal){const put=event=>{const drags=event.type==="up"||this.pad.grip&&/^(down|move)$/.
+test(event.type);if(!drags)this.ahead.giveBack();const leads=this.ahead.leads&&this.shapes.movesVertices;
+return spacing.put(event,leads&&event.type==="move")};const spacing=new Spacing(event=>this.link.put(
+event));signal.addEventListener("abort",()=>spacing.close());return{put,signal}}get brush(){const{radius,
+strength}=this.model.get("brush");const{tool}=this;return tool?{radius,strength:tool==="stiff"?strength:
+0}:null}get tool(){const told=this.model.get("brush").tool;return told===void 0?"":this.#tool??told}toggleTool(tool){
+this.takeTool(this.tool===tool?"":tool)}takeTool(name){this.pad.link.put({type:"tool",name});this.#showTool(
+name)}putBrushAway(){if(this.painting)this.#showTool("")}#showTool(tool){if(tool===this.#tool)return;
+this.#tool=tool;this.box.dispatchEvent(new CustomEvent("glid:tool",{bubbles:true,detail:this.tool}));
+this.takeFocus();this.showNotice();this.pad.hover();this.redraw()}get painting(){return this.brush!==
+null}say(notice){save(this.model,{notice})}openMenu(place,found={mark:this.marks.selected.at(-1)}){const{
+selected,targets}=this.marks;const mark=found?.mark===void 0?null:Number(found.mark);const centre=[this.
+view.x,this.view.y];const pinned=mark!==null&&Number.isFinite(targets[mark]?.[0]);const point=pinned?
+targets[mark]:this.model.get("cursor")??centre;const at=place??this.view.toScreen(point);const does={
+press:(key,shift=false)=>{return()=>this.#press(key,shift)},pin:()=>void this.pad.send("pin",at),paste:()=>void this.
+clipboard.paste(),alone:()=>this.room?.alone(),fullScreen:()=>this.room?.fullScreen(),showKeys:this.
+help.toggle};const covered=mark===null&&coveredNear(this.box,at);const pins=mark===null?null:pinsOfMenu(
+mark,selected);openMenu(this.box,at,menuRows(does,pins,covered,this.model.get("pins")))}showMotion(motion=null,playing=STILL,heights=null,parts={},pins=null){
+this.between=pins??NO_PINS;this.#playing=playing;this.shapes.motion=motion;this.shapes.partMotions=parts;
+this.shapes.lift(heights);this.showLegend();this.shapes.refresh();this.pad.hover();this.redraw()}showLegend(){
+this.legend.show(this.model,Boolean(this.shapes.motion))}takeFocus(){const{painting}=this;const chosen=painting&&
+!this.#painted;this.#painted=painting;const side=this.box.closest(".glid-editor")?.querySelector(".g\
+lid-side");if(chosen&&side?.contains(document.activeElement))this.box.focus({preventScroll:true})}showNotice(){
+const first=this.interactive&&!this.marks.targets.length;this.notices.tell(this.model.get("notice"),
+this.painting,first)}fit(){const{model,view,box}=this;view.width=model.get("width");view.height=model.
+get("height");[view.x,view.y,view.unit]=model.get("view");box.style.width=`${view.width}px`;box.style.
+height=`${view.height}px`;this.room?.shrink();this.#see()}reveal(){const{selected,targets,images}=this.
+marks;const now=selected.length===1?selected[0]:void 0;if(now===this.#chosen)return;this.#chosen=now;
+if(now===void 0||this.pad.mode)return;if(!Number.isFinite(targets[now]?.[0]))return;if(inSight(this.
+view,targets[now])||inSight(this.view,images[now]))return;this.view.centreOn(targets[now])}pressedAt(){
+if(!this.shapes.motion)return void 0;this.#presses=true;return this.#playing.pause()}#pressed(e){this.#press(
+e.detail)}#press(key,shift=false){const act=this.behaviour.actions[key];if(act)act();else this.pad.press(
+key,{shiftKey:shift})}#takeFirst(){const take=e=>{if(!this.shapes.motion)return false;e.stopImmediatePropagation();
+e.preventDefault();return true};const goBack=e=>take(e)&&this.#playing.release();const capture=true;
+this.box.addEventListener("pointerdown",e=>e.button===2&&take(e),{capture});this.box.addEventListener(
+"contextmenu",take,{capture});const ours=e=>!e.ctrlKey&&!e.metaKey&&KEYS.test(keyOf(e));this.box.addEventListener(
+"keydown",e=>ours(e)&&goBack(e),{capture});const openedByKeys=e=>{if(e.key!=="F10"||!e.shiftKey)return;
+e.stopImmediatePropagation();e.preventDefault();this.openMenu()};this.box.addEventListener("keydown",
+openedByKeys,{capture});const followArrow=e=>{const target=arrowAt(this.view,this.marks,this.pad.place(
+e));if(!target||e.target!==this.box||this.shapes.motion)return;this.view.centreOn(target);e.stopImmediatePropagation()};
+this.box.addEventListener("pointerdown",followArrow,{capture})}#makeCorner(){const look="glid-help-b\
+utton";return make("div",{className:"glid-corner"},this.help.button,iconButton("screen","Full screen\
+ (W)",()=>this.room?.fullScreen(),look),iconButton("rectangle","The picture alone (P)",()=>this.room?.
+alone(),look))}#report(){const{busy,refusal}=this.link;if(this.link.idle)this.#showTool(void 0);this.#settleNumbers();
+if(this.#presses&&this.link.idle&&this.pad.mode===null){this.#presses=false;this.#playing.reach();this.
+behaviour.motionLeft()}if(!busy&&refusal&&refusal!==this.model.get("notice"))this.say(refusal)}#viewMoved(){
+this.#see();clearTimeout(this.#saving);this.#saving=setTimeout(()=>{const{x,y,unit}=this.view;save(this.
+model,{view:[x,y,unit]})},SAVE_VIEW_AFTER)}#see(){this.shapes.see();this.reference.place();this.redraw()}get#drags(){
+const{mode,path,encloses:encloses2}=this.pad;return mode==="hand"&&path.length>1&&!encloses2&&!this.
+painting}#settleNumbers(){if(this.link.idle&&!this.#drags)this.numbers.settle(this.model.get("marks"))}#drawNumbers(pen){
+const{model,view,pad,marks}=this;const{pressed}=this.behaviour;const drags=this.#drags&&pressed;const moved=drags&&
+movedPin(pressed,marks,pad.held,model.get("picture_size"));if(!moved)return;this.numbers.follow(this.
+allMarks,pad.held);const{start,keys}=pressed;if(start&&keys?.axis)drawAxis(pen,view,start,moved.at);
+drawNumbers(pen,view,moved)}#draw(pen){const{model,view,pad,marks,brush}=this;const{motion}=this.shapes;
+const through=!motion&&knobInCorner(view,marks,pad.held);this.corner.classList.toggle("glid-through",
+through);if(motion){const{places}=this.between;drawBetween(pen,view,places,{hovered:pad.found?.mark,
+held:pad.held});return}drawOnion(pen,view,model.get("onion"));drawStiff(pen,view,model.get("stiff"),
+this.painting);if(this.interactive&&!this.painting){this.ghosts.draw(pen,view,model.get("outline").outline,
+marks.targets.length>0)}const cursor=pad.focused?model.get("cursor"):null;const pins=model.get("pins");
+const held=new Map([...pad.held].filter(([mark])=>!pins.away.includes(Number(mark))));drawMarks(pen,
+view,marks,{hovered:pad.found?.mark,held,cursor});drawLocks(pen,view,marks,pins);if(brush)drawBrush(
+pen,view,brush,pad);else this.#drawNumbers(pen);if(pad.encloses&&pad.path.length>2)drawLasso(pen,view,
+pad.path)}};function render(context){const{model,signal}=context;const canvas=new Canvas(context);follow(model,{
 "change:width change:height change:view":()=>canvas.fit(),"change:coefficients":()=>canvas.shapes.lead||
 canvas.shapes.refresh(),"change:part_maps":()=>canvas.shapes.refresh(),"change:solver_script change:\
 solver change:outline":()=>canvas.prepareSolver(),"change:rest":()=>canvas.rested(),"change:drawing_\

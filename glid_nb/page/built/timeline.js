@@ -82,23 +82,22 @@ const before=box.scrollLeft;if(!e.deltaX)box.scrollLeft+=step;if(box.scrollLeft!
 range"];var ONION="Onion skin: outlines of the poses before (blue) and after (orange) the edited pos\
 e";var KEY="Key this pose and continue with a copy (K); at another time, key the shape that is shown\
  there";var LEGEND=[["proved","proved"],["computing","not yet"],["refused","not proved"]];var EASE="\
-M2.5 13.5C8 13.5 8 2.5 13.5 2.5";var Bar=class{recording=false;#repeat="";onionOn=false;#range=new Option(
-OF_RANGE[1],OF_RANGE[0]);constructor({play,keep,act,edit,zoom,ease}){this.play=iconButton("play","Pl\
-ay, pause (Space)",play);this.repeat=menu("Play once, in a loop, or there and back",REPEATS,repeat=>{
-if(this.#range.parentElement)act("set_loop_range",{range:null});if(repeat!==this.#repeat)act("set_re\
-peat",{repeat})});this.clock=make("span",{className:"glid-time",role:"timer"});this.record=iconButton(
-"record","Record: keep the next drag as keyframes",()=>act("record",{on:!this.recording}));this.onion=
-iconButton("onion",ONION,()=>act("onion",{on:!this.onionOn}));this.keep=make("button",{className:"gl\
-id-keep",title:KEY,onclick:keep},"Key");const copy=iconButton("copy","Duplicate this pose",()=>edit(
-"duplicate_pose"));this.ease=drawnButton(EASE,"Easing of the motion that leaves this pose (Enter)",ease);
-this.ease.ariaHasPopup="dialog";this.remove=iconButton("trash","Delete this pose (Delete)",()=>edit(
-"delete_pose"));this.save=iconButton("export","Export the motion",()=>{this.save.dispatchEvent(new CustomEvent(
-"glid:inspect",{bubbles:true}));act("export")});this.element=make("div",{className:"glid-bar",role:"\
-toolbar","aria-label":"Motion"},...[this.play,this.repeat,this.clock,gap()],...[this.record,this.onion,
-gap()],...[this.keep,copy,this.remove,this.ease,gap(),this.save],make("span",{className:"glid-zoom"},
-gap(),iconButton("minus","See more of the timeline (Ctrl and wheel)",()=>zoom(1/STEP)),iconButton("p\
-lus","See less of the timeline, larger (Ctrl and wheel)",()=>zoom(STEP))))}update({keyframes,repeat,
-range,recording,onion,exports}){const alone=keyframes.length<2;this.#repeat=repeat;if(range)this.repeat.
+M2.5 13.5C8 13.5 8 2.5 13.5 2.5";var Bar=class{recording=false;onionOn=false;#range=new Option(OF_RANGE[1],
+OF_RANGE[0]);constructor({play,keep,act,edit,zoom,ease}){this.play=iconButton("play","Play, pause (S\
+pace)",play);this.repeat=menu("Play once, in a loop, or there and back",REPEATS,repeat=>{if(repeat!==
+OF_RANGE[0])act("play_all",{repeat})});this.clock=make("span",{className:"glid-time",role:"timer"});
+this.record=iconButton("record","Record: keep the next drag as keyframes",()=>act("record",{on:!this.
+recording}));this.onion=iconButton("onion",ONION,()=>act("onion",{on:!this.onionOn}));this.keep=make(
+"button",{className:"glid-keep",title:KEY,onclick:keep},"Key");const copy=iconButton("copy","Duplica\
+te this pose",()=>edit("duplicate_pose"));this.ease=drawnButton(EASE,"Easing of the motion that leav\
+es this pose (Enter)",ease);this.ease.ariaHasPopup="dialog";this.remove=iconButton("trash","Delete t\
+his pose (Delete)",()=>edit("delete_pose"));this.save=iconButton("export","Export the motion",()=>{this.
+save.dispatchEvent(new CustomEvent("glid:inspect",{bubbles:true}));act("export")});this.element=make(
+"div",{className:"glid-bar",role:"toolbar","aria-label":"Motion"},...[this.play,this.repeat,this.clock,
+gap()],...[this.record,this.onion,gap()],...[this.keep,copy,this.remove,this.ease,gap(),this.save],make(
+"span",{className:"glid-zoom"},gap(),iconButton("minus","See more of the timeline (Ctrl and wheel)",
+()=>zoom(1/STEP)),iconButton("plus","See less of the timeline, larger (Ctrl and wheel)",()=>zoom(STEP))))}update({
+keyframes,repeat,range,recording,onion,exports}){const alone=keyframes.length<2;if(range)this.repeat.
 append(this.#range);else this.#range.remove();this.repeat.value=range?OF_RANGE[0]:repeat;this.remove.
 disabled=alone;for(const control of[this.play,this.save,this.repeat,this.ease]){control.disabled=alone}
 this.save.hidden=!exports;this.recording=recording;this.onionOn=onion;this.record.ariaPressed=String(

@@ -24,25 +24,28 @@ item.dataset.value=name;item.title=title;return item});const closing=(label,acti
 label,()=>{this.menu.hidePopover();press(action)});const picture=closing("The picture alone","p");this.
 reference=closing("","reference");this.reference.title="A picture behind the shape, to draw poses af\
 ter; no export has it";picture.append(make("kbd",{},"P"));this.menu=make("div",{className:"glid-menu\
- glid-view-menu",role:"menu","aria-label":"What the canvas shows",popover:"auto"},...[...this.overlays,
-make("hr"),...this.checks,make("hr"),this.reference,picture]);this.label=make("span",{className:"gli\
-d-view-label"});this.button=make("button",{className:"glid-view-button",title:"What the shape shows",
-"aria-haspopup":"menu",popoverTargetElement:this.menu,innerHTML:icon("eye")});this.button.append(this.
-label,make("span",{className:"glid-chevron"}));this.menu.addEventListener("beforetoggle",()=>this.#place());
-this.menu.addEventListener("toggle",e=>this.#opened(e));this.menu.addEventListener("keydown",e=>this.#step(
-e))}show(){const overlay=this.model.get("overlay");const shows=this.model.get("shows");for(const item of this.
-overlays){const chosen=item.dataset.value===overlay;item.ariaChecked=String(chosen);if(chosen)this.label.
-textContent=item.textContent}const{firstElementChild:label}=this.reference;const has=this.model.get(
-"referenced");if(label)label.textContent=has?"Remove the reference":"Reference picture…";for(const item of this.
-checks)item.ariaChecked=String(shows[item.dataset.value??""])}#place(){const{left,bottom}=this.button.
-getBoundingClientRect();const lowest=window.innerHeight-this.menu.offsetHeight-BELOW;const rightmost=window.
-innerWidth-this.menu.offsetWidth-BELOW;this.menu.style.left=`${Math.max(BELOW,Math.min(left,rightmost))}\
-px`;this.menu.style.top=`${Math.max(BELOW,Math.min(bottom+BELOW,lowest))}px`}#opened({newState}){this.
-button.ariaExpanded=String(newState==="open");if(newState!=="open")return;this.#place();this.overlays.
-find(item=>item.ariaChecked==="true")?.focus({preventScroll:true})}#step(e){const by={ArrowDown:1,ArrowUp:-1}[e.
-key];if(!by)return;e.preventDefault();e.stopPropagation();const items=[...this.menu.querySelectorAll(
-"button")];const focused=items.indexOf(document.activeElement);items.at((focused+by)%items.length)?.
-focus()}};function row(role,label,onclick){return make("button",{role,onclick},make("span",{},label))}var TOOLS=[["","edit","Select and drag pins (Esc)"],["stiff","brush","Paint what should stay stiff (\
+ glid-view-menu",role:"menu","aria-label":"What the canvas shows",popover:"auto"},group("Show",this.
+overlays),group("Overlays",this.checks),...[make("hr"),this.reference,picture]);this.label=make("spa\
+n",{className:"glid-view-label"});this.button=make("button",{className:"glid-view-button",title:"Wha\
+t the shape shows","aria-haspopup":"menu",popoverTargetElement:this.menu,innerHTML:icon("eye")});this.
+button.append(this.label,make("span",{className:"glid-chevron"}));this.menu.addEventListener("before\
+toggle",()=>this.#place());this.menu.addEventListener("toggle",e=>this.#opened(e));this.menu.addEventListener(
+"keydown",e=>this.#step(e))}show(){const overlay=this.model.get("overlay");const shows=this.model.get(
+"shows");for(const item of this.overlays){const chosen=item.dataset.value===overlay;item.ariaChecked=
+String(chosen);if(chosen)this.label.textContent=item.textContent}const{firstElementChild:label}=this.
+reference;const has=this.model.get("referenced");if(label)label.textContent=has?"Remove the referenc\
+e":"Reference picture…";for(const item of this.checks)item.ariaChecked=String(shows[item.dataset.value??
+""])}#place(){const{left,bottom}=this.button.getBoundingClientRect();const lowest=window.innerHeight-
+this.menu.offsetHeight-BELOW;const rightmost=window.innerWidth-this.menu.offsetWidth-BELOW;this.menu.
+style.left=`${Math.max(BELOW,Math.min(left,rightmost))}px`;this.menu.style.top=`${Math.max(BELOW,Math.
+min(bottom+BELOW,lowest))}px`}#opened({newState}){this.button.ariaExpanded=String(newState==="open");
+if(newState!=="open")return;this.#place();this.overlays.find(item=>item.ariaChecked==="true")?.focus(
+{preventScroll:true})}#step(e){const by={ArrowDown:1,ArrowUp:-1}[e.key];if(!by)return;e.preventDefault();
+e.stopPropagation();const items=[...this.menu.querySelectorAll("button")];const focused=items.indexOf(
+document.activeElement);items.at((focused+by)%items.length)?.focus()}};var groups=0;function group(name,items){
+groups+=1;const id=`glid-view-group-${groups}`;const head=make("div",{id,className:"glid-menu-head",
+role:"presentation"},name);return make("div",{role:"group","aria-labelledby":id},head,...items)}function row(role,label,onclick){
+return make("button",{role,onclick},make("span",{},label))}var TOOLS=[["","edit","Select and drag pins (Esc)"],["stiff","brush","Paint what should stay stiff (\
 B)"],["erase","eraser","Erase stiff areas (E)"]];var INSPECTOR="M2 3h12v10H2z M10 3v10";var Toolbar=class{constructor(model){
 this.model=model;this.view=new ViewMenu(model,name=>this.#press(name));this.tools=TOOLS.map(([tool,icon2,
 title])=>{const button=iconButton(icon2,title,()=>this.#press(`tool:${tool}`));button.dataset.tool=tool||
@@ -50,12 +53,13 @@ title])=>{const button=iconButton(icon2,title,()=>this.#press(`tool:${tool}`));b
 this.redo=iconButton("redo","Redo (Ctrl+Shift+Z)",()=>model.send({type:"redo"}));this.element=make("\
 div",{className:"glid-skin glid-toolbar glid-tools",role:"toolbar","aria-label":"Deform"},...[...this.
 tools,gap(),this.undo,this.redo,gap(),this.view.button,this.view.menu],make("span",{className:"glid-\
-grow"}),iconButton("fit","See everything (F)",()=>this.#press("f")),drawnButton(INSPECTOR,"Hide the \
-inspector, show it again (I)",()=>this.#press("i")),iconButton("screen","Full screen (W)",()=>this.#press(
-"w")),this.#help())}showTool(tool=this.model.get("tool")){const name=tool||"select";for(const button of this.
-tools)button.ariaPressed=String(button.dataset.tool===name)}canvasTook(e){const editor=this.element.
-closest(".glid-editor");if(editor?.contains(e.target)){this.showTool(e.detail)}}showHistory(){this.undo.
-disabled=!this.model.get("can_undo");this.redo.disabled=!this.model.get("can_redo")}#find(selector){
+grow"}),iconButton("minus","Zoom out (wheel)",()=>this.#press("zoom:out")),iconButton("plus","Zoom i\
+n (wheel)",()=>this.#press("zoom:in")),iconButton("fit","See everything (F)",()=>this.#press("f")),drawnButton(
+INSPECTOR,"Hide the inspector, show it again (I)",()=>this.#press("i")),iconButton("screen","Full sc\
+reen (W)",()=>this.#press("w")),this.#help())}showTool(tool=this.model.get("tool")){const name=tool||
+"select";for(const button of this.tools)button.ariaPressed=String(button.dataset.tool===name)}canvasTook(e){
+const editor=this.element.closest(".glid-editor");if(editor?.contains(e.target)){this.showTool(e.detail)}}showHistory(){
+this.undo.disabled=!this.model.get("can_undo");this.redo.disabled=!this.model.get("can_redo")}#find(selector){
 return this.element.closest(".glid-editor")?.querySelector(selector)}#press(key){const event=new CustomEvent(
 "glid:press",{detail:key});this.#find(".glid-pad:not([inert])")?.dispatchEvent(event)}#help(){const title="\
 Keys and gestures (?)";const look={className:"glid-help-button",title,"aria-label":title};const button=make(

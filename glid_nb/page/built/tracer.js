@@ -75,24 +75,24 @@ ge stays from the shape",end:.05,power:1.5,digits:1},{name:"simplify",label:"Sim
 How far simplification may move the outline",end:.03,power:1.5,digits:1},{name:"min_hole_area",label:"\
 Smallest hole",unit:"px²",title:"Smaller holes are filled",end:.1,power:4,digits:0}];var STEPS=1e3;
 var NumberControl=class{#most=1;#gesture=null;constructor(option,choose){const{name,label,unit,title,
-digits}=option;this.option=option;this.slider=make("input",{type:"range",min:0,max:STEPS,step:1,"ari\
-a-label":label});this.number=make("input",{type:"number",className:"glid-number",min:0,step:"any",placeholder:"\
-auto","aria-label":`${label} (${unit})`});this.auto=make("button",{className:"glid-auto",title:"Let \
-the tracer choose"},"auto");this.element=make("div",{className:"glid-control",title,"data-name":name},
-make("label",{},label),this.auto,this.number,make("span",{className:"glid-unit"},unit),this.slider);
-this.slider.addEventListener("input",()=>{this.#gesture??=Math.random().toString(36);const value=valueAt(
-this.#share,this.#most,option);this.number.value=value.toFixed(digits);this.auto.ariaPressed="false";
-choose({[name]:value},this.#gesture)});this.slider.addEventListener("change",()=>{this.#gesture=null});
-this.number.addEventListener("change",()=>{const{value}=this.number;choose({[name]:value===""?null:Number(
-value)})});this.auto.addEventListener("click",()=>choose({[name]:null}))}get#share(){return Number(this.
-slider.value)/STEPS}update(shown){const{name,digits}=this.option;const value=shown.options[name];const seen=value??
-shown.automatic?.[name]??null;this.#most=endOf(this.option,shown);this.auto.ariaPressed=String(value===
-null);if(this.#gesture)return;this.number.value=seen===null?"":String(Number(seen.toFixed(digits)));
-if(seen===valueAt(this.#share,this.#most,this.option))return;this.slider.value=String(Math.round(STEPS*
-shareAt(seen,this.#most,this.option)))}};function endOf({unit,end},{size,component_area:area}){const whole={
-"0–1":1,px:Math.max(...size??[0]),"px²":area}[unit];return Math.max(end*whole,1e-9)}function valueAt(share,most,{
-power,digits}){return Number((most*share**power).toFixed(digits))}function shareAt(value,most,{power}){
-return Math.min(Math.max(value/most,0),1)**(1/power)}function statusOf(shown,refusal,busy){if(refusal)return{kind:"bad",text:refusal};if(busy)return{kind:"\
+digits}=option;this.option=option;this.slider=make("input",{type:"range",className:"glid-slider",min:0,
+max:STEPS,step:1,"aria-label":label});this.number=make("input",{type:"number",className:"glid-number",
+min:0,step:"any",placeholder:"auto","aria-label":`${label} (${unit})`});this.auto=make("button",{className:"\
+glid-auto",title:"Let the tracer choose"},"auto");this.element=make("div",{className:"glid-control",
+title,"data-name":name},make("label",{},label),this.auto,this.number,make("span",{className:"glid-un\
+it"},unit),this.slider);this.slider.addEventListener("input",()=>{this.#gesture??=Math.random().toString(
+36);const value=valueAt(this.#share,this.#most,option);this.number.value=value.toFixed(digits);this.
+auto.ariaPressed="false";choose({[name]:value},this.#gesture)});this.slider.addEventListener("change",
+()=>{this.#gesture=null});this.number.addEventListener("change",()=>{const{value}=this.number;choose(
+{[name]:value===""?null:Number(value)})});this.auto.addEventListener("click",()=>choose({[name]:null}))}get#share(){
+return Number(this.slider.value)/STEPS}update(shown){const{name,digits}=this.option;const value=shown.
+options[name];const seen=value??shown.automatic?.[name]??null;this.#most=endOf(this.option,shown);this.
+auto.ariaPressed=String(value===null);if(this.#gesture)return;this.number.value=seen===null?"":String(
+Number(seen.toFixed(digits)));if(seen===valueAt(this.#share,this.#most,this.option))return;this.slider.
+value=String(Math.round(STEPS*shareAt(seen,this.#most,this.option)))}};function endOf({unit,end},{size,
+component_area:area}){const whole={"0–1":1,px:Math.max(...size??[0]),"px²":area}[unit];return Math.
+max(end*whole,1e-9)}function valueAt(share,most,{power,digits}){return Number((most*share**power).toFixed(
+digits))}function shareAt(value,most,{power}){return Math.min(Math.max(value/most,0),1)**(1/power)}function statusOf(shown,refusal,busy){if(refusal)return{kind:"bad",text:refusal};if(busy)return{kind:"\
 busy",text:"Working…"};if(!shown.size)return{kind:"idle",text:"No picture yet"};if(shown.problems.
 length){const kept="This is not a valid cage; the last valid cage is kept";return{kind:"bad",text:shown.
 loops.length?kept:"There is no cage yet"}}const{doubt}=shown;if(doubt)return{kind:"guess",text:`No o\
@@ -167,21 +167,22 @@ stage.highlightHole(i),onpointerleave:()=>this.stage.highlightHole(null)},make("
 ox",checked:hole.kept,onchange:()=>this.act("toggle_hole",{number:i})}),make("span",{className:"glid\
 -grow"},`Hole ${i+1}${made}`),make("span",{className:"glid-unit"},size))}};function row2(...parts){return make(
 "div",{className:"glid-row"},...parts)}function brush(tool,label){return make("button",{className:`g\
-lid-brush glid-${tool}`,"data-tool":tool},label)}var WHEEL_SPEED=.0015;var WHEEL_LINE=33;var LINES=1;var PINCH=5;function distance([x,y],[u,v]){return Math.
-hypot(x-u,y-v)}var View=class{x=0;y=0;unit=1;width=0;height=0;constructor(changed,{up=1,nearest:nearest2,
-farthest}){this.changed=changed;this.up=up;this.nearest=nearest2;this.farthest=farthest}toWorld([px,
-py]){const x=this.x+(px-this.width/2)*this.unit;const y=this.y-this.up*(py-this.height/2)*this.unit;
-return[x,y]}toScreen([x,y]){const px=(x-this.x)/this.unit+this.width/2;const py=this.up*(this.y-y)/this.
-unit+this.height/2;return[px,py]}line(points){return points.map(point=>this.toScreen(point))}centreOn([
-x,y]){this.x=x;this.y=y;this.changed()}pan(dx,dy){this.x-=dx*this.unit;this.y+=this.up*dy*this.unit;
-this.changed()}zoom(factor,place=[this.width/2,this.height/2]){const[x,y]=this.toWorld(place);const unit=Math.
-min(this.farthest,Math.max(this.nearest,this.unit*factor));this.x=x+(this.x-x)*(unit/this.unit);this.
-y=y+(this.y-y)*(unit/this.unit);this.unit=unit;this.changed()}wheel(e,place){e.preventDefault();this.
-zoom(Math.exp(turnOf(e)*WHEEL_SPEED*(e.ctrlKey?PINCH:1)),place)}follow(pointers,id,place){const before=pointers.
-get(id)??place;const other=[...pointers].find(([one])=>one!==id)?.[1];const share=other?.5:1;pointers.
-set(id,place);this.pan(share*(place[0]-before[0]),share*(place[1]-before[1]));if(!other)return;const apart=one=>Math.
-max(distance(one,other),1);const middle=[(place[0]+other[0])/2,(place[1]+other[1])/2];this.zoom(apart(
-before)/apart(place),middle)}};function turnOf(e){return e.deltaMode===LINES?e.deltaY*WHEEL_LINE:e.deltaY}function nearest(things,reach){let best=null;let least=Infinity;for(const thing of things){const far=thing.
+lid-brush glid-${tool}`,"data-tool":tool},label)}var ZOOM=1.25;var WHEEL_SPEED=.0015;var WHEEL_LINE=33;var LINES=1;var PINCH=5;function distance([x,y],[
+u,v]){return Math.hypot(x-u,y-v)}var View=class{x=0;y=0;unit=1;width=0;height=0;constructor(changed,{
+up=1,nearest:nearest2,farthest}){this.changed=changed;this.up=up;this.nearest=nearest2;this.farthest=
+farthest}toWorld([px,py]){const x=this.x+(px-this.width/2)*this.unit;const y=this.y-this.up*(py-this.
+height/2)*this.unit;return[x,y]}toScreen([x,y]){const px=(x-this.x)/this.unit+this.width/2;const py=this.
+up*(this.y-y)/this.unit+this.height/2;return[px,py]}line(points){return points.map(point=>this.toScreen(
+point))}centreOn([x,y]){this.x=x;this.y=y;this.changed()}pan(dx,dy){this.x-=dx*this.unit;this.y+=this.
+up*dy*this.unit;this.changed()}zoom(factor,place=[this.width/2,this.height/2]){const[x,y]=this.toWorld(
+place);const unit=Math.min(this.farthest,Math.max(this.nearest,this.unit*factor));this.x=x+(this.x-x)*
+(unit/this.unit);this.y=y+(this.y-y)*(unit/this.unit);this.unit=unit;this.changed()}wheel(e,place){e.
+preventDefault();this.zoom(Math.exp(turnOf(e)*WHEEL_SPEED*(e.ctrlKey?PINCH:1)),place)}follow(pointers,id,place){
+const before=pointers.get(id)??place;const other=[...pointers].find(([one])=>one!==id)?.[1];const share=other?
+.5:1;pointers.set(id,place);this.pan(share*(place[0]-before[0]),share*(place[1]-before[1]));if(!other)
+return;const apart=one=>Math.max(distance(one,other),1);const middle=[(place[0]+other[0])/2,(place[1]+
+other[1])/2];this.zoom(apart(before)/apart(place),middle)}};function turnOf(e){return e.deltaMode===
+LINES?e.deltaY*WHEEL_LINE:e.deltaY}function nearest(things,reach){let best=null;let least=Infinity;for(const thing of things){const far=thing.
 d+(thing.loss??0);if(!(thing.d<=reach)||far>=least)continue;best=thing;least=far}return best}function nearestVertex(loops,point,reach){
 const vertices=loops.flatMap((loop,i)=>loop.map((vertex,j)=>({loop:i,index:j,d:distance(vertex,point)})));
 return nearest(vertices,reach)}function nearestEdge(loops,point,reach){const edges=loops.flatMap(loop=>loop.
@@ -327,9 +328,9 @@ over the shape, over the background"],["I, C","pick the background's colour, the
 nife: draw a line along which the shape is cut; Esc while drawing discards it; its width is in the p\
 anel"],["P, R","draw the outline or a hole in it, a rectangle; Enter closes it, Esc discards it"]]],
 ["View",[["Wheel, + -, F","zoom after a click on the picture, fit the picture"],["Drag beside the ou\
-tline","move the view"]]]];var REACH={mouse:9,pen:12,touch:18};var ZOOM=1.25;var MARGIN=24;var HINT=8;var CALLOUT=24;var EDGE=8;
-var MOST_ZOOM=40;var FARTHEST=1e3;var COLORS=["accent","accent-soft","warn","warn-soft","faint","vei\
-l","foreground","background","check-light","check-dark"];var KEYS=/^(Arrow\w+|Delete|Backspace|Escape|Enter|[[\]])$/;
+tline","move the view"]]]];var REACH={mouse:9,pen:12,touch:18};var MARGIN=24;var HINT=8;var CALLOUT=24;var EDGE=8;var MOST_ZOOM=40;
+var FARTHEST=1e3;var COLORS=["accent","accent-soft","warn","warn-soft","faint","veil","foreground","\
+background","check-light","check-dark"];var KEYS=/^(Arrow\w+|Delete|Backspace|Escape|Enter|[[\]])$/;
 var Stage=class{canvas=make("canvas",{className:"glid-canvas",role:"application","aria-label":"Pictu\
 re and cage"});callout=make("div",{className:"glid-callout",role:"alert",hidden:true});hintText=make(
 "div",{className:"glid-hint"});drop=make("div",{className:"glid-drop",hidden:true},"Drop a picture h\

@@ -12,6 +12,7 @@ import { View } from "../pad/view.js";
 import { Ahead, marksOf } from "./ahead.js";
 import { menuRows, pinsOfMenu } from "./context_menu.js";
 import { drawBetween, drawBrush, drawLasso, drawMarks, drawOnion, drawStiff } from "./draw.js";
+import { FollowedNumbers } from "./followed.js";
 import { Ghosts } from "./ghosts.js";
 import { HELP } from "./help_table.js";
 import { Legend } from "./legend.js";
@@ -99,6 +100,7 @@ export class Canvas {
     this.room = this.interactive ? new Room(this.box, model, signal) : null;
     this.behaviour = new PinBehaviour(this);
     this.pad = new Pad(this.box, this.view, this.#listener(signal), this.behaviour);
+    this.numbers = new FollowedNumbers(this.box);
     this.clipboard = new PoseClipboard(this);
     this.corner = this.#makeCorner();
     if (this.interactive) {
@@ -401,6 +403,7 @@ export class Canvas {
   #report() {
     const { busy, refusal } = this.link;
     if (this.link.idle) this.#showTool(undefined);
+    this.#settleNumbers();
     if (this.#presses && this.link.idle && this.pad.mode === null) {
       this.#presses = false;
       this.#playing.reach();
@@ -424,13 +427,24 @@ export class Canvas {
     this.redraw();
   }
 
+  get #drags() {
+    const { mode, path, encloses } = this.pad;
+    return mode === "hand" && path.length > 1 && !encloses && !this.painting;
+  }
+
+  // The kernel's numbers count again, once it has answered all that the hand did.
+  #settleNumbers() {
+    if (this.link.idle && !this.#drags) this.numbers.settle(this.model.get("marks"));
+  }
+
   /** @param {Pen} pen */
   #drawNumbers(pen) {
     const { model, view, pad, marks } = this;
     const { pressed } = this.behaviour;
-    const drags = pad.mode === "hand" && pad.path.length > 1 && !pad.encloses;
-    const moved = drags && pressed && movedPin(pressed, marks, pad.held, model.get("picture_size"));
+    const drags = this.#drags && pressed;
+    const moved = drags && movedPin(pressed, marks, pad.held, model.get("picture_size"));
     if (!moved) return;
+    this.numbers.follow(this.allMarks, pad.held);
     const { start, keys } = pressed;
     if (start && keys?.axis) drawAxis(pen, view, start, moved.at);
     drawNumbers(pen, view, moved);

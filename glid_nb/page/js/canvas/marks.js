@@ -11,14 +11,15 @@ import { distance } from "../pad/view.js";
 // CSS pixels.
 export const KNOB = 6; // half a side of the ring's knob
 const KNOB_REACH = 4; // around the knob
-const RADIUS = 42; // of the ring of a scale of 1
+const RADIUS = 42; // of the ring, and of its knob where the scale is 1 or free
 const LEAST_RADIUS = 24; // of the knob around the pin
 const EDGE = 14; // between an arrow and the edge
 const CORNER = [36, 112]; // width and height of the buttons in the corner
 const ARROW_REACH = 12;
 
 /**
- * The ring around the pin that was selected last: where it is, and its knob, on the screen.
+ * The ring around the pin that was selected last: where it is, and its knob, on the screen. The ring
+ * is as large for every scale. A wanted scale is the knob's distance, within limits.
  *
  * @param {View} view
  * @param {Marks} marks
@@ -26,17 +27,17 @@ const ARROW_REACH = 12;
  */
 export function dial(view, marks, held) {
   const last = marks.selected.at(-1);
-  const [angle, scale] = marks.ring;
+  const [angle, scale, , scaled] = marks.ring;
   if (angle === undefined || scale === undefined) return null;
   if (last === undefined || !marks.targets[last]) return null;
   const centre = view.toScreen(held?.get(last) ?? marks.targets[last]);
-  const radius = RADIUS * Math.min(2.5, Math.max(0.5, scale));
-  return { centre, radius, knob: knobInside(view, centre, radius, angle) };
+  const far = RADIUS * (scaled ? Math.min(2.5, Math.max(0.5, scale)) : 1);
+  return { centre, radius: RADIUS, knob: knobInside(view, centre, far, angle) };
 }
 
 /**
- * The place of the knob: on the ring at its angle, as far as the view goes. Near a corner of the view
- * that would be on the pin, so there it is on the ring at another angle.
+ * The place of the knob: at its angle and distance, as far as the view goes. Near a corner of the view
+ * that would be on the pin, so there it is at another angle.
  *
  * @param {View} view
  * @param {Point} centre

@@ -68,12 +68,15 @@ function pinOf({ found, pins }, { selected, targets }) {
   return found?.part || targets.length > pins ? selected.at(-1) : undefined;
 }
 
-/** @param {Marks["ring"]} ring */
-function turnWords([angle = 0, scale = 1, turned, scaled]) {
-  const words = [];
-  if (turned) words.push(`${Number(((angle * 180) / Math.PI).toFixed(1))}°`);
-  if (scaled) words.push(`× ${scale.toFixed(2)}`);
-  return words;
+/**
+ * By how much the shape is turned and scaled at a pin, also where that is free.
+ *
+ * @param {Marks["ring"]} ring
+ */
+export function turnWords([angle = 0, scale = 1, turned, scaled]) {
+  const freely = (/** @type {boolean | undefined} */ wanted) => (wanted ? "" : " free");
+  const degrees = Number(((angle * 180) / Math.PI).toFixed(1)) || 0; // avoids -0
+  return [`${degrees}°${freely(turned)}`, `× ${scale.toFixed(2)}${freely(scaled)}`];
 }
 
 /**

@@ -1,7 +1,9 @@
 // How the pad behaves over a shape with pins.
 
+import { ZOOM } from "../pad/view.js";
 import { constrained } from "./constrain.js";
 import { markAt, pinBetweenAt, ringAt } from "./marks.js";
+import { turnWords } from "./numbers.js";
 import { movedWith } from "./pin_marks.js";
 
 /** @import { Found, Mark, Point } from "../types.js" */
@@ -51,6 +53,8 @@ export class PinBehaviour {
       "tool:": () => canvas.takeTool(""),
       "tool:stiff": () => canvas.takeTool("stiff"),
       "tool:erase": () => canvas.takeTool("erase"),
+      "zoom:in": () => canvas.view.zoom(1 / ZOOM),
+      "zoom:out": () => canvas.view.zoom(ZOOM),
     };
   }
 
@@ -197,8 +201,8 @@ export class PinBehaviour {
   /** @param {Found | null} found */
   #tip(found) {
     if (!found) return "";
-    if (found.part) return RING_TIPS[found.part];
     const { marks, model, shapes } = this.canvas;
+    if (found.part) return `${turnWords(marks.ring).join(", ")}. ${RING_TIPS[found.part]}`;
     const mark = Number(found.mark);
     if (shapes.motion) {
       return `Pin ${mark + 1}: ${this.#locked(found) ? BETWEEN_LOCKED : BETWEEN_TIP}`;

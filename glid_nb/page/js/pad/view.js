@@ -2,6 +2,7 @@
 
 /** @import { Point } from "../types.js" */
 
+export const ZOOM = 1.25; // by a button or a key
 const WHEEL_SPEED = 0.0015;
 const WHEEL_LINE = 33; // CSS pixels
 const LINES = 1; // WheelEvent.DOM_DELTA_LINE

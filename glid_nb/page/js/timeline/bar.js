@@ -43,7 +43,6 @@ const EASE = "M2.5 13.5C8 13.5 8 2.5 13.5 2.5"; // an icon
 
 export class Bar {
   recording = false;
-  #repeat = ""; // what the motion does as a whole
   onionOn = false;
   #range = new Option(OF_RANGE[1], OF_RANGE[0]);
 
@@ -51,8 +50,7 @@ export class Bar {
   constructor({ play, keep, act, edit, zoom, ease }) {
     this.play = iconButton("play", "Play, pause (Space)", play);
     this.repeat = menu("Play once, in a loop, or there and back", REPEATS, (repeat) => {
-      if (this.#range.parentElement) act("set_loop_range", { range: null });
-      if (repeat !== this.#repeat) act("set_repeat", { repeat });
+      if (repeat !== OF_RANGE[0]) act("play_all", { repeat }); // one step, also from a range
     });
     this.clock = make("span", { className: "glid-time", role: "timer" });
     this.record = iconButton("record", "Record: keep the next drag as keyframes", () =>
@@ -89,7 +87,6 @@ export class Bar {
    */
   update({ keyframes, repeat, range, recording, onion, exports }) {
     const alone = keyframes.length < 2;
-    this.#repeat = repeat;
     if (range) this.repeat.append(this.#range);
     else this.#range.remove();
     this.repeat.value = range ? OF_RANGE[0] : repeat;

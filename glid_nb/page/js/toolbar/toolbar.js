@@ -35,6 +35,8 @@ export class Toolbar {
       { className: "glid-skin glid-toolbar glid-tools", role: "toolbar", "aria-label": "Deform" },
       ...[...this.tools, gap(), this.undo, this.redo, gap(), this.view.button, this.view.menu],
       make("span", { className: "glid-grow" }),
+      iconButton("minus", "Zoom out (wheel)", () => this.#press("zoom:out")),
+      iconButton("plus", "Zoom in (wheel)", () => this.#press("zoom:in")),
       iconButton("fit", "See everything (F)", () => this.#press("f")),
       drawnButton(INSPECTOR, "Hide the inspector, show it again (I)", () => this.#press("i")),
       iconButton("screen", "Full screen (W)", () => this.#press("w")),

@@ -46,7 +46,9 @@ export class ViewMenu {
         "aria-label": "What the canvas shows",
         popover: "auto",
       },
-      ...[...this.overlays, make("hr"), ...this.checks, make("hr"), this.reference, picture],
+      group("Show", this.overlays),
+      group("Overlays", this.checks),
+      ...[make("hr"), this.reference, picture],
     );
     this.label = make("span", { className: "glid-view-label" });
     this.button = make("button", {
@@ -102,6 +104,21 @@ export class ViewMenu {
     const focused = items.indexOf(/** @type {HTMLButtonElement} */ (document.activeElement));
     items.at((focused + by) % items.length)?.focus();
   }
+}
+
+let groups = 0; // of all menus in the page
+
+/**
+ * Items below a head, which names them for screen readers too.
+ *
+ * @param {string} name
+ * @param {HTMLElement[]} items
+ */
+function group(name, items) {
+  groups += 1;
+  const id = `glid-view-group-${groups}`;
+  const head = make("div", { id, className: "glid-menu-head", role: "presentation" }, name);
+  return make("div", { role: "group", "aria-labelledby": id }, head, ...items);
 }
 
 /**

@@ -81,6 +81,7 @@ export class NumberControl {
     this.option = option;
     this.slider = make("input", {
       type: "range",
+      className: "glid-slider",
       min: 0,
       max: STEPS,
       step: 1,

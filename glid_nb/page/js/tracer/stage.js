@@ -4,7 +4,7 @@ import { make } from "../pad/dom.js";
 import { holeAt, nearestEdge, nearestVertex } from "../pad/hit.js";
 import { Pad } from "../pad/pad.js";
 import { painter, rectangle } from "../pad/pen.js";
-import { View } from "../pad/view.js";
+import { View, ZOOM } from "../pad/view.js";
 import { drawStage } from "./draw.js";
 import { TOOLS } from "./tools.js";
 
@@ -15,7 +15,6 @@ import { TOOLS } from "./tools.js";
 /** @import { Shown, Tool } from "./traits.js" */
 
 const REACH = { mouse: 9, pen: 12, touch: 18 }; // CSS pixels around the pointer
-const ZOOM = 1.25; // by a button or a key
 const MARGIN = 24; // CSS pixels around a picture that fits
 const HINT = 8; // CSS pixels above and below the hint
 const CALLOUT = 24; // CSS pixels between a problem's place and its message

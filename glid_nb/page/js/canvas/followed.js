@@ -1,0 +1,153 @@
+// The inspector's numbers of pins follow the hand. While a pin is dragged, the page writes them, and
+// once the drag has ended, the kernel's count.
+
+/** @import { Mark, Point } from "../types.js" */
+/** @import { Marks } from "./traits.js" */
+
+/**
+ * The numbers of a pin as `glid_nb.widgets.pins` writes them: those of its fields, and its place in
+ * the list.
+ *
+ * @param {Point} place
+ * @param {Marks["ring"]} ring of the pin that was selected last; empty fields are free
+ */
+export function wordsOf([x, y], [angle = 0, scale = 1, turned, scaled]) {
+  return {
+    x: rounded(x),
+    y: rounded(y),
+    angle: turned ? significant((angle * 180) / Math.PI) : "",
+    scale: scaled ? significant(scale) : "",
+    detail: `${short(x)}, ${short(y)}`,
+  };
+}
+
+/** @param {number} number */
+function rounded(number) {
+  return String(Number(number.toFixed(3)) || 0); // avoids -0
+}
+
+/** @param {number} number */
+function significant(number) {
+  return String(Number(Number(number.toFixed(4)).toPrecision(4)) || 0);
+}
+
+/** @param {number} number */
+function short(number) {
+  return (Number(number.toFixed(2)) || 0).toFixed(2).replace("-", "\u2212");
+}
+
+/**
+ * Whether the kernel still means what it said before the page wrote something else. Its numbers are
+ * rounded on the way here, so the nearer text counts.
+ *
+ * @param {string} said by the kernel, before
+ * @param {string} wrote
+ * @param {string} now what the kernel's marks say
+ */
+export function meansStill(said, wrote, now) {
+  if (now === wrote || said === wrote) return false;
+  const apart = (/** @type {string} */ one) => Math.abs(numberIn(one) - numberIn(now));
+  return now === said || apart(said) < apart(wrote);
+}
+
+/** @param {string} text a number, or two, of which the sum tells enough */
+function numberIn(text) {
+  const numbers = text.replaceAll("\u2212", "-").split(",").map(Number.parseFloat);
+  return numbers[0] + Math.PI * (numbers[1] ?? 0);
+}
+
+/** A text of the inspector: a field, or a cell of the list. */
+class Written {
+  said = ""; // by the kernel
+  wrote = "";
+
+  /** @param {HTMLElement} element */
+  constructor(element) {
+    this.element = element;
+    this.said = this.text;
+    this.wrote = this.said;
+  }
+
+  get text() {
+    const { element } = this;
+    return element instanceof HTMLInputElement ? element.value : (element.textContent ?? "");
+  }
+
+  /** @param {string} text */
+  put(text) {
+    if (this.text !== this.wrote) this.said = this.text; // the kernel has told of another
+    this.wrote = text;
+    if (this.text === text) return;
+    if (this.element instanceof HTMLInputElement) this.element.value = text;
+    else this.element.textContent = text;
+  }
+
+  /** @param {string} now what the kernel's marks say */
+  settle(now) {
+    if (this.text === this.wrote && meansStill(this.said, this.wrote, now)) this.put(this.said);
+  }
+}
+
+export class FollowedNumbers {
+  /** @type {Map<HTMLElement, Written>} */
+  #written = new Map();
+
+  /** @param {HTMLElement} pad of the canvas */
+  constructor(pad) {
+    this.pad = pad;
+  }
+
+  /**
+   * Writes the numbers of the pins that are moved.
+   *
+   * @param {Marks} marks
+   * @param {Map<Mark, Point>} held where the pointer holds targets
+   */
+  follow(marks, held) {
+    for (const [element, text] of this.#texts(marks, held)) {
+      const written = this.#written.get(element) ?? new Written(element);
+      this.#written.set(element, written);
+      written.put(text);
+    }
+  }
+
+  /**
+   * After a drag, once the kernel has answered: what it has not told of anew, as nothing has changed
+   * in the end, is shown again.
+   *
+   * @param {Marks} marks the kernel's
+   */
+  settle(marks) {
+    if (!this.#written.size) return;
+    for (const [element, text] of this.#texts(marks, new Map())) {
+      this.#written.get(element)?.settle(text);
+    }
+    this.#written.clear();
+  }
+
+  /**
+   * The inspector's texts of the pin that was selected last, and of the pins that are moved.
+   *
+   * @param {Marks} marks
+   * @param {Map<Mark, Point>} held
+   * @returns {[element: HTMLElement, text: string][]}
+   */
+  #texts({ targets, selected, ring }, held) {
+    const side = this.pad.closest(".glid-editor")?.querySelector(".glid-side .glid-bars");
+    const last = selected.at(-1);
+    if (!side || last === undefined || !targets[last]) return [];
+    const { detail: _, ...fields } = wordsOf(held.get(last) ?? targets[last], ring);
+    /** @type {[HTMLElement | null, string][]} */
+    const found = Object.entries(fields).map(([name, text]) => {
+      return [side.querySelector(`.glid-number-${name} input`), text];
+    });
+    const cells = /** @type {NodeListOf<HTMLElement>} */ (
+      side.querySelectorAll(".glid-entry-detail")
+    );
+    for (const [i, cell] of cells.entries()) {
+      const place = held.get(i) ?? targets[i];
+      if (place) found.push([cell, wordsOf(place, []).detail]);
+    }
+    return /** @type {[HTMLElement, string][]} */ (found.filter(([element]) => element));
+  }
+}
