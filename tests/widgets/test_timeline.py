@@ -148,7 +148,8 @@ def test_pins_are_told_for_every_time_as_a_drag_there_takes_them(panel: Timeline
     model.mark_pins([2], hidden=True)
     assert panel.animation.wait(TIMEOUT)
 
-    (span,) = panel.pins["spans"]
+    pins: dict[str, Any] = panel.pins  # type: ignore[assignment]
+    (span,) = pins["spans"]
     knots = span["times"]
     assert len(knots) > 2
     assert (span["end"], span["locked"]) == (1.0, [0])
@@ -162,7 +163,7 @@ def test_pins_are_told_for_every_time_as_a_drag_there_takes_them(panel: Timeline
         map_ = panel.animation.at(time)
         assert map_ is not None
         np.testing.assert_allclose(here[:2], map_(model.pose.handles[:2]))
-    later = np.frombuffer(panel.pins["later"]["floats"], np.float32).reshape(3, 2)
+    later = np.frombuffer(pins["later"]["floats"], np.float32).reshape(3, 2)
     np.testing.assert_allclose(later[1], [6, 2])
     np.testing.assert_array_equal(panel.animation.pins(3.0)[1], [6, 2])
     np.testing.assert_array_equal(panel.animation.pins(1.0)[1], [6, 2])
@@ -184,8 +185,9 @@ def test_pins_of_a_shape_without_any_are_none(panel: TimelinePanel) -> None:
     model = panel.canvas.deformation
     act(panel, "keep", time=0)
     assert panel.animation.wait(TIMEOUT)
-    assert [span["floats"] for span in panel.pins["spans"]] == [b""]
-    assert panel.pins["later"] == {"floats": b"", "locked": []}
+    pins: dict[str, Any] = panel.pins  # type: ignore[assignment]
+    assert [span["floats"] for span in pins["spans"]] == [b""]
+    assert pins["later"] == {"floats": b"", "locked": []}
     assert panel.animation.pins(0.5).shape == (0, 2)
     assert model.state.timeline.times == (0.0, 1.0)
 
