@@ -431,8 +431,9 @@ box.dispatchEvent(new CustomEvent("glid:key",{bubbles:true})),p:()=>canvas.room?
 reference.toggle(),w:()=>canvas.room?.fullScreen(),"tool:":()=>canvas.takeTool(""),"tool:stiff":()=>canvas.
 takeTool("stiff"),"tool:erase":()=>canvas.takeTool("erase"),"zoom:in":()=>canvas.view.zoom(1/ZOOM),"\
 zoom:out":()=>canvas.view.zoom(ZOOM)}}pressing(key){if(key==="Escape")this.canvas.putBrushAway()}get painting(){
-return this.canvas.painting}changed(){this.canvas.followHand();this.canvas.redraw()}menu(place,found){
-if(!this.canvas.shapes.motion)this.canvas.openMenu(place,found)}pressedAt(){return this.canvas.pressedAt()}tapped(){
+return this.canvas.painting}changed(){const{pad}=this.canvas;if(pad.encloses&&pad.path.length>2)this.
+canvas.leaveMotion();this.canvas.followHand();this.canvas.redraw()}menu(place,found){if(!this.canvas.
+shapes.motion)this.canvas.openMenu(place,found)}pressedAt(){return this.canvas.pressedAt()}tapped(){
 this.canvas.box.dispatchEvent(new CustomEvent("glid:play",{bubbles:true}))}find(point,reach){const{view,
 marks,reachable:reachable2,shapes,painting}=this.canvas;if(painting)return null;if(shapes.motion)return pinBetweenAt(
 this.canvas.between.places,point,reach);const mark=markAt(reachable2,point,reach);return mark??ringAt(
@@ -818,38 +819,39 @@ help.toggle};const count=mark!==null&&selected.includes(mark)?selected.length:1;
 null&&coveredNear(this.box,at);const hides=this.model.get("pins").away.length>0;openMenu(this.box,at,
 menuRows(does,mark===null?null:count,covered,hides))}showMotion(motion=null,playing=STILL,heights=null,parts={},pins=null){
 this.between=pins??NO_PINS;this.#playing=playing;this.shapes.motion=motion;this.shapes.partMotions=parts;
-this.shapes.lift(heights);this.showLegend();this.shapes.refresh();this.pad.hover();this.redraw()}showLegend(){
-this.legend.show(this.model,Boolean(this.shapes.motion))}takeFocus(){const{painting}=this;const chosen=painting&&
-!this.#painted;this.#painted=painting;const side=this.box.closest(".glid-editor")?.querySelector(".g\
-lid-side");if(chosen&&side?.contains(document.activeElement))this.box.focus({preventScroll:true})}showNotice(){
-const first=this.interactive&&!this.marks.targets.length;this.notices.tell(this.model.get("notice"),
-this.painting,first)}fit(){const{model,view,box}=this;view.width=model.get("width");view.height=model.
-get("height");[view.x,view.y,view.unit]=model.get("view");box.style.width=`${view.width}px`;box.style.
-height=`${view.height}px`;this.room?.shrink();this.#see()}reveal(){const{selected,targets,images}=this.
-marks;const now=selected.length===1?selected[0]:void 0;if(now===this.#chosen)return;this.#chosen=now;
-if(now===void 0||this.pad.mode)return;if(!Number.isFinite(targets[now]?.[0]))return;if(inSight(this.
-view,targets[now])||inSight(this.view,images[now]))return;this.view.centreOn(targets[now])}pressedAt(){
-if(!this.shapes.motion)return void 0;this.#presses=true;return this.#playing.pause()}#pressed(e){this.#press(
-e.detail)}#press(key,shift=false){const act=this.behaviour.actions[key];if(act)act();else this.pad.press(
-key,{shiftKey:shift})}#takeFirst(){const take=e=>{if(!this.shapes.motion)return false;e.stopImmediatePropagation();
-e.preventDefault();return true};const goBack=e=>take(e)&&this.#playing.release();const capture=true;
-this.box.addEventListener("pointerdown",e=>e.button===2&&take(e),{capture});this.box.addEventListener(
-"contextmenu",take,{capture});const ours=e=>!e.ctrlKey&&!e.metaKey&&KEYS.test(keyOf(e));this.box.addEventListener(
-"keydown",e=>ours(e)&&goBack(e),{capture});const openedByKeys=e=>{if(e.key!=="F10"||!e.shiftKey)return;
-e.stopImmediatePropagation();e.preventDefault();this.openMenu()};this.box.addEventListener("keydown",
-openedByKeys,{capture});const followArrow=e=>{const target=arrowAt(this.view,this.marks,this.pad.place(
-e));if(!target||e.target!==this.box||this.shapes.motion)return;this.view.centreOn(target);e.stopImmediatePropagation()};
-this.box.addEventListener("pointerdown",followArrow,{capture})}#makeCorner(){const look="glid-help-b\
-utton";return make("div",{className:"glid-corner"},this.help.button,iconButton("screen","Full screen\
- (W)",()=>this.room?.fullScreen(),look),iconButton("rectangle","The picture alone (P)",()=>this.room?.
-alone(),look))}#report(){const{busy,refusal}=this.link;if(this.link.idle)this.#showTool(void 0);this.#settleNumbers();
-if(this.#presses&&this.link.idle&&this.pad.mode===null){this.#presses=false;this.#playing.reach();this.
-behaviour.motionLeft()}if(!busy&&refusal&&refusal!==this.model.get("notice"))this.say(refusal)}#viewMoved(){
-this.#see();clearTimeout(this.#saving);this.#saving=setTimeout(()=>{const{x,y,unit}=this.view;save(this.
-model,{view:[x,y,unit]})},SAVE_VIEW_AFTER)}#see(){this.shapes.see();this.reference.place();this.redraw()}get#drags(){
-const{mode,path,encloses:encloses2}=this.pad;return mode==="hand"&&path.length>1&&!encloses2&&!this.
-painting}#settleNumbers(){if(this.link.idle&&!this.#drags)this.numbers.settle(this.model.get("marks"))}#drawNumbers(pen){
-const{model,view,pad,marks}=this;const{pressed}=this.behaviour;const drags=this.#drags&&pressed;const moved=drags&&
+this.shapes.lift(heights);this.showLegend();this.shapes.refresh();this.pad.hover();this.redraw()}leaveMotion(){
+if(this.shapes.motion)this.#playing.release()}showLegend(){this.legend.show(this.model,Boolean(this.
+shapes.motion))}takeFocus(){const{painting}=this;const chosen=painting&&!this.#painted;this.#painted=
+painting;const side=this.box.closest(".glid-editor")?.querySelector(".glid-side");if(chosen&&side?.contains(
+document.activeElement))this.box.focus({preventScroll:true})}showNotice(){const first=this.interactive&&
+!this.marks.targets.length;this.notices.tell(this.model.get("notice"),this.painting,first)}fit(){const{
+model,view,box}=this;view.width=model.get("width");view.height=model.get("height");[view.x,view.y,view.
+unit]=model.get("view");box.style.width=`${view.width}px`;box.style.height=`${view.height}px`;this.room?.
+shrink();this.#see()}reveal(){const{selected,targets,images}=this.marks;const now=selected.length===
+1?selected[0]:void 0;if(now===this.#chosen)return;this.#chosen=now;if(now===void 0||this.pad.mode)return;
+if(!Number.isFinite(targets[now]?.[0]))return;if(inSight(this.view,targets[now])||inSight(this.view,
+images[now]))return;this.view.centreOn(targets[now])}pressedAt(){if(!this.shapes.motion)return void 0;
+this.#presses=true;return this.#playing.pause()}#pressed(e){this.#press(e.detail)}#press(key,shift=false){
+const act=this.behaviour.actions[key];if(act)act();else this.pad.press(key,{shiftKey:shift})}#takeFirst(){
+const take=e=>{if(!this.shapes.motion)return false;e.stopImmediatePropagation();e.preventDefault();return true};
+const goBack=e=>take(e)&&this.#playing.release();const capture=true;this.box.addEventListener("point\
+erdown",e=>e.button===2&&take(e),{capture});this.box.addEventListener("contextmenu",take,{capture});
+const ours=e=>!e.ctrlKey&&!e.metaKey&&KEYS.test(keyOf(e));this.box.addEventListener("keydown",e=>ours(
+e)&&goBack(e),{capture});const openedByKeys=e=>{if(e.key!=="F10"||!e.shiftKey)return;e.stopImmediatePropagation();
+e.preventDefault();this.openMenu()};this.box.addEventListener("keydown",openedByKeys,{capture});const followArrow=e=>{
+const target=arrowAt(this.view,this.marks,this.pad.place(e));if(!target||e.target!==this.box||this.shapes.
+motion)return;this.view.centreOn(target);e.stopImmediatePropagation()};this.box.addEventListener("po\
+interdown",followArrow,{capture})}#makeCorner(){const look="glid-help-button";return make("div",{className:"\
+glid-corner"},this.help.button,iconButton("screen","Full screen (W)",()=>this.room?.fullScreen(),look),
+iconButton("rectangle","The picture alone (P)",()=>this.room?.alone(),look))}#report(){const{busy,refusal}=this.
+link;if(this.link.idle)this.#showTool(void 0);this.#settleNumbers();if(this.#presses&&this.link.idle&&
+this.pad.mode===null){this.#presses=false;this.#playing.reach();this.behaviour.motionLeft()}if(!busy&&
+refusal&&refusal!==this.model.get("notice"))this.say(refusal)}#viewMoved(){this.#see();clearTimeout(
+this.#saving);this.#saving=setTimeout(()=>{const{x,y,unit}=this.view;save(this.model,{view:[x,y,unit]})},
+SAVE_VIEW_AFTER)}#see(){this.shapes.see();this.reference.place();this.redraw()}get#drags(){const{mode,
+path,encloses:encloses2}=this.pad;return mode==="hand"&&path.length>1&&!encloses2&&!this.painting}#settleNumbers(){
+if(this.link.idle&&!this.#drags)this.numbers.settle(this.model.get("marks"))}#drawNumbers(pen){const{
+model,view,pad,marks}=this;const{pressed}=this.behaviour;const drags=this.#drags&&pressed;const moved=drags&&
 movedPin(pressed,marks,pad.held,model.get("picture_size"));if(!moved)return;this.numbers.follow(this.
 allMarks,pad.held);const{start,keys}=pressed;if(start&&keys?.axis)drawAxis(pen,view,start,moved.at);
 drawNumbers(pen,view,moved)}#draw(pen){const{model,view,pad,marks,brush}=this;const{motion}=this.shapes;
