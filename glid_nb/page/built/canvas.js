@@ -518,7 +518,7 @@ ts *"))return"Plots of the solve";const widget=control.closest(".jupyter-widgets
 querySelector(".widget-label")?.textContent?.trim();return label||widget?.getAttribute("title")||labelBefore(
 widget??control)}function labelBefore(one){let before=one.previousElementSibling;while(before&&!before.
 matches(".widget-label"))before=before.previousElementSibling;return before?.textContent?.trim()??""}var PAGE=124;var PARTS=44+110+28+2;var LEAST=280;var BESIDE3=400;var PLOTS=477;var SLACK=20;var SETTLE=80;
-var NARROW=600;var Room=class{#root=null;#last={width:0,height:0,alone:0};#decides=false;#told="";#room=null;#timer;constructor(pad,model,signal){
+var NARROW=600;var CLOSE=800;var Room=class{#root=null;#last={width:0,height:0,alone:0};#decides=false;#told="";#room=null;#timer;constructor(pad,model,signal){
 this.pad=pad;this.model=model;this.signal=signal;this.observer=new ResizeObserver(()=>this.#measureSoon());
 this.observer.observe(pad);window.addEventListener("resize",()=>this.#measureSoon(),{signal});window.
 addEventListener("keydown",e=>this.#escape(e),{signal,capture:true});model.on("change:room",()=>{if(String(
@@ -538,24 +538,25 @@ if(e.key!=="Escape"||!this.#last.alone)return;if(this.pad.matches(":active, :has
 r-open)"))return;e.stopPropagation();this.alone(false)}#measureSoon(){clearTimeout(this.#timer);this.#timer=
 setTimeout(()=>this.#measure(),SETTLE)}#measure(){const root=this.pad.closest(".glid-editor");const shell=this.
 pad.closest(".glid-shell");if(!root||!shell?.clientWidth)return;root.classList.toggle("glid-narrow",
-root.clientWidth<NARROW);const room=this.#roomIn(root,shell);if(!this.#root)this.#begin(root,shell,room);
-this.#room=room;this.shrink();if(!this.#decides)return;const last=this.#last;const wider=room.width-
-last.width;const same=room.height===last.height&&room.alone===last.alone;if(same&&wider>=0&&wider<SLACK)
-return;this.#last=room;const numbers=[room.width,room.height,room.alone].map(Math.floor);this.#told=
-String(numbers);save(this.model,{room:numbers})}#begin(root,shell,room){this.#root=root;this.observer.
-observe(root);this.observer.observe(shell);const plots=shell.querySelector(".glid-plots-box");if(plots)
-this.observer.observe(plots);nameControls(root,this.signal);const[width=0]=this.model.get("room");this.#decides=
-room.width>width;root.addEventListener("pointerup",()=>this.#decide(),{signal:this.signal});const inspected=()=>this.
-toggleInspector(false);root.addEventListener("glid:inspect",inspected,{signal:this.signal})}#decide(){
-if(this.#decides)return;this.#decides=true;this.#last={width:0,height:0,alone:0};this.#measureSoon()}shrink(){
-const whole=this.pad.closest(".glid-deform");if(!whole||!this.#room)return;const panes=whole.querySelectorAll(
-".glid-pane");const widths=[...panes].map(pane=>Number.parseFloat(pane.style.width)||0);const share=this.#room.
-width/widths.reduce((sum,width)=>sum+width,0);whole.style.zoom=share<1&&!this.#decides?String(share):
-""}#roomIn(root,shell){const page=document.fullscreenElement===root?0:PAGE;const below=window.innerHeight-
-page;if(root.classList.contains("glid-alone")){return{width:root.clientWidth,height:below,alone:1}}const narrow=root.
-classList.contains("glid-narrow");const side=shell.querySelector(".glid-side");const plots=shell.querySelector(
-".glid-plots-box");const beside=shell.clientWidth-(narrow?0:side?.offsetWidth??0);const plotted=Boolean(
-plots?.offsetWidth)&&!narrow&&beside-PLOTS>=BESIDE3;shell.classList.toggle("glid-beside",plotted);const width=plotted?
+root.clientWidth<NARROW);root.classList.toggle("glid-close",root.clientWidth<CLOSE);const room=this.#roomIn(
+root,shell);if(!this.#root)this.#begin(root,shell,room);this.#room=room;this.shrink();if(!this.#decides)
+return;const last=this.#last;const wider=room.width-last.width;const same=room.height===last.height&&
+room.alone===last.alone;if(same&&wider>=0&&wider<SLACK)return;this.#last=room;const numbers=[room.width,
+room.height,room.alone].map(Math.floor);this.#told=String(numbers);save(this.model,{room:numbers})}#begin(root,shell,room){
+this.#root=root;this.observer.observe(root);this.observer.observe(shell);const plots=shell.querySelector(
+".glid-plots-box");if(plots)this.observer.observe(plots);nameControls(root,this.signal);const[width=0]=this.
+model.get("room");this.#decides=room.width>width;root.addEventListener("pointerup",()=>this.#decide(),
+{signal:this.signal});const inspected=()=>this.toggleInspector(false);root.addEventListener("glid:in\
+spect",inspected,{signal:this.signal})}#decide(){if(this.#decides)return;this.#decides=true;this.#last=
+{width:0,height:0,alone:0};this.#measureSoon()}shrink(){const whole=this.pad.closest(".glid-deform");
+if(!whole||!this.#room)return;const panes=whole.querySelectorAll(".glid-pane");const widths=[...panes].
+map(pane=>Number.parseFloat(pane.style.width)||0);const share=this.#room.width/widths.reduce((sum,width)=>sum+
+width,0);whole.style.zoom=share<1&&!this.#decides?String(share):""}#roomIn(root,shell){const page=document.
+fullscreenElement===root?0:PAGE;const below=window.innerHeight-page;if(root.classList.contains("glid\
+-alone")){return{width:root.clientWidth,height:below,alone:1}}const narrow=root.classList.contains("\
+glid-narrow");const side=shell.querySelector(".glid-side");const plots=shell.querySelector(".glid-pl\
+ots-box");const beside=shell.clientWidth-(narrow?0:side?.offsetWidth??0);const plotted=Boolean(plots?.
+offsetWidth)&&!narrow&&beside-PLOTS>=BESIDE3;shell.classList.toggle("glid-beside",plotted);const width=plotted?
 beside-PLOTS:beside;const above=shell.getBoundingClientRect().top-root.getBoundingClientRect().top;return{
 width,height:Math.max(LEAST,below-above/scaleOf(root).down-PARTS),alone:0}}};var FRAME=16;var SHARE=.5;var REST=200;var Detail=class{#views;#less=new Map;#timer;constructor(views){
 this.#views=views}moved(drawingTime2){if(drawingTime2<=FRAME)return;clearTimeout(this.#timer);this.#timer=
