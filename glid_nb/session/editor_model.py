@@ -286,11 +286,11 @@ class EditorModel(Observed):
 
     @property
     def name(self) -> str:
-        """The stem for names of files: that of the picture's file or sample, else "session"."""
+        """The stem for names of files: that of the picture's file or sample, else "glid"."""
         if self._session is None:
-            return "session"
+            return "glid"
         known = portable_name(self._session.tracing.name)
-        return known or samples.name_of(self._session.image) or "session"
+        return known or samples.name_of(self._session.image) or "glid"
 
     def apply_tracing(self) -> str:
         """Deform the present tracing. This is a step for undo; another picture starts a new

@@ -247,10 +247,10 @@ class DeformCanvas(ClosingWidget, ipywidgets.HBox):
 
     def _take_room(self, _: Any = None) -> None:
         with self.deformation.locked():
-            width, height, alone = self.pane.stage.room
+            width, height, fills = self.pane.stage.room
             if self._closed:
                 return
-            if not alone:
+            if not fills:
                 asked, tall = self._asked
                 width = min(width, asked or width)
                 usual = width * _USUAL_SIZE[1] // _USUAL_SIZE[0]

@@ -82,6 +82,8 @@ class _PinPress:
     """Angles and scales of the selected handles when the pointer was at ``start``."""
     turns: bool = False
     scales: bool = False
+    hit: int | None = None
+    """The pressed handle, which a click without a key selects alone."""
     toggled: int | None = None
     """The handle that a click with Shift adds to the selection, or takes from it."""
     locked: int | None = None
@@ -190,7 +192,9 @@ class PinGestures(Gestures):
         if not toggles and hit not in model.selection:
             model.select([hit])
         if model.state.marks[hit].locked:
-            self._press = _PinPress(point, None, None, locked=hit, toggled=hit if toggles else None)
+            self._press = _PinPress(
+                point, None, None, hit=hit, locked=hit, toggled=hit if toggles else None
+            )
         elif toggles:
             # A click selects several; a drag moves along an axis.
             chosen = hit in model.selection
@@ -199,7 +203,7 @@ class PinGestures(Gestures):
         elif event.get("alt"):
             self._press = self._turning(point, None, "turn")
         else:
-            self._press = _PinPress(point, None, model.pose.targets[self._movable()])
+            self._press = _PinPress(point, None, model.pose.targets[self._movable()], hit=hit)
 
     def _turning(self, point: Array, source: Array | None, part: str) -> _PinPress:
         turned = turned_now(self.deformation.state, self._movable())
@@ -293,7 +297,9 @@ class PinGestures(Gestures):
         elif press.toggled is not None:
             model = self.deformation
             model.select(switched(model.state.marks, model.selection, press.toggled))
-        elif press.targets is None and press.locked is None:
+        elif press.hit is not None:
+            self.deformation.select([press.hit])
+        elif press.targets is None:
             if press.source is not None:
                 self._pin_at(press.source)
             elif not event["shift"] and not press.part:

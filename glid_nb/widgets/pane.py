@@ -70,7 +70,7 @@ class Stage(Pad):
     height = traitlets.Int(500).tag(sync=True)  # height in CSS pixels
     room = traitlets.List(traitlets.Int(), []).tag(sync=True)
     """Width and height that the surrounding editor has for the canvas, in CSS pixels, then 1 if the
-    editor shows nothing else; empty without an editor."""
+    canvas fills it, whatever its shape; empty without an editor."""
     view = traitlets.List(traitlets.Float(), [0.0, 0.0, 0.04]).tag(sync=True)
     """Centre (x, y) in world units, and the world units of one CSS pixel."""
     coefficients = traitlets.Bytes(b"").tag(sync=True)

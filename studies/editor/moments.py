@@ -45,6 +45,11 @@ HEAD, HAND, OTHER_HAND, FOOT, OTHER_FOOT, CHEST, HIP, *_, TAIL = load_pose(
 ).handles.tolist()
 POSES = "len(editor.poses) == {}"
 RING = 42  # pixels from a pin to its ring
+# Whether the canvas has taken the room of the whole screen.
+FILLED = """() => {
+  const pad = document.querySelector('.glid-editor .glid-pad').getBoundingClientRect();
+  return Math.abs(pad.width - innerWidth) < 20;
+}"""
 
 
 class Chapters:
@@ -154,13 +159,18 @@ class Chapters:
         root.locator(".glid-ease").wait_for()
         yield "ease"
         page.keyboard.press("Escape")
+        # There and back: the motion does not end before it was pictured in every look.
+        root.get_by_label("Play once, in a loop, or there and back").select_option("ping-pong")
         page.get_by_role("button", name="Play, pause").first.click()
         root.locator(".glid-playhead.glid-seen").wait_for()
         yield "playing"
         page.get_by_role("button", name="Play, pause").first.click()
+        root.locator(".glid-ruler").press("End")  # where the edited pose is
         hand.pad.focus()
         page.keyboard.press("w")
         page.wait_for_function("!!document.fullscreenElement")
+        page.wait_for_function(FILLED)
+        hand.wait_until_still()
         yield "whole-screen"
         page.evaluate("document.exitFullscreen()")
         page.wait_for_function("!document.fullscreenElement")

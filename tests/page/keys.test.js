@@ -5,6 +5,8 @@ import { test } from "node:test";
 import { menuRows } from "../../glid_nb/page/js/canvas/context_menu.js";
 import { keyOf, undoOrRedo } from "../../glid_nb/page/js/pad/keys.js";
 
+/** @import { PinMarks } from "../../glid_nb/page/js/canvas/traits.js" */
+
 const PLAIN = { ctrlKey: false, metaKey: false, shiftKey: false };
 
 test("Ctrl or Cmd with Z undoes, with Shift and Z or with Y redoes", () => {
@@ -38,11 +40,11 @@ test("Latin keyboards of any arrangement say themselves what they type", () => {
 /**
  * The menu's labels, and the keys that its rows press.
  *
- * @param {number | null} pins
+ * @param {number[] | null} pins
  * @param {boolean} covered
- * @param {boolean} [hides]
+ * @param {Partial<PinMarks>} [marks]
  */
-function menu(pins, covered, hides = false) {
+function menu(pins, covered, marks = {}) {
   /** @type {string[]} */
   const pressed = [];
   const nothing = () => {};
@@ -57,24 +59,35 @@ function menu(pins, covered, hides = false) {
     fullScreen: nothing,
     showKeys: nothing,
   };
-  const rows = menuRows(does, pins, covered, hides).filter((row) => row !== null);
+  const known = { locked: [], away: [], groups: [], ...marks };
+  const rows = menuRows(does, pins, covered, known).filter((row) => row !== null);
   for (const [, , act] of rows) act();
   return { labels: rows.map(([label]) => label), pressed };
 }
 
 test("the menu of several pins removes all of them", () => {
-  const { labels, pressed } = menu(3, false);
+  const { labels, pressed } = menu([0, 1, 2], false);
   assert.ok(labels.includes("Remove 3 pins"));
   assert.ok(labels.includes("Group"));
   assert.ok(pressed.includes("Shift+Delete"));
-  const { labels: one } = menu(1, false);
+  const { labels: one } = menu([0], false);
   assert.ok(one.includes("Remove") && one.includes("Hide") && !one.includes("Group"));
+});
+
+test("the menu says whether its pins will be locked or unlocked", () => {
+  const locked = [0, 1];
+  assert.ok(menu([2], false, { locked }).labels.includes("Lock"));
+  assert.ok(menu([1, 2], false, { locked }).labels.includes("Lock"));
+  assert.ok(menu([0, 1], false, { locked }).labels.includes("Unlock"));
+  for (const pins of [[2], [0, 1]]) {
+    assert.ok(menu(pins, false, { locked }).pressed.includes("l"));
+  }
 });
 
 test("a pin is offered only where the shape is", () => {
   assert.equal(menu(null, true).labels[0], "Add a pin here");
   assert.equal(menu(null, false).labels[0], "Copy the pose");
-  const { labels, pressed } = menu(null, false, true);
+  const { labels, pressed } = menu(null, false, { away: [1] });
   assert.equal(labels[0], "Show hidden pins");
   assert.equal(pressed[0], "Shift+h");
 });

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import itertools
+from io import BytesIO
 
 import pytest
 from playwright.sync_api import Locator
+from skimage.io import imread
 
 from .conftest import OpenNotebook
-from .editor_page import ROOMY_EDITOR, SETUP, Hand, choose_view
+from .editor_page import NEW_PICTURE, ROOMY_EDITOR, SETUP, Hand, choose_view
 
 pytestmark = [pytest.mark.browser, pytest.mark.slow]
 
@@ -24,6 +26,15 @@ _CONTRASTS = """(one) => {
     .map((v) => v / 255).map((v) => v <= 0.04045 ? v / 12.92 : ((v + 0.055) / 1.055) ** 2.4);
   const luminance = 0.2126 * r + 0.7152 * g + 0.0722 * b;
   return [(luminance + 0.05) / 0.05, 1.05 / (luminance + 0.05)];
+}"""
+# The colour of the tracer's stage near the top left corner of the picture, once it is drawn.
+_GROUND = """async (stage) => {
+  for (let i = 0; i < 3; i++) await new Promise((go) => requestAnimationFrame(go));
+  const canvas = stage.querySelector('canvas');
+  const [, left, top] = stage.dataset.viewport.split(' ').map(Number);
+  const dense = canvas.width / canvas.clientWidth;
+  const at = [left + 3, top + 3].map((v) => Math.round(v * dense));
+  return Array.from(canvas.getContext('2d').getImageData(...at, 1, 1).data);
 }"""
 # By how many pixels the longest row of a menu is wider than the menu's text.
 _CUT_OFF = """(menu) => {
@@ -171,3 +182,108 @@ def test_pale_and_dark_outlines_are_seen_in_dark_themes_and_high_contrast(
         assert pressed != other
     finally:
         page.emulate_media(forced_colors="none")
+
+
+def test_high_contrast_keeps_what_is_drawn(open_notebook: OpenNotebook) -> None:
+    book = open_notebook([SETUP, ROOMY_EDITOR])
+    page = book.page
+    Hand(book)
+    book.value("None", setup="model.add_handles([(-6.0, 0.0)]); model.save_pose()")
+    page.locator(".glid-segment-ease").first.click()
+    handle = page.locator(".glid-ease").get_by_role("slider", name="How it leaves")
+    handle.wait_for()
+
+    def filled() -> float:
+        """The part of the handle's middle, 9 x 9 pixels, that differs from its corner."""
+        pixels = imread(BytesIO(handle.screenshot())).astype(int)
+        y, x = pixels.shape[0] // 2, pixels.shape[1] // 2
+        middle = pixels[y - 4 : y + 5, x - 4 : x + 5]
+        return float((abs(middle - pixels[0, 0]).sum(axis=-1) > 60).mean())
+
+    try:
+        page.emulate_media(forced_colors="active")
+        assert filled() > 0.7  # the curve alone covers less
+        page.emulate_media(forced_colors="none")
+        page.keyboard.press("Escape")
+        page.get_by_role("tab", name="Trace", exact=True).click()
+        stage = page.locator(".glid-stage[data-viewport]")
+        stage.wait_for()
+        ground = stage.evaluate(_GROUND)
+        page.emulate_media(forced_colors="active")
+        # What lies outside the cage fades and is not hidden.
+        assert stage.evaluate(_GROUND) == ground
+        book.screenshot("tracer-forced-colours")
+    finally:
+        page.emulate_media(forced_colors="none")
+
+
+def test_on_a_phone_every_section_leaves_the_timeline_on_the_screen(
+    open_notebook: OpenNotebook,
+) -> None:
+    book = open_notebook([SETUP, NEW_PICTURE, ROOMY_EDITOR])
+    hand, page = Hand(book), book.page
+    book.value("None", setup=PINNED)
+    hand.settle()
+    desktop = page.viewport_size
+    assert desktop is not None
+    page.set_viewport_size({"width": 390, "height": 844})
+    try:
+        page.locator(".glid-editor.glid-narrow").wait_for()
+        book.wait_for("canvas.pane.stage.room[0] < 300")
+        contents = page.locator(".glid-side > .widget-tab-contents")
+        timeline = page.locator(".glid-timeline")
+        for section in ("Motion", "Files", "Proof", "Pin"):
+            page.get_by_role("tab", name=section, exact=True).click()
+            page.locator(".glid-editor").evaluate("one => one.scrollIntoView()")
+            hand.wait_until_still()
+            book.screenshot(f"editor-phone-{section.lower()}")
+            assert box(contents)[3] > 70
+            assert sum(box(timeline)[1::2]) <= 844 - 24  # above JupyterLab's own line
+            # The section's end is scrolled to.
+            contents.evaluate("one => { one.scrollTop = one.scrollHeight; }")
+            last = page.locator(".glid-side .widget-tab-contents > :visible")
+            assert sum(box(last)[1::2]) <= sum(box(contents)[1::2]) + 1
+
+        # The colour bars hide nothing of the canvas, and nothing hides them.
+        book.value("None", setup="canvas.overlay, canvas.show_panels = 'sigma1', True")
+        legend = page.locator(".glid-legend")
+        legend.wait_for()
+        page.locator(".glid-legend-part").nth(1).wait_for()
+        hand.wait_until_still()
+        book.screenshot("editor-phone-legend")
+        for other in (hand.pad.locator(".glid-paper"), page.locator(".glid-tools")):
+            assert not overlap(box(legend), box(other))
+        pads = box(hand.pad)
+        assert pads[0] <= box(legend)[0]
+        assert box(legend)[2] <= pads[2]
+
+        # The whole screen, without the inspector, is filled.
+        hand.pad.focus()
+        page.keyboard.press("w")
+        page.wait_for_function("!!document.fullscreenElement")
+        book.wait_for("canvas.pane.stage.room[2] and canvas.pane.stage.height > 450")
+        hand.wait_until_still()
+        book.screenshot("editor-phone-full-screen")
+        assert 700 < sum(box(page.locator(".glid-foot"))[1::2]) <= 844
+        assert box(page.locator(".glid-foot .glid-said"))[2] > 300
+        page.evaluate("document.exitFullscreen()")
+        page.wait_for_function("!document.fullscreenElement")
+    finally:
+        page.set_viewport_size(desktop)
+
+
+def test_a_refusal_is_seen_below_a_long_list_of_pins(open_notebook: OpenNotebook) -> None:
+    book = open_notebook([SETUP, NEW_PICTURE, ROOMY_EDITOR])
+    page = book.page
+    Hand(book)
+    pins = [(float(x), 0.0) for x in range(-6, 7, 2)]
+    book.value("None", setup=f"model.add_handles({pins}); model.select([0])")
+    angle = page.get_by_label("Angle °")
+    angle.fill("much")
+    angle.press("Enter")
+    refusal = page.get_by_text("is not a number")
+    refusal.wait_for()
+    book.screenshot("editor-refusal")
+    contents = page.locator(".glid-side > .widget-tab-contents")
+    assert contents.evaluate("one => one.scrollHeight > one.clientHeight")
+    assert sum(box(refusal)[1::2]) <= sum(box(contents)[1::2])

@@ -45,6 +45,9 @@ def test_each_segment_shows_its_curve_which_two_handles_change(open_notebook: Op
     segments.nth(0).click()
     panel.get_by_text("Pose 1 → Pose 2").wait_for()
     assert panel.get_by_role("button", name="Even").get_attribute("aria-pressed") == "true"
+    # The numbers are seen whole: 0.33, not 0.3.
+    cut = "all => all.map((one) => one.scrollWidth - one.clientWidth)"
+    assert panel.locator("input").evaluate_all(cut) == [0, 0, 0, 0]
     segments.nth(1).click()
     panel.get_by_text("Pose 2 → Pose 3").wait_for()
     panel.get_by_role("button", name="Ease out").click()

@@ -54,7 +54,7 @@ def panel(model: EditorModel, monkeypatch: pytest.MonkeyPatch) -> FilePanel:
 
 def test_a_sample_names_its_files(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("GLID_NB_DATA", str(tmp_path))
-    for image, name in ((glid.samples.image("bar"), "bar"), (bar(), "session")):
+    for image, name in ((glid.samples.image("bar"), "bar"), (bar(), "glid")):
         model = EditorModel(image)
         panel = FilePanel(model)
         assert panel.path.value == panel.path.tooltip == f"{name}.glid"
@@ -179,11 +179,11 @@ def test_the_question_is_forgotten_when_something_else_is_done(panel: FilePanel)
 
 def test_a_double_click_is_no_answer(model: EditorModel) -> None:
     panel = FilePanel(model)
-    Path("session.glid").write_bytes(THEIRS)
+    Path("glid.glid").write_bytes(THEIRS)
     for _ in range(3):
         click(panel, panel.save_button)
     assert panel.save_button.description == "Replace?"
-    assert Path("session.glid").read_bytes() == THEIRS
+    assert Path("glid.glid").read_bytes() == THEIRS
 
 
 def test_opening_asks_before_it_discards(panel: FilePanel, tmp_path: Path) -> None:
@@ -209,17 +209,17 @@ def test_opening_asks_before_it_discards(panel: FilePanel, tmp_path: Path) -> No
 
 
 def test_an_export_asks_too(panel: FilePanel) -> None:
-    for name in ("session.obj", "session.mtl", "session.png"):
+    for name in ("glid.obj", "glid.mtl", "glid.png"):
         Path(name).write_bytes(THEIRS)
     panel.format.value = ".obj"
-    assert "session.obj and session.mtl are in" in click(panel, panel.export_button)
-    assert Path("session.obj").read_bytes() == THEIRS
-    wrote = "Wrote session.obj, session.mtl and session-texture.png"
+    assert "glid.obj and glid.mtl are in" in click(panel, panel.export_button)
+    assert Path("glid.obj").read_bytes() == THEIRS
+    wrote = "Wrote glid.obj, glid.mtl and glid-texture.png"
     assert wrote in click(panel, panel.export_button)
     assert wrote in click(panel, panel.export_button)
     panel.format.value = ".png"
-    assert "session.png is in" in click(panel, panel.export_button)
-    assert Path("session.png").read_bytes() == THEIRS
+    assert "glid.png is in" in click(panel, panel.export_button)
+    assert Path("glid.png").read_bytes() == THEIRS
 
 
 def test_a_picture_has_the_size_and_the_view_that_are_chosen(panel: FilePanel) -> None:
@@ -229,7 +229,7 @@ def test_a_picture_has_the_size_and_the_view_that_are_chosen(panel: FilePanel) -
 
     def exported() -> Any:
         click(panel, panel.export_button)
-        return np.asarray(Image.open("session.png"))
+        return np.asarray(Image.open("glid.png"))
 
     map = model.deformation.map
     np.testing.assert_array_equal(exported(), glid.render(bar(), map, view="fit"))
@@ -278,9 +278,9 @@ def test_the_copied_lines_run(panel: FilePanel, sent: list[Any]) -> None:
 
 
 def test_a_picture_of_others_is_not_replaced_by_copying(panel: FilePanel) -> None:
-    path = Path("session-source.png")
+    path = Path("glid-source.png")
     path.write_bytes(THEIRS)
-    assert "session-source.png is in" in click(panel, panel.code_button)
+    assert "glid-source.png is in" in click(panel, panel.code_button)
     assert path.read_bytes() == THEIRS
     assert panel.code_button.description == "Replace?"
     click(panel, panel.code_button)
@@ -426,8 +426,8 @@ def test_choices_that_cannot_be_kept_end_no_export(
     panel = FilePanel(model)
     panel.format.value = ".svg"
     panel.export_button.click()
-    assert Path("session.svg").is_file()
-    assert "Wrote session.svg" in panel.message.value
+    assert Path("glid.svg").is_file()
+    assert "Wrote glid.svg" in panel.message.value
     assert "GLID_NB_DATA" in str(model.save_error)
     assert FilePanel(model).format.value == ".png"
 
@@ -438,7 +438,7 @@ def test_the_last_export_is_chosen_again_in_the_next_session(model: EditorModel)
     first.format.value, first.view.value = ".svg", "source"
     assert FilePanel(model).format.value == ".png"  # chosen, but not exported
     first.export_button.click()
-    assert Path("session.svg").is_file()
+    assert Path("glid.svg").is_file()
     again = FilePanel(model)
     assert (again.format.value, again.view.value) == (".svg", "source")
     again.format.value = ".obj"

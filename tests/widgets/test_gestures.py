@@ -184,6 +184,24 @@ def test_shift_selects_several_that_move_together(hand: Hand) -> None:
     assert hand.model.selection == (2,)
 
 
+def test_a_click_on_one_of_several_selected_pins_selects_it_alone(hand: Hand) -> None:
+    model = hand.model
+    for place in ((2, 0), (-2, 0), (0, 2)):
+        hand.click(*place)
+    model.select([0, 1, 2])
+    hand.click(-2, 0)
+    assert model.selection == (1,)
+    model.mark_pins([2], locked=True)
+    model.select([0, 1, 2])
+    hand.click(0, 2)
+    assert model.selection == (2,)
+    # Those of its group stay with it.
+    model.group_pins([0, 1])
+    model.select([0, 1, 2])
+    hand.click(2, 0)
+    assert model.selection == (1, 0)  # the pressed one is shown
+
+
 def test_a_drag_with_shift_moves_the_pin_and_selects_no_other(hand: Hand) -> None:
     for place in ((2, 0), (-2, 0), (0, 2)):
         hand.click(*place)

@@ -9,7 +9,7 @@ import pytest
 
 from ..support.browser import LabNotebook, VoilaPage
 from .conftest import OpenNotebook
-from .editor_page import EDITOR, SETUP, Hand, line
+from .editor_page import EDITOR, NEW_PICTURE, ROOMY_EDITOR, SETUP, Hand, line
 
 pytestmark = [pytest.mark.browser, pytest.mark.slow]
 
@@ -40,6 +40,17 @@ def test_a_handle_is_dragged(open_notebook: OpenNotebook, name: str) -> None:
         hand.wait_for_color(image, lambda seen, w=wanted: bool(abs(seen[1:3] - w).max() < 6))
     book.page.locator(".glid-foot").get_by_text("Converged").first.wait_for()
     book.screenshot(f"editor-{name}")
+
+
+@pytest.mark.parametrize(("name", "least"), [("notebook", 0.8), ("voila", 0.9)])
+def test_the_editor_uses_the_window(open_notebook: OpenNotebook, name: str, least: float) -> None:
+    """Voila's page has no bars of its own, so the canvas gets their room."""
+    book = open_notebook([SETUP, NEW_PICTURE, ROOMY_EDITOR], INTERFACES[name])
+    Hand(book).wait_until_still()
+    root = book.page.locator(".glid-editor")
+    root.evaluate("one => one.scrollIntoView()")
+    part = root.evaluate("one => one.getBoundingClientRect().height / innerHeight")
+    assert least < part < 1
 
 
 CELLS = """() => (window.jupyterapp.shell.currentWidget.content.model ??

@@ -6,7 +6,7 @@ import pytest
 from playwright.sync_api import Locator
 
 from .conftest import OpenNotebook
-from .editor_page import SETUP, Hand, center, choose_view
+from .editor_page import NEW_PICTURE, ROOMY_EDITOR, SETUP, Hand, center, choose_view
 
 pytestmark = [pytest.mark.browser, pytest.mark.slow]
 
@@ -118,6 +118,34 @@ def test_the_canvas_takes_the_room_that_there_is(open_notebook: OpenNotebook) ->
     assert len(set(buttons)) > 1  # buttons stay beside their numbers
     page.evaluate("document.exitFullscreen()")
     settle("(lambda w, h, alone: not alone and w < 500)({})")
+
+
+def test_plots_are_beside_the_canvas_or_scrolled_to(open_notebook: OpenNotebook) -> None:
+    book = open_notebook([SETUP, NEW_PICTURE, ROOMY_EDITOR])
+    hand, page = Hand(book), book.page
+    beside, plots = page.locator(".glid-shell.glid-beside"), page.locator(".glid-plots")
+    page.set_viewport_size({"width": 1300, "height": 768})
+    page.locator(".glid-editor").evaluate("one => one.scrollIntoView()")
+    hand.wait_until_still()
+    choose_view(page, "Plots")
+    beside.wait_for()
+    assert sum(box(plots)[1::2]) < 768
+    choose_view(page, "Plots")
+    plots.wait_for(state="hidden")
+    page.set_viewport_size({"width": 1024, "height": 768})
+    page.locator(".glid-editor").evaluate("one => one.scrollIntoView()")
+    hand.wait_until_still()
+    choose_view(page, "Plots")
+    # There is no room beside the canvas: they are below the editor, and seen.
+    page.wait_for_function(
+        """() => {
+          const { top, bottom, height } = document.querySelector('.glid-plots')
+            .getBoundingClientRect();
+          return height > 100 && top > 0 && bottom <= innerHeight;
+        }"""
+    )
+    assert not beside.count()
+    book.screenshot("editor-plots-below")
 
 
 def test_the_tracer_takes_the_room_that_there_is(open_notebook: OpenNotebook) -> None:

@@ -12,8 +12,8 @@ const head=make("div",{className:"glid-help-head"},make("h3",{},"Keys and gestur
 title:"Close",ariaLabel:"Close"},"×"));const columns=make("div",{},...sections.map(section));const look={
 className:"glid-help",popover:"auto",tabIndex:-1};const table=shield(make("div",look,head,columns));
 table.addEventListener("click",()=>table.hidePopover());table.addEventListener("beforetoggle",()=>Object.
-assign(table,{autofocus:true}));const title="Keys and gestures (?)";const around={className:"glid-he\
-lp-button",title,"aria-label":title};const button=shield(make("button",{...around,popoverTargetElement:table},
+assign(table,{autofocus:true}));const title="Keys and gestures (?)";const around2={className:"glid-h\
+elp-button",title,"aria-label":title};const button=shield(make("button",{...around2,popoverTargetElement:table},
 "?"));return{table,button,toggle:()=>void table.togglePopover()}}function section([title,rows]){return make(
 "section",{},make("h4",{},title),make("table",{},...rows.map(row)))}function row([keys,what]){return make(
 "tr",{},make("th",{},keys),make("td",{},what))}var PATHS={edit:"M3 2l9.5 5.2-4 1.2 2.4 4.3-1.8 1-2.4-4.3L3 12z",brush:"M13.5 2.5l-6 6 M6.7 9.2c-1.6\
@@ -60,8 +60,8 @@ return;this.#waiting=true;this.#awaited=this.#number;try{const{kernel}=this.mode
 null||kernel?.isDisposed)throw new Error("the kernel was shut down");this.model.send({view:this.view,
 events:this.#queue},void 0,this.#buffers)}catch{this.#markDisconnected();return}this.#queue=[];this.#buffers=
 [];this.#overdue=setTimeout(()=>{this.busy=true;this.report()},BUSY_AFTER);this.#timeout=setTimeout(
-()=>this.#release(),ACKNOWLEDGE_TIMEOUT)}#markDisconnected(){const around=this.element.closest(".gli\
-d-editor")??this.element.closest(".glid-host");around?.classList.add("jupyter-widgets-disconnected")}#answered({
+()=>this.#release(),ACKNOWLEDGE_TIMEOUT)}#markDisconnected(){const around2=this.element.closest(".gl\
+id-editor")??this.element.closest(".glid-host");around2?.classList.add("jupyter-widgets-disconnected")}#answered({
 ack,refusal}){if(ack===this.#awaited)clearTimeout(this.#overdue);this.#acknowledged=Math.max(this.#acknowledged,
 ack);this.busy=false;this.refusal=refusal;this.element.dataset.idle=String(this.idle);const due=this.#promised.
 filter(({number:number2})=>number2<=ack);this.#promised=this.#promised.filter(({number:number2})=>number2>
@@ -229,17 +229,19 @@ targets.length!==count)return marks;const{targets,images,samples}=lead.pins;retu
 images,ring:ringOf(marks,samples,count)}}function ringOf({ring,selected},samples,count){const last=selected.
 at(-1);if(ring.length===0||last===void 0)return ring;const[angle,scale,turned,scaled]=ring;const[x,y]=[
 samples[last],samples[count+last]];return[turned?angle:Math.atan2(y,x),scaled?scale:Math.hypot(x,y),
-turned,scaled]}function menuRows(does,pins,covered,hides){return[...pins===null?shapeRows(does,covered):pinRows(does,
-pins),...hides?[["Show hidden pins","Shift+H",does.press("h",true)]]:[],["Copy the pose","Ctrl+C",does.
-press("copy")],["Paste a pose","Ctrl+V",does.paste],["Swap left and right","M",does.press("m")],["Se\
-lect all pins","A",does.press("a")],["The undeformed shape","0",does.press("0")],["See everything","\
-F",does.press("f")],["Paint stiff areas","B",does.press("b")],["The picture alone","P",does.alone],[
-"Full screen","W",does.fullScreen],["All keys","?",does.showKeys]]}function pinRows({press},count){const pins=count>
-1?` ${count} pins`:"";return[[`Remove${pins}`,"Delete",press("Delete")],["Remove, keep the shape","S\
-hift+Delete",press("Delete",true)],null,["Bring forward","Page Up",press("PageUp")],["Send back","Pa\
-ge Down",press("PageDown")],["Leave angle and scale free","X",press("x")],["Lock or unlock","L",press(
-"l")],["Hide","H",press("h")],...count>1?[["Group","G",press("g")]]:[],null]}function shapeRows({pin},covered){
-return covered?[["Add a pin here","Click",pin],null]:[]}function nearest(things,reach){let best2=null;let least=Infinity;for(const thing of things){const far=thing.
+turned,scaled]}function pinsOfMenu(pin,selected){return selected.includes(pin)?selected:[pin]}function menuRows(does,pins,covered,marks){
+return[...pins===null?shapeRows(does,covered):pinRows(does,pins,marks),...marks.away.length?[["Show \
+hidden pins","Shift+H",does.press("h",true)]]:[],["Copy the pose","Ctrl+C",does.press("copy")],["Pas\
+te a pose","Ctrl+V",does.paste],["Swap left and right","M",does.press("m")],["Select all pins","A",does.
+press("a")],["The undeformed shape","0",does.press("0")],["See everything","F",does.press("f")],["Pa\
+int stiff areas","B",does.press("b")],["The picture alone","P",does.alone],["Full screen","W",does.fullScreen],
+["All keys","?",does.showKeys]]}function pinRows({press},pins,{locked}){const several=pins.length>1;
+const lock=pins.every(i=>locked.includes(i))?"Unlock":"Lock";return[[several?`Remove ${pins.length} \
+pins`:"Remove","Delete",press("Delete")],["Remove, keep the shape","Shift+Delete",press("Delete",true)],
+null,["Bring forward","Page Up",press("PageUp")],["Send back","Page Down",press("PageDown")],["Leave\
+ angle and scale free","X",press("x")],[lock,"L",press("l")],["Hide","H",press("h")],...several?[["G\
+roup","G",press("g")]]:[],null]}function shapeRows({pin},covered){return covered?[["Add a pin here",
+"Click",pin],null]:[]}function nearest(things,reach){let best2=null;let least=Infinity;for(const thing of things){const far=thing.
 d+(thing.loss??0);if(!(thing.d<=reach)||far>=least)continue;best2=thing;least=far}return best2}function nearestEdge(loops,point,reach){const edges=loops.flatMap(loop=>loop.map((start,j)=>{const foot=footOn(
 start,loop[(j+1)%loop.length],point);return{foot,d:distance(foot,point)}}));return nearest(edges,reach)}
 function footOn(start,end,point){const along=[end[0]-start[0],end[1]-start[1]];const dot=(point[0]-start[0])*
@@ -517,48 +519,53 @@ const own=control.getAttribute("title");if(own)return own;if(control.matches(".g
 ts *"))return"Plots of the solve";const widget=control.closest(".jupyter-widgets");const label=widget?.
 querySelector(".widget-label")?.textContent?.trim();return label||widget?.getAttribute("title")||labelBefore(
 widget??control)}function labelBefore(one){let before=one.previousElementSibling;while(before&&!before.
-matches(".widget-label"))before=before.previousElementSibling;return before?.textContent?.trim()??""}var PAGE=124;var PARTS=44+110+28+2;var LEAST=280;var BESIDE3=400;var PLOTS=477;var SLACK=20;var SETTLE=80;
-var NARROW=600;var CLOSE=800;var Room=class{#root=null;#last={width:0,height:0,alone:0};#decides=false;#told="";#room=null;#timer;constructor(pad,model,signal){
+matches(".widget-label"))before=before.previousElementSibling;return before?.textContent?.trim()??""}var NOTEBOOK=124;var PAGE=48;var PARTS=44+110+28+2;var NARROW_PARTS=44+130+100+2;var NARROW_LEGEND=42;
+var LEAST=280;var BESIDE3=340;var PLOTS=477;var SLACK=20;var SETTLE=80;var NARROW=600;var CLOSE=800;
+var Room=class{#root=null;#last={width:0,height:0,all:0};#decides=false;#told="";#room=null;#plotted=true;#timer;constructor(pad,model,signal){
 this.pad=pad;this.model=model;this.signal=signal;this.observer=new ResizeObserver(()=>this.#measureSoon());
 this.observer.observe(pad);window.addEventListener("resize",()=>this.#measureSoon(),{signal});window.
 addEventListener("keydown",e=>this.#escape(e),{signal,capture:true});model.on("change:room",()=>{if(String(
 model.get("room"))!==this.#told)this.#decides=false});const left=()=>{const full=document.fullscreenElement;
 if(!full)this.alone(false);if(!full||full===this.#root)this.toggleInspector(Boolean(full))};document.
 addEventListener("fullscreenchange",left,{signal});signal.addEventListener("abort",()=>{clearTimeout(
-this.#timer);this.observer.disconnect()})}alone(on=!this.#last.alone){const root=this.#root;if(!root||
-!on&&!this.#last.alone){this.#measureSoon();return}root.classList.toggle("glid-alone",on);this.#decides=
-true;this.#measure();root.scrollIntoView({block:on?"start":"nearest"});this.pad.focus({preventScroll:true});
+this.#timer);this.observer.disconnect()})}alone(on=!this.#isAlone){const root=this.#root;if(!root||!on&&
+!this.#isAlone){this.#measureSoon();return}root.classList.toggle("glid-alone",on);this.#decides=true;
+this.#measure();root.scrollIntoView({block:on?"start":"nearest"});this.pad.focus({preventScroll:true});
 if(!on&&document.fullscreenElement)document.exitFullscreen()}fullScreen(){if(document.fullscreenElement){
 document.exitFullscreen();return}this.#root?.requestFullscreen().catch(error=>{save(this.model,{notice:`\
 Full screen is not possible here: ${error.message}`})})}toggleInspector(away){const root=this.#root;
 if(!root||root.classList.contains("glid-side-away")===away)return;const focused=root.querySelector("\
 .glid-side")?.contains(document.activeElement);const hidden=root.classList.toggle("glid-side-away",away);
-if(hidden&&focused)this.pad.focus({preventScroll:true});this.#decides=true;this.#measureSoon()}#escape(e){
-if(e.key!=="Escape"||!this.#last.alone)return;if(this.pad.matches(":active, :has(.glid-menu, :popove\
-r-open)"))return;e.stopPropagation();this.alone(false)}#measureSoon(){clearTimeout(this.#timer);this.#timer=
-setTimeout(()=>this.#measure(),SETTLE)}#measure(){const root=this.pad.closest(".glid-editor");const shell=this.
-pad.closest(".glid-shell");if(!root||!shell?.clientWidth)return;root.classList.toggle("glid-narrow",
-root.clientWidth<NARROW);root.classList.toggle("glid-close",root.clientWidth<CLOSE);const room=this.#roomIn(
-root,shell);if(!this.#root)this.#begin(root,shell,room);this.#room=room;this.shrink();if(!this.#decides)
-return;const last=this.#last;const wider=room.width-last.width;const same=room.height===last.height&&
-room.alone===last.alone;if(same&&wider>=0&&wider<SLACK)return;this.#last=room;const numbers=[room.width,
-room.height,room.alone].map(Math.floor);this.#told=String(numbers);save(this.model,{room:numbers})}#begin(root,shell,room){
-this.#root=root;this.observer.observe(root);this.observer.observe(shell);const plots=shell.querySelector(
-".glid-plots-box");if(plots)this.observer.observe(plots);nameControls(root,this.signal);const[width=0]=this.
-model.get("room");this.#decides=room.width>width;root.addEventListener("pointerup",()=>this.#decide(),
-{signal:this.signal});const inspected=()=>this.toggleInspector(false);root.addEventListener("glid:in\
-spect",inspected,{signal:this.signal})}#decide(){if(this.#decides)return;this.#decides=true;this.#last=
-{width:0,height:0,alone:0};this.#measureSoon()}shrink(){const whole=this.pad.closest(".glid-deform");
-if(!whole||!this.#room)return;const panes=whole.querySelectorAll(".glid-pane");const widths=[...panes].
-map(pane=>Number.parseFloat(pane.style.width)||0);const share=this.#room.width/widths.reduce((sum,width)=>sum+
-width,0);whole.style.zoom=share<1&&!this.#decides?String(share):""}#roomIn(root,shell){const page=document.
-fullscreenElement===root?0:PAGE;const below=window.innerHeight-page;if(root.classList.contains("glid\
--alone")){return{width:root.clientWidth,height:below,alone:1}}const narrow=root.classList.contains("\
-glid-narrow");const side=shell.querySelector(".glid-side");const plots=shell.querySelector(".glid-pl\
-ots-box");const beside=shell.clientWidth-(narrow?0:side?.offsetWidth??0);const plotted=Boolean(plots?.
-offsetWidth)&&!narrow&&beside-PLOTS>=BESIDE3;shell.classList.toggle("glid-beside",plotted);const width=plotted?
-beside-PLOTS:beside;const above=shell.getBoundingClientRect().top-root.getBoundingClientRect().top;return{
-width,height:Math.max(LEAST,below-above/scaleOf(root).down-PARTS),alone:0}}};var FRAME=16;var SHARE=.5;var REST=200;var Detail=class{#views;#less=new Map;#timer;constructor(views){
+if(hidden&&focused)this.pad.focus({preventScroll:true});this.#decides=true;this.#measureSoon()}get#isAlone(){
+return Boolean(this.#root?.classList.contains("glid-alone"))}#escape(e){if(e.key!=="Escape"||!this.#isAlone)
+return;if(this.pad.matches(":active, :has(.glid-menu, :popover-open)"))return;e.stopPropagation();this.
+alone(false)}#measureSoon(){clearTimeout(this.#timer);this.#timer=setTimeout(()=>this.#measure(),SETTLE)}#measure(){
+const root=this.pad.closest(".glid-editor");const shell=this.pad.closest(".glid-shell");if(!root||!shell?.
+clientWidth)return;root.classList.toggle("glid-narrow",root.clientWidth<NARROW);root.classList.toggle(
+"glid-close",root.clientWidth<CLOSE);const room=this.#roomIn(root,shell);if(!this.#root)this.#begin(
+root,shell,room);this.#room=room;this.shrink();if(!this.#decides)return;const last=this.#last;const wider=room.
+width-last.width;const same=room.height===last.height&&room.all===last.all;if(same&&wider>=0&&wider<
+SLACK)return;this.#last=room;const numbers=[room.width,room.height,room.all].map(Math.floor);this.#told=
+String(numbers);save(this.model,{room:numbers})}#begin(root,shell,room){this.#root=root;this.observer.
+observe(root);this.observer.observe(shell);const plots=shell.querySelector(".glid-plots-box");if(plots)
+this.observer.observe(plots);nameControls(root,this.signal);const[width=0]=this.model.get("room");this.#decides=
+room.width>width;root.addEventListener("pointerup",()=>this.#decide(),{signal:this.signal});const inspected=()=>this.
+toggleInspector(false);root.addEventListener("glid:inspect",inspected,{signal:this.signal})}#decide(){
+if(this.#decides)return;this.#decides=true;this.#last={width:0,height:0,all:0};this.#measureSoon()}shrink(){
+const whole=this.pad.closest(".glid-deform");if(!whole||!this.#room)return;const panes=whole.querySelectorAll(
+".glid-pane");const widths=[...panes].map(pane=>Number.parseFloat(pane.style.width)||0);const share=this.#room.
+width/widths.reduce((sum,width)=>sum+width,0);whole.style.zoom=share<1&&!this.#decides?String(share):
+""}#roomIn(root,shell){const full=document.fullscreenElement===root;const below=window.innerHeight-(full?
+0:around(root));if(this.#isAlone)return{width:root.clientWidth,height:below,all:1};const narrow=root.
+classList.contains("glid-narrow");const side=shell.querySelector(".glid-side");const plots=shell.querySelector(
+".glid-plots-box");const beside=shell.clientWidth-(narrow?0:side?.offsetWidth??0);const plotted=Boolean(
+plots?.offsetWidth)&&!narrow&&beside-PLOTS>=BESIDE3;shell.classList.toggle("glid-beside",plotted);this.#showPlots(
+plots,plotted);const width=plotted?beside-PLOTS:beside;const above=shell.getBoundingClientRect().top-
+root.getBoundingClientRect().top;const bars=shell.querySelector(".glid-legend:not([hidden])")?NARROW_LEGEND:
+0;const parts=narrow?NARROW_PARTS+bars:PARTS;const height=Math.max(LEAST,below-above/scaleOf(root).down-
+parts);return{width,height,all:Number(narrow&&full&&!side?.offsetWidth)}}#showPlots(plots,beside){const seen=Boolean(
+plots?.offsetWidth);if(seen&&!beside&&!this.#plotted)plots?.scrollIntoView({block:"nearest"});this.#plotted=
+seen}};function around(root){return root.closest(".jp-MainAreaWidget")?NOTEBOOK:PAGE}var FRAME=16;var SHARE=.5;var REST=200;var Detail=class{#views;#less=new Map;#timer;constructor(views){
 this.#views=views}moved(drawingTime2){if(drawingTime2<=FRAME)return;clearTimeout(this.#timer);this.#timer=
 setTimeout(()=>this.restore(),REST);for(const one of this.#views())void one.then(view=>this.#reduce(
 view))}restore(){clearTimeout(this.#timer);for(const[renderer,ratio]of this.#less)renderer.setPixelRatio(
@@ -816,9 +823,8 @@ view.x,this.view.y];const pinned=mark!==null&&Number.isFinite(targets[mark]?.[0]
 targets[mark]:this.model.get("cursor")??centre;const at=place??this.view.toScreen(point);const does={
 press:(key,shift=false)=>{return()=>this.#press(key,shift)},pin:()=>void this.pad.send("pin",at),paste:()=>void this.
 clipboard.paste(),alone:()=>this.room?.alone(),fullScreen:()=>this.room?.fullScreen(),showKeys:this.
-help.toggle};const count=mark!==null&&selected.includes(mark)?selected.length:1;const covered=mark===
-null&&coveredNear(this.box,at);const hides=this.model.get("pins").away.length>0;openMenu(this.box,at,
-menuRows(does,mark===null?null:count,covered,hides))}showMotion(motion=null,playing=STILL,heights=null,parts={},pins=null){
+help.toggle};const covered=mark===null&&coveredNear(this.box,at);const pins=mark===null?null:pinsOfMenu(
+mark,selected);openMenu(this.box,at,menuRows(does,pins,covered,this.model.get("pins")))}showMotion(motion=null,playing=STILL,heights=null,parts={},pins=null){
 this.between=pins??NO_PINS;this.#playing=playing;this.shapes.motion=motion;this.shapes.partMotions=parts;
 this.shapes.lift(heights);this.showLegend();this.shapes.refresh();this.pad.hover();this.redraw()}leaveMotion(){
 if(this.shapes.motion)this.#playing.release()}showLegend(){this.legend.show(this.model,Boolean(this.

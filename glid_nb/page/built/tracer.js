@@ -385,14 +385,15 @@ if(!path.length||!now.length)return[];return[...rectangle(path[0],now[0]),path[0
 hole===void 0?void 0:this.shown?.holes[hover.hole];if(hole)return hole.kept?"Click to drop this hole":
 "Click to keep this hole";if(hover?.edge)return"Double-click to add a vertex here";if(hover?.vertex)
 return"Drag to move · right-click or Delete to delete";return TOOLS[this.tool].hint}#readColors(){const probe=this.
-root.appendChild(make("span"));const color=name=>{probe.style.color=`var(--glid-${name})`;return getComputedStyle(
-probe).color};const colors=Object.fromEntries(COLORS.map(name=>[name,color(name)]));probe.remove();return colors}#placeCallout(shown){
-const{callout,view}=this;const problem=shown.problems[0];callout.hidden=!problem||this.pad.mode==="p\
-an";if(!problem)return;callout.textContent=problem.message;const{offsetWidth:w,offsetHeight:h}=callout;
-const[x,y]=problem.point?view.toScreen(problem.point):[view.width/2,-16];const fitsBelow=!problem.point||
-y+CALLOUT+h<=view.height;const beside=fitsBelow?y+CALLOUT:y-CALLOUT-h;const left=Math.min(Math.max(x-
-w/2,EDGE),view.width-w-EDGE);const top=Math.min(Math.max(beside,EDGE),view.height-h-EDGE);callout.style.
-transform=`translate(${left}px, ${top}px)`}};var PART=1<<20;var Tracer=class{root=make("div",{className:"glid-skin glid-tracer"});status=make("di\
+root.appendChild(make("span"));probe.style.setProperty("forced-color-adjust","none");const color=name=>{
+probe.style.color=`var(--glid-${name})`;return getComputedStyle(probe).color};const colors=Object.fromEntries(
+COLORS.map(name=>[name,color(name)]));probe.remove();return colors}#placeCallout(shown){const{callout,
+view}=this;const problem=shown.problems[0];callout.hidden=!problem||this.pad.mode==="pan";if(!problem)
+return;callout.textContent=problem.message;const{offsetWidth:w,offsetHeight:h}=callout;const[x,y]=problem.
+point?view.toScreen(problem.point):[view.width/2,-16];const fitsBelow=!problem.point||y+CALLOUT+h<=view.
+height;const beside=fitsBelow?y+CALLOUT:y-CALLOUT-h;const left=Math.min(Math.max(x-w/2,EDGE),view.width-
+w-EDGE);const top=Math.min(Math.max(beside,EDGE),view.height-h-EDGE);callout.style.transform=`transl\
+ate(${left}px, ${top}px)`}};var PART=1<<20;var Tracer=class{root=make("div",{className:"glid-skin glid-tracer"});status=make("di\
 v",{className:"glid-status",role:"status","aria-live":"polite"});constructor({model,el,signal}){this.
 model=model;this.link=new Link(model,this.root,signal,()=>{this.showStatus();if(this.link.idle&&this.
 shown)this.#showTool(this.shown.tool)});this.stage=new Stage(this.root,this.link,file=>this.upload(file),

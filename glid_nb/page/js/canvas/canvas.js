@@ -10,7 +10,7 @@ import { Pad } from "../pad/pad.js";
 import { painter } from "../pad/pen.js";
 import { View } from "../pad/view.js";
 import { Ahead, marksOf } from "./ahead.js";
-import { menuRows } from "./context_menu.js";
+import { menuRows, pinsOfMenu } from "./context_menu.js";
 import { drawBetween, drawBrush, drawLasso, drawMarks, drawOnion, drawStiff } from "./draw.js";
 import { FollowedNumbers } from "./followed.js";
 import { Ghosts } from "./ghosts.js";
@@ -262,10 +262,9 @@ export class Canvas {
       fullScreen: () => this.room?.fullScreen(),
       showKeys: this.help.toggle,
     };
-    const count = mark !== null && selected.includes(mark) ? selected.length : 1;
     const covered = mark === null && coveredNear(this.box, at);
-    const hides = this.model.get("pins").away.length > 0;
-    openMenu(this.box, at, menuRows(does, mark === null ? null : count, covered, hides));
+    const pins = mark === null ? null : pinsOfMenu(mark, selected);
+    openMenu(this.box, at, menuRows(does, pins, covered, this.model.get("pins")));
   }
 
   /**

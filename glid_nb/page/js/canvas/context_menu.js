@@ -1,6 +1,7 @@
 // The menu of a pin, or of the shape at a place.
 
 /** @import { MenuRow } from "../pad/menu.js" */
+/** @import { PinMarks } from "./traits.js" */
 
 /**
  * What the menu's rows do.
@@ -15,16 +16,26 @@
  */
 
 /**
+ * The pins that a pin's menu is about: those selected with it.
+ *
+ * @param {number} pin
+ * @param {number[]} selected
+ */
+export function pinsOfMenu(pin, selected) {
+  return selected.includes(pin) ? selected : [pin];
+}
+
+/**
  * @param {Does} does
- * @param {number | null} pins how many pins the rows are about; null where there is none
+ * @param {number[] | null} pins those that the rows are about; null where there is none
  * @param {boolean} covered whether the shape is there
- * @param {boolean} hides whether some pins are hidden
+ * @param {PinMarks} marks of all pins
  * @returns {MenuRow[]}
  */
-export function menuRows(does, pins, covered, hides) {
+export function menuRows(does, pins, covered, marks) {
   return [
-    ...(pins === null ? shapeRows(does, covered) : pinRows(does, pins)),
-    ...(hides
+    ...(pins === null ? shapeRows(does, covered) : pinRows(does, pins, marks)),
+    ...(marks.away.length
       ? [/** @type {MenuRow} */ (["Show hidden pins", "Shift+H", does.press("h", true)])]
       : []),
     ["Copy the pose", "Ctrl+C", does.press("copy")],
@@ -42,21 +53,24 @@ export function menuRows(does, pins, covered, hides) {
 
 /**
  * @param {Does} does
- * @param {number} count
+ * @param {number[]} pins
+ * @param {PinMarks} marks
  * @returns {MenuRow[]}
  */
-function pinRows({ press }, count) {
-  const pins = count > 1 ? ` ${count} pins` : "";
+function pinRows({ press }, pins, { locked }) {
+  const several = pins.length > 1;
+  // The kernel's rule: the key locks, unless all of them are locked.
+  const lock = pins.every((i) => locked.includes(i)) ? "Unlock" : "Lock";
   return [
-    [`Remove${pins}`, "Delete", press("Delete")],
+    [several ? `Remove ${pins.length} pins` : "Remove", "Delete", press("Delete")],
     ["Remove, keep the shape", "Shift+Delete", press("Delete", true)],
     null,
     ["Bring forward", "Page Up", press("PageUp")],
     ["Send back", "Page Down", press("PageDown")],
     ["Leave angle and scale free", "X", press("x")],
-    ["Lock or unlock", "L", press("l")],
+    [lock, "L", press("l")],
     ["Hide", "H", press("h")],
-    ...(count > 1 ? [/** @type {MenuRow} */ (["Group", "G", press("g")])] : []),
+    ...(several ? [/** @type {MenuRow} */ (["Group", "G", press("g")])] : []),
     null,
   ];
 }

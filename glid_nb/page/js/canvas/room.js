@@ -11,10 +11,13 @@ import { nameControls } from "./names.js";
 /** @import { CanvasTraits } from "./traits.js" */
 
 // CSS pixels.
-const PAGE = 124; // what a notebook's page needs above and below
+const NOTEBOOK = 124; // what a notebook's page needs above and below
+const PAGE = 48; // what another page needs, as one of Voila
 const PARTS = 44 + 110 + 28 + 2; // bar, timeline, line of the state, frame
+const NARROW_PARTS = 44 + 130 + 100 + 2; // the same on a phone, where the words need more lines
+const NARROW_LEGEND = 42; // of the colour bars below a phone's canvas
 const LEAST = 280; // of the height
-const BESIDE = 400; // least width beside the plots
+const BESIDE = 340; // least width beside the plots
 const PLOTS = 477; // of the plots
 const SLACK = 20; // a scroll bar that comes and goes changes nothing
 const SETTLE = 80; // ms
@@ -24,11 +27,12 @@ const CLOSE = 800; // one with less has the timeline under the inspector too
 export class Room {
   /** @type {HTMLElement | null} the editor */
   #root = null;
-  #last = { width: 0, height: 0, alone: 0 };
+  #last = { width: 0, height: 0, all: 0 };
   #decides = false; // the size of all views
   #told = ""; // to the kernel
-  /** @type {{ width: number, height: number, alone: number } | null} */
+  /** @type {{ width: number, height: number, all: number } | null} all: the canvas fills it */
   #room = null;
+  #plotted = true; // whether the plots were seen before; those that come first do not scroll
   /** @type {ReturnType<typeof setTimeout> | undefined} */
   #timer;
 
@@ -65,9 +69,9 @@ export class Room {
    *
    * @param {boolean} on
    */
-  alone(on = !this.#last.alone) {
+  alone(on = !this.#isAlone) {
     const root = this.#root;
-    if (!root || (!on && !this.#last.alone)) {
+    if (!root || (!on && !this.#isAlone)) {
       this.#measureSoon();
       return;
     }
@@ -104,9 +108,13 @@ export class Room {
     this.#measureSoon();
   }
 
+  get #isAlone() {
+    return Boolean(this.#root?.classList.contains("glid-alone"));
+  }
+
   /** @param {KeyboardEvent} e */
   #escape(e) {
-    if (e.key !== "Escape" || !this.#last.alone) return;
+    if (e.key !== "Escape" || !this.#isAlone) return;
     // Escape ends a drag or closes a menu first.
     if (this.pad.matches(":active, :has(.glid-menu, :popover-open)")) return;
     e.stopPropagation();
@@ -133,10 +141,10 @@ export class Room {
     if (!this.#decides) return;
     const last = this.#last;
     const wider = room.width - last.width;
-    const same = room.height === last.height && room.alone === last.alone;
+    const same = room.height === last.height && room.all === last.all;
     if (same && wider >= 0 && wider < SLACK) return;
     this.#last = room;
-    const numbers = [room.width, room.height, room.alone].map(Math.floor);
+    const numbers = [room.width, room.height, room.all].map(Math.floor);
     this.#told = String(numbers);
     save(this.model, { room: numbers });
   }
@@ -165,7 +173,7 @@ export class Room {
   #decide() {
     if (this.#decides) return;
     this.#decides = true;
-    this.#last = { width: 0, height: 0, alone: 0 };
+    this.#last = { width: 0, height: 0, all: 0 };
     this.#measureSoon();
   }
 
@@ -185,19 +193,43 @@ export class Room {
    * @param {HTMLElement} shell the tab with the canvas
    */
   #roomIn(root, shell) {
-    const page = document.fullscreenElement === root ? 0 : PAGE;
-    const below = window.innerHeight - page;
-    if (root.classList.contains("glid-alone")) {
-      return { width: root.clientWidth, height: below, alone: 1 };
-    }
+    const full = document.fullscreenElement === root;
+    const below = window.innerHeight - (full ? 0 : around(root));
+    if (this.#isAlone) return { width: root.clientWidth, height: below, all: 1 };
     const narrow = root.classList.contains("glid-narrow");
     const side = /** @type {HTMLElement | null} */ (shell.querySelector(".glid-side"));
     const plots = /** @type {HTMLElement | null} */ (shell.querySelector(".glid-plots-box"));
     const beside = shell.clientWidth - (narrow ? 0 : (side?.offsetWidth ?? 0));
     const plotted = Boolean(plots?.offsetWidth) && !narrow && beside - PLOTS >= BESIDE;
     shell.classList.toggle("glid-beside", plotted);
+    this.#showPlots(plots, plotted);
     const width = plotted ? beside - PLOTS : beside;
     const above = shell.getBoundingClientRect().top - root.getBoundingClientRect().top;
-    return { width, height: Math.max(LEAST, below - above / scaleOf(root).down - PARTS), alone: 0 };
+    const bars = shell.querySelector(".glid-legend:not([hidden])") ? NARROW_LEGEND : 0;
+    const parts = narrow ? NARROW_PARTS + bars : PARTS;
+    const height = Math.max(LEAST, below - above / scaleOf(root).down - parts);
+    // A phone's canvas is a square above the inspector. Without that it has the rest of the screen.
+    return { width, height, all: Number(narrow && full && !side?.offsetWidth) };
   }
+
+  /**
+   * Plots that come below the editor, where there is no room beside the canvas, are scrolled to.
+   *
+   * @param {HTMLElement | null} plots
+   * @param {boolean} beside
+   */
+  #showPlots(plots, beside) {
+    const seen = Boolean(plots?.offsetWidth);
+    if (seen && !beside && !this.#plotted) plots?.scrollIntoView({ block: "nearest" });
+    this.#plotted = seen;
+  }
+}
+
+/**
+ * What the page around an editor needs above and below.
+ *
+ * @param {HTMLElement} root
+ */
+function around(root) {
+  return root.closest(".jp-MainAreaWidget") ? NOTEBOOK : PAGE;
 }

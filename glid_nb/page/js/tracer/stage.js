@@ -326,6 +326,8 @@ export class Stage {
 
   #readColors() {
     const probe = this.root.appendChild(make("span"));
+    // Colours that the system forces are opaque: the veil would hide what lies below it.
+    probe.style.setProperty("forced-color-adjust", "none");
     const color = (/** @type {string} */ name) => {
       probe.style.color = `var(--glid-${name})`;
       return getComputedStyle(probe).color;
