@@ -433,8 +433,9 @@ box.dispatchEvent(new CustomEvent("glid:key",{bubbles:true})),p:()=>canvas.room?
 reference.toggle(),w:()=>canvas.room?.fullScreen(),"tool:":()=>canvas.takeTool(""),"tool:stiff":()=>canvas.
 takeTool("stiff"),"tool:erase":()=>canvas.takeTool("erase"),"zoom:in":()=>canvas.view.zoom(1/ZOOM),"\
 zoom:out":()=>canvas.view.zoom(ZOOM)}}pressing(key){if(key==="Escape")this.canvas.putBrushAway()}get painting(){
-return this.canvas.painting}changed(){this.canvas.followHand();this.canvas.redraw()}menu(place,found){
-if(!this.canvas.shapes.motion)this.canvas.openMenu(place,found)}pressedAt(){return this.canvas.pressedAt()}tapped(){
+return this.canvas.painting}changed(){const{pad}=this.canvas;if(pad.encloses&&pad.path.length>2)this.
+canvas.leaveMotion();this.canvas.followHand();this.canvas.redraw()}menu(place,found){if(!this.canvas.
+shapes.motion)this.canvas.openMenu(place,found)}pressedAt(){return this.canvas.pressedAt()}tapped(){
 this.canvas.box.dispatchEvent(new CustomEvent("glid:play",{bubbles:true}))}find(point,reach){const{view,
 marks,reachable:reachable2,shapes,painting}=this.canvas;if(painting)return null;if(shapes.motion)return pinBetweenAt(
 this.canvas.between.places,point,reach);const mark=markAt(reachable2,point,reach);return mark??ringAt(
@@ -519,8 +520,8 @@ ts *"))return"Plots of the solve";const widget=control.closest(".jupyter-widgets
 querySelector(".widget-label")?.textContent?.trim();return label||widget?.getAttribute("title")||labelBefore(
 widget??control)}function labelBefore(one){let before=one.previousElementSibling;while(before&&!before.
 matches(".widget-label"))before=before.previousElementSibling;return before?.textContent?.trim()??""}var NOTEBOOK=124;var PAGE=48;var PARTS=44+110+28+2;var NARROW_PARTS=44+130+100+2;var NARROW_LEGEND=42;
-var LEAST=280;var BESIDE3=340;var PLOTS=477;var SLACK=20;var SETTLE=80;var NARROW=600;var Room=class{#root=null;#last={
-width:0,height:0,all:0};#decides=false;#told="";#room=null;#plotted=true;#timer;constructor(pad,model,signal){
+var LEAST=280;var BESIDE3=340;var PLOTS=477;var SLACK=20;var SETTLE=80;var NARROW=600;var CLOSE=800;
+var Room=class{#root=null;#last={width:0,height:0,all:0};#decides=false;#told="";#room=null;#plotted=true;#timer;constructor(pad,model,signal){
 this.pad=pad;this.model=model;this.signal=signal;this.observer=new ResizeObserver(()=>this.#measureSoon());
 this.observer.observe(pad);window.addEventListener("resize",()=>this.#measureSoon(),{signal});window.
 addEventListener("keydown",e=>this.#escape(e),{signal,capture:true});model.on("change:room",()=>{if(String(
@@ -540,31 +541,31 @@ return Boolean(this.#root?.classList.contains("glid-alone"))}#escape(e){if(e.key
 return;if(this.pad.matches(":active, :has(.glid-menu, :popover-open)"))return;e.stopPropagation();this.
 alone(false)}#measureSoon(){clearTimeout(this.#timer);this.#timer=setTimeout(()=>this.#measure(),SETTLE)}#measure(){
 const root=this.pad.closest(".glid-editor");const shell=this.pad.closest(".glid-shell");if(!root||!shell?.
-clientWidth)return;root.classList.toggle("glid-narrow",root.clientWidth<NARROW);const room=this.#roomIn(
-root,shell);if(!this.#root)this.#begin(root,shell,room);this.#room=room;this.shrink();if(!this.#decides)
-return;const last=this.#last;const wider=room.width-last.width;const same=room.height===last.height&&
-room.all===last.all;if(same&&wider>=0&&wider<SLACK)return;this.#last=room;const numbers=[room.width,
-room.height,room.all].map(Math.floor);this.#told=String(numbers);save(this.model,{room:numbers})}#begin(root,shell,room){
-this.#root=root;this.observer.observe(root);this.observer.observe(shell);const plots=shell.querySelector(
-".glid-plots-box");if(plots)this.observer.observe(plots);nameControls(root,this.signal);const[width=0]=this.
-model.get("room");this.#decides=room.width>width;root.addEventListener("pointerup",()=>this.#decide(),
-{signal:this.signal});const inspected=()=>this.toggleInspector(false);root.addEventListener("glid:in\
-spect",inspected,{signal:this.signal})}#decide(){if(this.#decides)return;this.#decides=true;this.#last=
-{width:0,height:0,all:0};this.#measureSoon()}shrink(){const whole=this.pad.closest(".glid-deform");if(!whole||
-!this.#room)return;const panes=whole.querySelectorAll(".glid-pane");const widths=[...panes].map(pane=>Number.
-parseFloat(pane.style.width)||0);const share=this.#room.width/widths.reduce((sum,width)=>sum+width,0);
-whole.style.zoom=share<1&&!this.#decides?String(share):""}#roomIn(root,shell){const full=document.fullscreenElement===
-root;const below=window.innerHeight-(full?0:around(root));if(this.#isAlone)return{width:root.clientWidth,
-height:below,all:1};const narrow=root.classList.contains("glid-narrow");const side=shell.querySelector(
-".glid-side");const plots=shell.querySelector(".glid-plots-box");const beside=shell.clientWidth-(narrow?
-0:side?.offsetWidth??0);const plotted=Boolean(plots?.offsetWidth)&&!narrow&&beside-PLOTS>=BESIDE3;shell.
-classList.toggle("glid-beside",plotted);this.#showPlots(plots,plotted);const width=plotted?beside-PLOTS:
-beside;const above=shell.getBoundingClientRect().top-root.getBoundingClientRect().top;const bars=shell.
-querySelector(".glid-legend:not([hidden])")?NARROW_LEGEND:0;const parts=narrow?NARROW_PARTS+bars:PARTS;
-const height=Math.max(LEAST,below-above/scaleOf(root).down-parts);return{width,height,all:Number(narrow&&
-full&&!side?.offsetWidth)}}#showPlots(plots,beside){const seen=Boolean(plots?.offsetWidth);if(seen&&
-!beside&&!this.#plotted)plots?.scrollIntoView({block:"nearest"});this.#plotted=seen}};function around(root){
-return root.closest(".jp-MainAreaWidget")?NOTEBOOK:PAGE}var FRAME=16;var SHARE=.5;var REST=200;var Detail=class{#views;#less=new Map;#timer;constructor(views){
+clientWidth)return;root.classList.toggle("glid-narrow",root.clientWidth<NARROW);root.classList.toggle(
+"glid-close",root.clientWidth<CLOSE);const room=this.#roomIn(root,shell);if(!this.#root)this.#begin(
+root,shell,room);this.#room=room;this.shrink();if(!this.#decides)return;const last=this.#last;const wider=room.
+width-last.width;const same=room.height===last.height&&room.all===last.all;if(same&&wider>=0&&wider<
+SLACK)return;this.#last=room;const numbers=[room.width,room.height,room.all].map(Math.floor);this.#told=
+String(numbers);save(this.model,{room:numbers})}#begin(root,shell,room){this.#root=root;this.observer.
+observe(root);this.observer.observe(shell);const plots=shell.querySelector(".glid-plots-box");if(plots)
+this.observer.observe(plots);nameControls(root,this.signal);const[width=0]=this.model.get("room");this.#decides=
+room.width>width;root.addEventListener("pointerup",()=>this.#decide(),{signal:this.signal});const inspected=()=>this.
+toggleInspector(false);root.addEventListener("glid:inspect",inspected,{signal:this.signal})}#decide(){
+if(this.#decides)return;this.#decides=true;this.#last={width:0,height:0,all:0};this.#measureSoon()}shrink(){
+const whole=this.pad.closest(".glid-deform");if(!whole||!this.#room)return;const panes=whole.querySelectorAll(
+".glid-pane");const widths=[...panes].map(pane=>Number.parseFloat(pane.style.width)||0);const share=this.#room.
+width/widths.reduce((sum,width)=>sum+width,0);whole.style.zoom=share<1&&!this.#decides?String(share):
+""}#roomIn(root,shell){const full=document.fullscreenElement===root;const below=window.innerHeight-(full?
+0:around(root));if(this.#isAlone)return{width:root.clientWidth,height:below,all:1};const narrow=root.
+classList.contains("glid-narrow");const side=shell.querySelector(".glid-side");const plots=shell.querySelector(
+".glid-plots-box");const beside=shell.clientWidth-(narrow?0:side?.offsetWidth??0);const plotted=Boolean(
+plots?.offsetWidth)&&!narrow&&beside-PLOTS>=BESIDE3;shell.classList.toggle("glid-beside",plotted);this.#showPlots(
+plots,plotted);const width=plotted?beside-PLOTS:beside;const above=shell.getBoundingClientRect().top-
+root.getBoundingClientRect().top;const bars=shell.querySelector(".glid-legend:not([hidden])")?NARROW_LEGEND:
+0;const parts=narrow?NARROW_PARTS+bars:PARTS;const height=Math.max(LEAST,below-above/scaleOf(root).down-
+parts);return{width,height,all:Number(narrow&&full&&!side?.offsetWidth)}}#showPlots(plots,beside){const seen=Boolean(
+plots?.offsetWidth);if(seen&&!beside&&!this.#plotted)plots?.scrollIntoView({block:"nearest"});this.#plotted=
+seen}};function around(root){return root.closest(".jp-MainAreaWidget")?NOTEBOOK:PAGE}var FRAME=16;var SHARE=.5;var REST=200;var Detail=class{#views;#less=new Map;#timer;constructor(views){
 this.#views=views}moved(drawingTime2){if(drawingTime2<=FRAME)return;clearTimeout(this.#timer);this.#timer=
 setTimeout(()=>this.restore(),REST);for(const one of this.#views())void one.then(view=>this.#reduce(
 view))}restore(){clearTimeout(this.#timer);for(const[renderer,ratio]of this.#less)renderer.setPixelRatio(
@@ -825,38 +826,39 @@ clipboard.paste(),alone:()=>this.room?.alone(),fullScreen:()=>this.room?.fullScr
 help.toggle};const covered=mark===null&&coveredNear(this.box,at);const pins=mark===null?null:pinsOfMenu(
 mark,selected);openMenu(this.box,at,menuRows(does,pins,covered,this.model.get("pins")))}showMotion(motion=null,playing=STILL,heights=null,parts={},pins=null){
 this.between=pins??NO_PINS;this.#playing=playing;this.shapes.motion=motion;this.shapes.partMotions=parts;
-this.shapes.lift(heights);this.showLegend();this.shapes.refresh();this.pad.hover();this.redraw()}showLegend(){
-this.legend.show(this.model,Boolean(this.shapes.motion))}takeFocus(){const{painting}=this;const chosen=painting&&
-!this.#painted;this.#painted=painting;const side=this.box.closest(".glid-editor")?.querySelector(".g\
-lid-side");if(chosen&&side?.contains(document.activeElement))this.box.focus({preventScroll:true})}showNotice(){
-const first=this.interactive&&!this.marks.targets.length;this.notices.tell(this.model.get("notice"),
-this.painting,first)}fit(){const{model,view,box}=this;view.width=model.get("width");view.height=model.
-get("height");[view.x,view.y,view.unit]=model.get("view");box.style.width=`${view.width}px`;box.style.
-height=`${view.height}px`;this.room?.shrink();this.#see()}reveal(){const{selected,targets,images}=this.
-marks;const now=selected.length===1?selected[0]:void 0;if(now===this.#chosen)return;this.#chosen=now;
-if(now===void 0||this.pad.mode)return;if(!Number.isFinite(targets[now]?.[0]))return;if(inSight(this.
-view,targets[now])||inSight(this.view,images[now]))return;this.view.centreOn(targets[now])}pressedAt(){
-if(!this.shapes.motion)return void 0;this.#presses=true;return this.#playing.pause()}#pressed(e){this.#press(
-e.detail)}#press(key,shift=false){const act=this.behaviour.actions[key];if(act)act();else this.pad.press(
-key,{shiftKey:shift})}#takeFirst(){const take=e=>{if(!this.shapes.motion)return false;e.stopImmediatePropagation();
-e.preventDefault();return true};const goBack=e=>take(e)&&this.#playing.release();const capture=true;
-this.box.addEventListener("pointerdown",e=>e.button===2&&take(e),{capture});this.box.addEventListener(
-"contextmenu",take,{capture});const ours=e=>!e.ctrlKey&&!e.metaKey&&KEYS.test(keyOf(e));this.box.addEventListener(
-"keydown",e=>ours(e)&&goBack(e),{capture});const openedByKeys=e=>{if(e.key!=="F10"||!e.shiftKey)return;
-e.stopImmediatePropagation();e.preventDefault();this.openMenu()};this.box.addEventListener("keydown",
-openedByKeys,{capture});const followArrow=e=>{const target=arrowAt(this.view,this.marks,this.pad.place(
-e));if(!target||e.target!==this.box||this.shapes.motion)return;this.view.centreOn(target);e.stopImmediatePropagation()};
-this.box.addEventListener("pointerdown",followArrow,{capture})}#makeCorner(){const look="glid-help-b\
-utton";return make("div",{className:"glid-corner"},this.help.button,iconButton("screen","Full screen\
- (W)",()=>this.room?.fullScreen(),look),iconButton("rectangle","The picture alone (P)",()=>this.room?.
-alone(),look))}#report(){const{busy,refusal}=this.link;if(this.link.idle)this.#showTool(void 0);this.#settleNumbers();
-if(this.#presses&&this.link.idle&&this.pad.mode===null){this.#presses=false;this.#playing.reach();this.
-behaviour.motionLeft()}if(!busy&&refusal&&refusal!==this.model.get("notice"))this.say(refusal)}#viewMoved(){
-this.#see();clearTimeout(this.#saving);this.#saving=setTimeout(()=>{const{x,y,unit}=this.view;save(this.
-model,{view:[x,y,unit]})},SAVE_VIEW_AFTER)}#see(){this.shapes.see();this.reference.place();this.redraw()}get#drags(){
-const{mode,path,encloses:encloses2}=this.pad;return mode==="hand"&&path.length>1&&!encloses2&&!this.
-painting}#settleNumbers(){if(this.link.idle&&!this.#drags)this.numbers.settle(this.model.get("marks"))}#drawNumbers(pen){
-const{model,view,pad,marks}=this;const{pressed}=this.behaviour;const drags=this.#drags&&pressed;const moved=drags&&
+this.shapes.lift(heights);this.showLegend();this.shapes.refresh();this.pad.hover();this.redraw()}leaveMotion(){
+if(this.shapes.motion)this.#playing.release()}showLegend(){this.legend.show(this.model,Boolean(this.
+shapes.motion))}takeFocus(){const{painting}=this;const chosen=painting&&!this.#painted;this.#painted=
+painting;const side=this.box.closest(".glid-editor")?.querySelector(".glid-side");if(chosen&&side?.contains(
+document.activeElement))this.box.focus({preventScroll:true})}showNotice(){const first=this.interactive&&
+!this.marks.targets.length;this.notices.tell(this.model.get("notice"),this.painting,first)}fit(){const{
+model,view,box}=this;view.width=model.get("width");view.height=model.get("height");[view.x,view.y,view.
+unit]=model.get("view");box.style.width=`${view.width}px`;box.style.height=`${view.height}px`;this.room?.
+shrink();this.#see()}reveal(){const{selected,targets,images}=this.marks;const now=selected.length===
+1?selected[0]:void 0;if(now===this.#chosen)return;this.#chosen=now;if(now===void 0||this.pad.mode)return;
+if(!Number.isFinite(targets[now]?.[0]))return;if(inSight(this.view,targets[now])||inSight(this.view,
+images[now]))return;this.view.centreOn(targets[now])}pressedAt(){if(!this.shapes.motion)return void 0;
+this.#presses=true;return this.#playing.pause()}#pressed(e){this.#press(e.detail)}#press(key,shift=false){
+const act=this.behaviour.actions[key];if(act)act();else this.pad.press(key,{shiftKey:shift})}#takeFirst(){
+const take=e=>{if(!this.shapes.motion)return false;e.stopImmediatePropagation();e.preventDefault();return true};
+const goBack=e=>take(e)&&this.#playing.release();const capture=true;this.box.addEventListener("point\
+erdown",e=>e.button===2&&take(e),{capture});this.box.addEventListener("contextmenu",take,{capture});
+const ours=e=>!e.ctrlKey&&!e.metaKey&&KEYS.test(keyOf(e));this.box.addEventListener("keydown",e=>ours(
+e)&&goBack(e),{capture});const openedByKeys=e=>{if(e.key!=="F10"||!e.shiftKey)return;e.stopImmediatePropagation();
+e.preventDefault();this.openMenu()};this.box.addEventListener("keydown",openedByKeys,{capture});const followArrow=e=>{
+const target=arrowAt(this.view,this.marks,this.pad.place(e));if(!target||e.target!==this.box||this.shapes.
+motion)return;this.view.centreOn(target);e.stopImmediatePropagation()};this.box.addEventListener("po\
+interdown",followArrow,{capture})}#makeCorner(){const look="glid-help-button";return make("div",{className:"\
+glid-corner"},this.help.button,iconButton("screen","Full screen (W)",()=>this.room?.fullScreen(),look),
+iconButton("rectangle","The picture alone (P)",()=>this.room?.alone(),look))}#report(){const{busy,refusal}=this.
+link;if(this.link.idle)this.#showTool(void 0);this.#settleNumbers();if(this.#presses&&this.link.idle&&
+this.pad.mode===null){this.#presses=false;this.#playing.reach();this.behaviour.motionLeft()}if(!busy&&
+refusal&&refusal!==this.model.get("notice"))this.say(refusal)}#viewMoved(){this.#see();clearTimeout(
+this.#saving);this.#saving=setTimeout(()=>{const{x,y,unit}=this.view;save(this.model,{view:[x,y,unit]})},
+SAVE_VIEW_AFTER)}#see(){this.shapes.see();this.reference.place();this.redraw()}get#drags(){const{mode,
+path,encloses:encloses2}=this.pad;return mode==="hand"&&path.length>1&&!encloses2&&!this.painting}#settleNumbers(){
+if(this.link.idle&&!this.#drags)this.numbers.settle(this.model.get("marks"))}#drawNumbers(pen){const{
+model,view,pad,marks}=this;const{pressed}=this.behaviour;const drags=this.#drags&&pressed;const moved=drags&&
 movedPin(pressed,marks,pad.held,model.get("picture_size"));if(!moved)return;this.numbers.follow(this.
 allMarks,pad.held);const{start,keys}=pressed;if(start&&keys?.axis)drawAxis(pen,view,start,moved.at);
 drawNumbers(pen,view,moved)}#draw(pen){const{model,view,pad,marks,brush}=this;const{motion}=this.shapes;

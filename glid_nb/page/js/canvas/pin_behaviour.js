@@ -68,6 +68,9 @@ export class PinBehaviour {
   }
 
   changed() {
+    const { pad } = this.canvas;
+    // What a box or a lasso selects are pins of the pose that is edited.
+    if (pad.encloses && pad.path.length > 2) this.canvas.leaveMotion();
     this.canvas.followHand();
     this.canvas.redraw();
   }
