@@ -14,14 +14,14 @@ from skimage.io import imread
 import glid_check
 from glid_nb import HarmonicMap
 from glid_nb.imaging import PixelFrame
-from glid_nb.imaging.backdrop import WHITE, over
+from glid_nb.imaging.backdrop import over
 from glid_nb.imaging.render import draw_mesh, mesh_in
 from glid_nb.imaging.texture import Texture
 from glid_nb.session.editor_model import EditorModel
-from glid_nb.session.look import Look
 from glid_nb.widgets import exporting
 
 from ..support.browser import ARTEFACTS, watched_page
+from ..support.two_disks import two_disks
 from .test_live_page_browser import (
     _SETTLED,
     _WATCHED,
@@ -38,32 +38,10 @@ pytestmark = [pytest.mark.browser, pytest.mark.slow]
 _CARDS = "main > :not(#pad), .paper { visibility: hidden }"
 
 
-def disk(x: float, y: float, color: tuple[int, int, int]) -> np.ndarray:
-    """A disk with stripes, so that its inside shows a deformation too."""
-    rows, columns = np.mgrid[:360, :480]
-    pixels = np.zeros((360, 480, 4), np.uint8)
-    inside = np.hypot(columns - x, rows - y) < 90
-    pixels[inside] = (*color, 255)
-    pixels[inside & (rows // 20 % 2 == 0), :3] //= 2
-    return pixels
-
-
 @pytest.fixture(scope="module")
 def model() -> Iterator[EditorModel]:
-    """A red disk, which moves upwards behind a blue one."""
-    pictures = {"red": disk(180, 210, (220, 60, 30)), "blue": disk(290, 180, (30, 60, 220))}
-    made = EditorModel(parts=pictures)
-    made.set_look(Look(background=WHITE))
-    deformation = made.deformation
-    x, y = deformation.state.domain.cage.exterior.mean(axis=0)
-    middle = deformation.add_handle((x, y))
-    side = deformation.add_handle((x - 2, y))
-    deformation.save_pose()
-    deformation.drag(middle, to=(x + 0.5, y + 1.5))
-    deformation.drag(side, to=(x - 1.5, y + 2.5))
-    deformation.solve()
-    yield made
-    made.close()
+    with two_disks() as made:
+        yield made
 
 
 def opened(page: Page, model: EditorModel, folder: Path) -> None:
