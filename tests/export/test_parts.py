@@ -281,3 +281,5 @@ def test_parts_that_no_file_system_tells_apart_have_files_of_their_own() -> None
     assert len({name.casefold() for name in names}) == 5
     assert names[2] == "a-Arm.svg"
     assert all(name.startswith("a-") and name.endswith(".svg") for name in names)
+    composed, apart = glid.export.formats.part_names("a.svg", ".svg", ["\u00e9", "e\u0301"])
+    assert (composed, apart) == ("a-\u00e9.svg", "a-e\u0301-2.svg")
