@@ -1,6 +1,7 @@
 """Tables of the export formats, one for maps and one for motions, by the endings of file names."""
 
 import itertools
+import unicodedata
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import NamedTuple
@@ -43,14 +44,15 @@ MOTION_FORMATS = {  # a motion's name without one of these is a folder of frames
 }
 
 
-OF_ONE_SHAPE = frozenset({".svg", ".html", ".py", ".proof.json", ".motion.json"})
+OF_ONE_SHAPE = frozenset({".svg", ".py", ".proof.json", ".motion.json"})
 """Formats that hold one shape. A session with several parts exports a file for each."""
 
 
 def part_names(name: str, suffix: str, parts: Sequence[str]) -> tuple[str, ...]:
     """The names of the parts' files: that of the export, with a part's name before the suffix.
 
-    Parts whose names no file system tells apart are numbered.
+    Parts whose names no file system tells apart are numbered: names that differ only in case, or in
+    how an accent is written.
     """
     stem, ending = name[: len(name) - len(suffix)], name[len(name) - len(suffix) :]
     taken: set[str] = set()
@@ -58,10 +60,14 @@ def part_names(name: str, suffix: str, parts: Sequence[str]) -> tuple[str, ...]:
     for part in parts:
         plain = portable_name(part) or "part"
         tries = itertools.chain([plain], (f"{plain}-{n}" for n in itertools.count(2)))
-        free = next(one for one in tries if one.casefold() not in taken)
-        taken.add(free.casefold())
+        free = next(one for one in tries if _folded(one) not in taken)
+        taken.add(_folded(free))
         names.append(f"{stem}-{free}{ending}")
     return tuple(names)
+
+
+def _folded(name: str) -> str:
+    return unicodedata.normalize("NFC", name).casefold()
 
 
 def obj_names(name: str, parts: Sequence[str]) -> tuple[str, ...]:
