@@ -6,12 +6,14 @@ Browsers break no MathML. So a long formula becomes several elements, which a pa
 from __future__ import annotations
 
 import itertools
+from collections.abc import Iterable
 from copy import copy
 from xml.etree.ElementTree import Element
 
 from tools.equation_spacing import MATHML, RELATIONS, SIGNS, name
 
 _LONG = 24  # letters, digits and signs; shorter formulas fit a phone
+_LABEL = 8  # as many on the left side of a formula leave room for more on its line
 _OPENING, _CLOSING = frozenset("([{"), frozenset(")]}")
 _RELATION_SPACE = "0.278em"
 
@@ -20,7 +22,7 @@ def broken(tree: Element) -> list[list[Element]]:
     """The parts of a formula ``math``, in groups that begin with a relation: lines should rather
     begin there than before a sign. A short formula is one part."""
     row = tree[0] if len(tree) == 1 and name(tree[0]) == "mrow" else None
-    if row is None or sum(name(one) in ("mi", "mo", "mn") for one in tree.iter()) <= _LONG:
+    if row is None or _size(row) <= _LONG:
         return [[tree]]
     places = [0, *_places(list(row)), len(row)]
     if len(places) == 2:
@@ -34,7 +36,8 @@ def broken(tree: Element) -> list[list[Element]]:
 
 
 def _places(row: list[Element]) -> list[int]:
-    """Before which elements a new line may begin: outside brackets and moduli."""
+    """Before which elements a new line may begin: outside brackets and moduli, and not after a
+    short left side."""
     found, depth, bars = list[int](), 0, 0
     for i, element in enumerate(row):
         text = element.text or ""
@@ -45,7 +48,13 @@ def _places(row: list[Element]) -> list[int]:
         sign = text in SIGNS and element.get("form") == "infix"
         if depth == 0 and bars % 2 == 0 and i and (sign or text in RELATIONS):
             found.append(i)
-    return found
+    label = found and row[found[0]].text in RELATIONS and _size(row[: found[0]]) <= _LABEL
+    return found[1:] if label else found
+
+
+def _size(elements: Iterable[Element]) -> int:
+    """The number of letters, digits and signs."""
+    return sum(name(one) in ("mi", "mo", "mn") for tree in elements for one in tree.iter())
 
 
 def _part(tree: Element, elements: list[Element]) -> Element:

@@ -82,6 +82,12 @@ def test_a_long_formula_may_break_before_relations_and_signs_outside_brackets() 
     assert all("\u2265" in group or "=</mo>" in group for group in groups[1:])
 
 
+def test_a_short_left_side_has_no_line_of_its_own() -> None:
+    made = equations.displayed(r"L_f = " + LONG.partition(r" \ge")[0])
+    first = re.findall(r"<span>(.*?)</span>", made)[0]
+    assert first.split("<wbr>")[0].count("=</mo>") == 1
+
+
 def test_parts_hold_the_whole_formula() -> None:
     parts = re.sub(r"<[^>]*>", "", equations.displayed(LONG))
     assert parts == re.sub(r"<[^>]*>", "", equations.mathml(LONG, "block"))
