@@ -15,7 +15,8 @@ _SCROLLING = (
     '<math style="display: block; overflow-x: auto; width: 90px">'
     '<mrow><mspace width="2000px"></mspace><mi>x</mi></mrow></math>'
 )
-_PICTURE = '<img style="width: 2000px" src="data:image/gif;base64,R0lGODlhAQABAIAAAAAAAP///yH5BAEAAAAALAAAAAABAAEAAAIBRAA7">'
+_DATA = "data:image/gif;base64,R0lGODlhAQABAIAAAAAAAP///yH5BAEAAAAALAAAAAABAAEAAAIBRAA7"
+_PICTURE = f'<img style="width: 2000px" src="{_DATA}">'
 
 
 def site(folder: Path, **pages: str) -> Path:
