@@ -30,6 +30,7 @@ extensions = [
     "front_page",
     "live_gecko",
     "mathml",
+    "narrow_figures",
     "pictures",
     "proof_checker",
     "reference",

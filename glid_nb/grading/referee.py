@@ -44,6 +44,13 @@ class TooSlowError(StudentError):
     verdict = SLOW
 
 
+class NotTracedError(StudentError):
+    """The student's code calls NumPy while JAX differentiates it. The check in a notebook says so
+    too."""
+
+    verdict = WRONG
+
+
 class Student:
     """The process of the answers. If it has died, it is started again for the next answer."""
 
@@ -146,6 +153,8 @@ class Student:
             if "ask" in reply:
                 self._send(self.served(reply))
             elif "raise" in reply:
+                if reply["raise"] == course.NOT_TRACED:
+                    raise NotTracedError(course.CALL_JNP)
                 raise StudentError(f"{reply['raise']!s:.80}: {reply.get('text', '')!s:.2000}")
             else:
                 return reply.get("value")

@@ -18,6 +18,7 @@ import pytest
 
 from glid_nb._errors import InputError
 from glid_nb.cli import main
+from glid_nb.course import CALL_JNP
 from glid_nb.grading.grade import Grade, chapters_in, grade, hand_ins
 from glid_nb.grading.tables import canvas, moodle, table
 
@@ -164,6 +165,22 @@ def test_half_done_wrong_and_crashing_answers(folder: Path) -> None:
     went_on = "the chapter went on with its own cells, because of ZeroDivisionError"
     assert grades[3].text.startswith(went_on)
     assert "; SyntaxError: " in grades[3].text
+
+
+def test_numpy_where_jax_differentiates_gets_the_hint_of_the_notebook(folder: Path) -> None:
+    check = (
+        "import jax\nwith check('exercise 1'):\n    assert abs(jax.grad(double)(4.0) - 2) < 1e-6"
+    )
+    chapter = notebook({"check-1": check})
+    (folder / "course" / f"{NAME}.ipynb").write_text(json.dumps(chapter), encoding="utf-8")
+    traced = "def double(x):\n    return np.sqrt(4 * x**2)"
+    hand_in(folder, "ada", notebook(double=traced))
+    hand_in(
+        folder, "bob", notebook(double=f"import jax.numpy as jnp\n{traced.replace('np', 'jnp')}")
+    )
+    one, _, other, _ = graded(folder)
+    assert (one.verdict, one.text) == ("wrong", CALL_JNP)
+    assert other.verdict == "right"
 
 
 def test_one_answer_that_never_returns_costs_its_own_time_only(folder: Path) -> None:
