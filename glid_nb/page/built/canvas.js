@@ -450,20 +450,20 @@ this.#between=null;const{selected,targets}=this.canvas.allMarks;const moved=move
 this.canvas.model.get("pins"));return new Map(moved.map(i=>[i,targets[i]]))}#heldBetween(mark,{places,
 locked}){this.#between={mark,places};return new Map(locked.includes(mark)?[]:[[mark,places[mark]]])}motionLeft(){
 const{pad,shapes,allMarks,model}=this.canvas;const between=this.#between;if(!between||!pad.grip||shapes.
-motion)return;const{mark,places}=between;const moved=movedWith(mark,allMarks.selected,model.get("pin\
-s"));pad.grip.points=new Map(moved.map(i=>[i,places[i]]));this.canvas.followHand()}constrain(point,e){
-const{model,pad}=this.canvas;const{pressed}=this;const[from]=pad.path;if(!pressed||!from||pressed.found?.
-part||pad.encloses||e.altKey)return point;pressed.keys={axis:e.shiftKey,whole:e.ctrlKey||e.metaKey};
-pressed.start??=from;const[x,y]=pressed.start;const free=[x+point[0]-from[0],y+point[1]-from[1]];const[
-u,v]=constrained([x,y],free,pressed.keys,model.get("picture_size"));return[u-x+from[0],v-y+from[1]]}cursor(found){
-this.canvas.box.title=this.#tip(found);if(found?.mark!==void 0&&this.#locked(found))return"pointer";
-return found?"grab":"crosshair"}#locked({mark}){const{shapes,between,model}=this.canvas;const{locked}=shapes.
-motion?between:model.get("pins");return locked.includes(Number(mark))}#tip(found){if(!found)return"";
-const{marks,model,shapes}=this.canvas;if(found.part)return`${turnWords(marks.ring).join(", ")}. ${RING_TIPS[found.
-part]}`;const mark=Number(found.mark);if(shapes.motion){return`Pin ${mark+1}: ${this.#locked(found)?
-BETWEEN_LOCKED:BETWEEN_TIP}`}const name=["Pin",mark+1,model.get("names")[mark]].join(" ").trim();if(this.#locked(
-found))return`${name}: ${LOCKED_TIP}`;const tip=found.reached?IMAGE_TIP:TARGET_TIP;return`${name}: ${tip}${marks.
-hidden.includes(mark)?COVERED:""}`}};async function copied(text){try{await navigator.clipboard.writeText(text);return true}catch{return copiedBySelection(
+motion)return;const{mark,places}=between;const all=movedWith(mark,allMarks.selected,model.get("pins"));
+const moved=all.filter(i=>i in places);pad.grip.points=new Map(moved.map(i=>[i,places[i]]));this.canvas.
+followHand()}constrain(point,e){const{model,pad}=this.canvas;const{pressed}=this;const[from]=pad.path;
+if(!pressed||!from||pressed.found?.part||pad.encloses||e.altKey)return point;pressed.keys={axis:e.shiftKey,
+whole:e.ctrlKey||e.metaKey};pressed.start??=from;const[x,y]=pressed.start;const free=[x+point[0]-from[0],
+y+point[1]-from[1]];const[u,v]=constrained([x,y],free,pressed.keys,model.get("picture_size"));return[
+u-x+from[0],v-y+from[1]]}cursor(found){this.canvas.box.title=this.#tip(found);if(found?.mark!==void 0&&
+this.#locked(found))return"pointer";return found?"grab":"crosshair"}#locked({mark}){const{shapes,between,
+model}=this.canvas;const{locked}=shapes.motion?between:model.get("pins");return locked.includes(Number(
+mark))}#tip(found){if(!found)return"";const{marks,model,shapes}=this.canvas;if(found.part)return`${turnWords(
+marks.ring).join(", ")}. ${RING_TIPS[found.part]}`;const mark=Number(found.mark);if(shapes.motion){return`\
+Pin ${mark+1}: ${this.#locked(found)?BETWEEN_LOCKED:BETWEEN_TIP}`}const name=["Pin",mark+1,model.get(
+"names")[mark]].join(" ").trim();if(this.#locked(found))return`${name}: ${LOCKED_TIP}`;const tip=found.
+reached?IMAGE_TIP:TARGET_TIP;return`${name}: ${tip}${marks.hidden.includes(mark)?COVERED:""}`}};async function copied(text){try{await navigator.clipboard.writeText(text);return true}catch{return copiedBySelection(
 text)}}function copiedBySelection(text){const focused=document.activeElement;const area=document.createElement(
 "textarea");area.value=text;area.setAttribute("readonly","");Object.assign(area.style,{position:"fix\
 ed",top:"0",left:"0",opacity:"0"});document.body.append(area);area.select();try{return document.execCommand(

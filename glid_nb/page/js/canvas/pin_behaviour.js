@@ -162,7 +162,8 @@ export class PinBehaviour {
     const between = this.#between;
     if (!between || !pad.grip || shapes.motion) return;
     const { mark, places } = between;
-    const moved = movedWith(mark, allMarks.selected, model.get("pins"));
+    const all = movedWith(mark, allMarks.selected, model.get("pins"));
+    const moved = all.filter((i) => i in places);
     pad.grip.points = new Map(moved.map((i) => [i, places[i]]));
     this.canvas.followHand();
   }
