@@ -509,17 +509,18 @@ y)})});grip.addEventListener("lostpointercapture",()=>{beyond=null});return shie
 const name=()=>{for(const control of root.querySelectorAll(CONTROLS))nameOne(control)};const observer=new MutationObserver(
 name);const what={childList:true,subtree:true,attributes:true,attributeFilter:["title"]};observer.observe(
 root,what);signal.addEventListener("abort",()=>observer.disconnect());name()}function nameOne(control){
-const isImage=control instanceof HTMLImageElement;const attribute=isImage?"alt":"aria-label";const given=control.
-getAttribute(attribute);if(given!==null&&control.getAttribute("data-glid-name")!==given)return;if(isNamed(
-control))return;const name=nameAround(control);if(!name||name===given)return;control.setAttribute(attribute,
-name);control.setAttribute("data-glid-name",name)}function isNamed(control){if(control instanceof HTMLButtonElement)
-return SAYS_SOMETHING.test(control.textContent??"");const labels="labels"in control?control.labels:null;
-return[...labels??[]].some(label=>SAYS_SOMETHING.test(label.textContent??""))}function nameAround(control){
-const own=control.getAttribute("title");if(own)return own;if(control.matches(".glid-plots, .glid-plo\
-ts *"))return"Plots of the solve";const widget=control.closest(".jupyter-widgets");const label=widget?.
-querySelector(".widget-label")?.textContent?.trim();return label||widget?.getAttribute("title")||labelBefore(
-widget??control)}function labelBefore(one){let before=one.previousElementSibling;while(before&&!before.
-matches(".widget-label"))before=before.previousElementSibling;return before?.textContent?.trim()??""}var NOTEBOOK=124;var PAGE=48;var PARTS=44+110+28+2;var NARROW_PARTS=44+130+100+2;var NARROW_LEGEND=42;
+for(const icon of control.querySelectorAll("i"))icon.ariaHidden="true";const isImage=control instanceof
+HTMLImageElement;const attribute=isImage?"alt":"aria-label";const given=control.getAttribute(attribute);
+if(given!==null&&control.getAttribute("data-glid-name")!==given)return;if(isNamed(control))return;const name=nameAround(
+control);if(!name||name===given)return;control.setAttribute(attribute,name);control.setAttribute("da\
+ta-glid-name",name)}function isNamed(control){if(control instanceof HTMLButtonElement)return SAYS_SOMETHING.
+test(control.textContent??"");const labels="labels"in control?control.labels:null;return[...labels??
+[]].some(label=>SAYS_SOMETHING.test(label.textContent??""))}function nameAround(control){const own=control.
+getAttribute("title");if(own)return own;if(control.matches(".glid-plots, .glid-plots *"))return"Plot\
+s of the solve";const widget=control.closest(".jupyter-widgets");const label=widget?.querySelector("\
+.widget-label")?.textContent?.trim();return label||widget?.getAttribute("title")||labelBefore(widget??
+control)}function labelBefore(one){let before=one.previousElementSibling;while(before&&!before.matches(
+".widget-label"))before=before.previousElementSibling;return before?.textContent?.trim()??""}var NOTEBOOK=124;var PAGE=48;var PARTS=44+110+28+2;var NARROW_PARTS=44+130+100+2;var NARROW_LEGEND=42;
 var LEAST=280;var BESIDE3=340;var PLOTS=477;var SLACK=20;var SETTLE=80;var NARROW=600;var CLOSE=800;
 var Room=class{#root=null;#last={width:0,height:0,all:0};#decides=false;#told="";#room=null;#plotted=true;#timer;constructor(pad,model,signal){
 this.pad=pad;this.model=model;this.signal=signal;this.observer=new ResizeObserver(()=>this.#measureSoon());
