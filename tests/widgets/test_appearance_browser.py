@@ -126,7 +126,7 @@ def test_nothing_is_cut_off_covered_or_askew(open_notebook: OpenNotebook) -> Non
     table.wait_for()
     left = {round(box(cell)[0]) for cell in table.locator("td").all()}
     assert len(left) == 2  # one place in each of the two columns
-    headings = [box(one) for one in table.locator("h4").all()]
+    headings = [box(one) for one in table.locator("h3").all()]
     first = {round(one[0]): one[1] for one in reversed(headings)}
     assert len(first) == 2
     assert len({round(y) for y in first.values()}) == 1
