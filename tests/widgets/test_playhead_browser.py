@@ -9,6 +9,11 @@ from .conftest import OpenNotebook
 from .editor_page import NEW_PICTURE, SETUP, Hand, line
 from .test_timeline_browser import Timeline
 
+BOX = """(one) => {
+  const { x, y, width, height } = one.getBoundingClientRect();
+  return [x, y, width, height];
+}"""
+
 pytestmark = [pytest.mark.browser, pytest.mark.slow]
 
 EDITOR = """
@@ -216,3 +221,32 @@ def test_one_place_of_the_editor_gives_advice(open_notebook: OpenNotebook) -> No
     assert note.get_attribute("aria-live") == "off"  # the footer speaks
     timeline.root.locator(".glid-piece").first.hover()
     note.get_by_text("σ₂ ≥").wait_for()
+
+
+def test_the_footer_says_whose_proof_it_is_before_it_gives_a_hint(
+    open_notebook: OpenNotebook,
+) -> None:
+    book = open_notebook([SETUP, NEW_PICTURE + EDITOR])
+    hand, page = Hand(book), book.page
+    desktop = page.viewport_size
+    assert desktop is not None
+    page.set_viewport_size({"width": 1024, "height": 768})
+    try:
+        timeline = Timeline(hand)
+        book.value("None", setup="model.add_handles([(-6, 0), (6, 0)])")
+        hand.settle()
+        timeline.button("Key this pose")
+        book.wait_for("len(model.state.poses) == 2")
+        timeline.settle()
+        page.locator(".glid-foot .glid-next").get_by_text("Change the new pose").wait_for()
+        timeline.scrub([timeline.times[1] / 2])
+        page.locator(".glid-timeline[data-elsewhere]").wait_for()
+        book.screenshot("footer-between-keyframes")
+        foot = page.locator(".glid-foot")
+        proof = foot.locator("b").get_by_text("Proved: never folds")
+        (_, top, _, high), (_, y, _, tall) = (one.evaluate(BOX) for one in (foot, proof))
+        assert top <= y
+        assert y + tall <= top + high  # on the line that is seen
+        assert proof.evaluate("one => one.scrollWidth <= one.clientWidth")
+    finally:
+        page.set_viewport_size(desktop)
