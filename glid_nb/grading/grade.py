@@ -15,14 +15,17 @@ import tempfile
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import IO
 
 from glid_nb._errors import InputError
 from glid_nb.grading.chapters import Notebook, answers
+from glid_nb.grading.said import Said
 from glid_nb.grading.verdicts import CRASHED, MISSING, RIGHT, SLOW
 
 _MOODLE = re.compile(r"_\d+_assignsubmission_file_?$")
 _OTHER_FILES = 50_000_000  # bytes of pictures and other files beside a notebook
 _OWN_SECONDS = 900  # that a chapter's own cells may take
+_REASON = 4000  # bytes at the end of the referee's errors, for a reason
 _KEPT = ("PATH", "HOME", "TMPDIR", "LANG", "LC_ALL", "GLID_NB_CACHE", "SYSTEMROOT", "TEMP", "TMP")
 
 
@@ -158,33 +161,45 @@ def _judged(
         "folder": str(work),
         "limit": limit,
     }
-    process = subprocess.Popen(
-        [sys.executable, "-P", "-m", "glid_nb.grading.referee"],
-        stdin=subprocess.PIPE,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-        cwd=work.parent,
-        env=_environment(),
-        start_new_session=True,
-    )
     line = (json.dumps(job) + "\n").encode()
-    try:
-        out, errors = process.communicate(line, timeout=seconds)
-        last = errors.decode(errors="replace").strip().splitlines()[-1:]
-        why = CRASHED, " ".join(["the grading ended early", *last])
-    except subprocess.TimeoutExpired:
-        _end(process)
-        out, _ = process.communicate()
-        why = SLOW, f"the whole chapter takes longer than {seconds:g} seconds"
-    finally:
-        _end(process)
+    with tempfile.TemporaryFile() as errors:
+        process = subprocess.Popen(
+            [sys.executable, "-P", "-m", "glid_nb.grading.referee"],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            stderr=errors,
+            cwd=work.parent,
+            env=_environment(),
+            start_new_session=True,
+        )
+        said = Said(process, token)
+        try:
+            _tell(process, line)
+            process.wait(seconds)
+            why = CRASHED, " ".join(["the grading ended early", *_last_line(errors)])
+        except subprocess.TimeoutExpired:
+            why = SLOW, f"the whole chapter takes longer than {seconds:g} seconds"
+        finally:
+            _end(process)
+            process.wait()  # it is killed, so this does not take long
     verdicts = dict[int, tuple[str, str]]()
-    for text in out.decode(errors="replace").splitlines():
-        said, _, verdict = text.partition(" ")
-        if secrets.compare_digest(said.encode(), token.encode()):
-            data = json.loads(verdict)
-            verdicts.setdefault(data["exercise"], (data["verdict"], data["text"]))
+    for verdict in said.lines():
+        data = json.loads(verdict)
+        verdicts.setdefault(data["exercise"], (data["verdict"], data["text"]))
     return verdicts, why
+
+
+def _tell(process: subprocess.Popen[bytes], line: bytes) -> None:
+    """Send the job. A referee that has ended already is noticed later."""
+    assert process.stdin is not None
+    with contextlib.suppress(OSError), process.stdin as stream:
+        stream.write(line)
+
+
+def _last_line(errors: IO[bytes]) -> list[str]:
+    size = errors.seek(0, os.SEEK_END)
+    errors.seek(max(0, size - _REASON))
+    return errors.read(_REASON).decode(errors="replace").strip().splitlines()[-1:]
 
 
 def _environment() -> dict[str, str]:

@@ -10,6 +10,7 @@ import signal
 import subprocess
 import sys
 import textwrap
+import time
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -189,6 +190,46 @@ def test_one_answer_that_never_returns_costs_its_own_time_only(folder: Path) -> 
     first, second = graded(folder)
     assert (first.verdict, first.text) == ("too slow", "the answer takes longer than 5 seconds")
     assert second.verdict == "right"
+
+
+@pytest.mark.skipif(not Path("/proc/self/fd").exists(), reason="the answer opens files of /proc")
+def test_a_process_left_behind_that_keeps_the_referees_output_holds_nothing_up(
+    folder: Path,
+) -> None:
+    """It has left the group of processes that is ended, and keeps all pipes of the referee open."""
+    os.mkfifo(folder / "held")
+    holds = f"""
+        import os, threading
+
+        def double(x):
+            return x + x
+
+        def keep():
+            place = f"/proc/{{referee}}/fd"
+            for number in os.listdir(place):
+                try:
+                    os.open(f"{{place}}/{{number}}", os.O_WRONLY)
+                except OSError:
+                    pass
+
+        referee = os.getppid()
+        if not os.fork():
+            os.setsid()
+            keep()
+            with open({str(folder / "held")!r}, "w") as told:
+                told.write(f"{{os.getpid()}}\\n")
+            threading.Event().wait()
+    """
+    told = os.open(folder / "held", os.O_RDONLY | os.O_NONBLOCK)
+    hand_in(folder, "ada", notebook(RIGHT, double=textwrap.dedent(holds).strip()))
+    since = time.monotonic()
+    try:
+        assert verdicts(graded(folder)) == ["right", "right"]
+        assert time.monotonic() - since < 300, "it waited for the process that was left behind"
+    finally:
+        select.select([told], [], [], 60)
+        os.kill(int(os.read(told, 100)), signal.SIGKILL)
+        os.close(told)
 
 
 def test_a_hand_in_that_deletes_files_harms_only_its_own_copy(folder: Path) -> None:
