@@ -355,7 +355,7 @@ def main() -> None:
     job = json.loads(sys.stdin.buffer.readline())
     out = os.fdopen(os.dup(1), "w", encoding="utf-8")
     os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
-    chapter, handed_in = (Notebook.from_json(json.loads(job[k])) for k in ("chapter", "handed_in"))
+    chapter, handed_in = (Notebook.parsed(job[k]) for k in ("chapter", "handed_in"))
 
     def tell(number: int, verdict: str, text: str) -> None:
         line = json.dumps({"exercise": number, "verdict": verdict, "text": " ".join(text.split())})
