@@ -32,6 +32,7 @@ extensions = [
     "mathml",
     "narrow_figures",
     "pictures",
+    "printed",
     "proof_checker",
     "reference",
     "source_pages",

@@ -17,6 +17,7 @@ _SCROLLING = (
 )
 _DATA = "data:image/gif;base64,R0lGODlhAQABAIAAAAAAAP///yH5BAEAAAAALAAAAAABAAEAAAIBRAA7"
 _PICTURE = f'<img style="width: 2000px" src="{_DATA}">'
+_PRINTED = '<pre style="overflow-x: auto; white-space: pre; width: 200px">{}</pre>'
 
 
 def site(folder: Path, **pages: str) -> Path:
@@ -47,6 +48,8 @@ def test_a_browser_sees_errors_requests_wide_pages_and_dead_sliders(tmp_path: Pa
         "request": '<img src="https://a.example/b.png">',
         "wide": '<div style="width: 2000px">wide</div>',
         "formula": f'<div class="equation"><div>{_SCROLLING}</div></div>',
+        "sentence": f'<div class="cell_output">{_PRINTED.format("one word " * 40)}</div>',
+        "table": f'<div class="cell_output">{_PRINTED.format("one  word " * 40)}</div>',
         "figure": f'<div class="cell_output" style="overflow-x: auto">{_PICTURE}</div>',
     }
     for name, slope in {"moving": 1, "still": 0}.items():
@@ -62,8 +65,9 @@ def test_a_browser_sees_errors_requests_wide_pages_and_dead_sliders(tmp_path: Pa
         "dead": "a figure has no slider",
         "still": "the slider a does not move the picture",
         "wide": "wider than the page: <div",
-        "formula": "a formula or figure is cut off: x",
-        "figure": "a formula or figure is cut off: <img",
+        "formula": "a formula, figure or sentence is cut off: x",
+        "sentence": "a formula, figure or sentence is cut off: one word",
+        "figure": "a formula, figure or sentence is cut off: <img",
     }.items():
         assert sum(fault.startswith(f"{name}.html") and words in fault for fault in found) == 2
-    assert not any(fault.startswith(("plain", "moving")) for fault in found)
+    assert not any(fault.startswith(("plain", "moving", "table")) for fault in found)
