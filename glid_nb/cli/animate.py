@@ -10,6 +10,7 @@ folder of frames. .motion.json writes the motion, and its proof for `glid-check`
 
 import argparse
 import sys
+from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -20,6 +21,7 @@ import glid_nb
 from glid_nb._errors import InputError, InputFileError
 from glid_nb.cli.many import refuse_standard_output
 from glid_nb.cli.output import check_files, check_folder, step
+from glid_nb.export.formats import names_for_parts
 from glid_nb.export.moving import MovingPart
 from glid_nb.imaging.backdrop import WHITE, Background
 from glid_nb.session.posed_shapes import shapes_of
@@ -53,11 +55,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(chosen: argparse.Namespace) -> None:
     out: Path = chosen.out
     refuse_standard_output(out, "--out", "the suffix determines the format, so name a file")
-    if not glid_nb.export.suffix_of(out.name):
-        check_folder(out)
-    else:
-        files = map(out.with_name, glid_nb.export.file_names(out.name))
-        check_files(list(files), [chosen.source, chosen.picture])
+    _check_places(chosen, [""])
     glid_nb.enable_compilation_cache()
     parts, behind, marked = _read(chosen)
     within = _within(chosen, marked)
@@ -79,6 +77,16 @@ def run(chosen: argparse.Namespace) -> None:
     print(f"{written}; {motion.duration:g} s. {motion.certificate.reason}")
 
 
+def _check_places(chosen: argparse.Namespace, parts: Sequence[str]) -> None:
+    """Raise an error if a file for parts with these names cannot be made."""
+    out: Path = chosen.out
+    if not glid_nb.export.suffix_of(out.name):
+        check_folder(out)
+    else:
+        files = map(out.with_name, names_for_parts(out.name, parts))
+        check_files(list(files), [chosen.source, chosen.picture])
+
+
 def _read(chosen: argparse.Namespace) -> tuple[list[MovingPart], Background, _Range | None]:
     """The visible shapes with their motions, what lies behind them, and the loop range."""
     if chosen.source.suffix.lower() != ".json":
@@ -87,6 +95,8 @@ def _read(chosen: argparse.Namespace) -> tuple[list[MovingPart], Background, _Ra
             raise InputFileError(f"{chosen.source} holds {count} poses; a motion needs at least 2")
         if chosen.picture is not None:
             raise InputError("--picture is for saved motions; a session holds its picture")
+        if len(visible := [part.name for part in document.parts if part.visible]) > 1:
+            _check_places(chosen, visible)
         if document.unsolved:  # saved while the solver was paused, or by an older version
             with step("solving the poses that were saved unsolved") as detail:
                 document = solved_document(document, detail)

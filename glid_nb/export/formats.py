@@ -1,6 +1,7 @@
 """Tables of the export formats, one for maps and one for motions, by the endings of file names."""
 
 import itertools
+import unicodedata
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import NamedTuple
@@ -50,7 +51,8 @@ OF_ONE_SHAPE = frozenset({".svg", ".html", ".py", ".proof.json", ".motion.json"}
 def part_names(name: str, suffix: str, parts: Sequence[str]) -> tuple[str, ...]:
     """The names of the parts' files: that of the export, with a part's name before the suffix.
 
-    Parts whose names no file system tells apart are numbered.
+    Parts whose names no file system tells apart are numbered: names that differ only in case, or in
+    how an accent is written.
     """
     stem, ending = name[: len(name) - len(suffix)], name[len(name) - len(suffix) :]
     taken: set[str] = set()
@@ -58,10 +60,14 @@ def part_names(name: str, suffix: str, parts: Sequence[str]) -> tuple[str, ...]:
     for part in parts:
         plain = portable_name(part) or "part"
         tries = itertools.chain([plain], (f"{plain}-{n}" for n in itertools.count(2)))
-        free = next(one for one in tries if one.casefold() not in taken)
-        taken.add(free.casefold())
+        free = next(one for one in tries if _folded(one) not in taken)
+        taken.add(_folded(free))
         names.append(f"{stem}-{free}{ending}")
     return tuple(names)
+
+
+def _folded(name: str) -> str:
+    return unicodedata.normalize("NFC", name).casefold()
 
 
 def obj_names(name: str, parts: Sequence[str]) -> tuple[str, ...]:
@@ -91,3 +97,17 @@ def file_names(name: str, formats: Mapping[str, Format] = MOTION_FORMATS) -> tup
     suffix = suffix_of(name, formats)
     stem, beside = name[: len(name) - len(suffix)], formats[suffix].beside if suffix else ()
     return (name, *(stem + ending for ending in beside))
+
+
+def names_for_parts(
+    name: str, parts: Sequence[str], formats: Mapping[str, Format] = MOTION_FORMATS
+) -> tuple[str, ...]:
+    """The names of all files of an export of parts with these names, of which there is at least
+    one."""
+    suffix = suffix_of(name, formats)
+    if len(parts) == 1 or suffix not in OF_ONE_SHAPE | {".obj"}:
+        return file_names(name, formats)
+    if suffix == ".obj":
+        return obj_names(name, parts)
+    each = part_names(name, suffix, parts)
+    return tuple(own for one in each for own in file_names(one, formats))
