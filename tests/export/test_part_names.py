@@ -13,7 +13,8 @@ from glid_nb.export.formats import part_names
 from glid_nb.session.document import Document
 from glid_nb.session.document_file import save_document
 from glid_nb.session.editor_model import EditorModel
-from tests.export.test_parts import BLUE, RED, disk
+
+from .test_parts import BLUE, RED, disk
 
 
 def moving_document(first: str, second: str) -> Document:
