@@ -70,6 +70,24 @@ def test_parts_without_names_get_numbers_and_files_their_names(tmp_path: Path) -
         named_parts([])
 
 
+def test_long_names_of_layers_and_pictures_are_cut(tmp_path: Path) -> None:
+    psd_tools = pytest.importorskip("psd_tools")
+    document: Any = psd_tools.PSDImage.new("RGB", (RED.shape[1], RED.shape[0]))
+    for pixels in (RED, BLUE):
+        _layer(document, "x" * 230, pixels)
+    document.save(tmp_path / "long.psd")
+    Image.fromarray(RED).save(tmp_path / f"{'y' * 230}.png")
+    for parts in (parts_in(tmp_path / "long.psd"), named_parts([*tmp_path.glob("y*.png"), BLUE])):
+        assert parts is not None
+        model = EditorModel(parts=parts)
+        try:
+            names = [shape.name for shape in model.shapes]
+            assert names == list(parts)
+            assert max(map(len, names)) == 200
+        finally:
+            model.close()
+
+
 def test_a_photoshop_file_is_its_visible_layers(tmp_path: Path) -> None:
     psd_tools = pytest.importorskip("psd_tools")
     document: Any = psd_tools.PSDImage.new("RGB", (RED.shape[1], RED.shape[0]))
