@@ -113,11 +113,18 @@ def discard(path: Path) -> None:
 
 
 _RESERVED = re.compile(r"(con|prn|aux|nul|com\d|lpt\d)(\..*)?", re.IGNORECASE)
+_DIRECTIONS = re.compile(r"[\u202a-\u202e\u2066-\u2069]")  # they would disguise a file's ending
+_LONGEST = 100  # bytes of UTF-8; most systems allow 255, with what stands around the name
 
 
 def portable_name(text: str) -> str:
-    """Make a file name that every system accepts from a text; "" if no character is possible."""
-    name = re.sub(r'[<>:"/\\|?*\x00-\x1f]+', "_", text).strip(" .")
+    """Make a file name that every system accepts from a text; "" if no character is possible.
+
+    A long text is cut, so that there is room for an ending and for the name of another file before.
+    """
+    name = re.sub(r'[<>:"/\\|?*\x00-\x1f]+', "_", _DIRECTIONS.sub("", text)).strip(" .")
+    # Also drops half a character at the cut, and surrogates, which no file name can have.
+    name = name.encode("utf-8", "ignore")[:_LONGEST].decode("utf-8", "ignore").strip(" .")
     return f"_{name}" if _RESERVED.fullmatch(name) else name
 
 

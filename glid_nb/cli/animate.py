@@ -10,6 +10,7 @@ folder of frames. .motion.json writes the motion, and its proof for `glid-check`
 
 import argparse
 import sys
+from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -20,9 +21,11 @@ import glid_nb
 from glid_nb._errors import InputError, InputFileError
 from glid_nb.cli.many import refuse_standard_output
 from glid_nb.cli.output import check_files, check_folder, step
+from glid_nb.export.formats import names_for_parts
 from glid_nb.export.moving import MovingPart
 from glid_nb.imaging.backdrop import WHITE, Background
 from glid_nb.session.posed_shapes import shapes_of
+from glid_nb.session.timeline import LEAST_GAP, Timeline
 from glid_nb.session.unsolved import solved_document
 
 _Range = tuple[float, float]
@@ -53,14 +56,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(chosen: argparse.Namespace) -> None:
     out: Path = chosen.out
     refuse_standard_output(out, "--out", "the suffix determines the format, so name a file")
-    if not glid_nb.export.suffix_of(out.name):
-        check_folder(out)
-    else:
-        files = map(out.with_name, glid_nb.export.file_names(out.name))
-        check_files(list(files), [chosen.source, chosen.picture])
+    _check_places(chosen, [""])
     glid_nb.enable_compilation_cache()
     parts, behind, marked = _read(chosen)
-    within = _within(chosen, marked)
+    within = marked if chosen.range is None else (chosen.range[0], chosen.range[1])
     if within is not None:
         parts = [part.between(*within) for part in parts]
     motion = parts[0].motion
@@ -68,7 +67,7 @@ def run(chosen: argparse.Namespace) -> None:
         how: Any = {"size": chosen.size, "frames_per_second": chosen.fps}
         how |= {
             "background": getattr(chosen, "background", behind),
-            "loop": within is not None or motion.repeat != "once",
+            "loop": chosen.loop_range or within is not None or motion.repeat != "once",
         }
         how |= {"progress": lambda done, total: detail(f"frame {done} of {total}")}
         if len(parts) > 1:
@@ -79,29 +78,48 @@ def run(chosen: argparse.Namespace) -> None:
     print(f"{written}; {motion.duration:g} s. {motion.certificate.reason}")
 
 
+def _check_places(chosen: argparse.Namespace, parts: Sequence[str]) -> None:
+    """Raise an error if a file for parts with these names cannot be made."""
+    out: Path = chosen.out
+    if not glid_nb.export.suffix_of(out.name):
+        check_folder(out)
+    else:
+        files = map(out.with_name, names_for_parts(out.name, parts))
+        check_files(list(files), [chosen.source, chosen.picture])
+
+
 def _read(chosen: argparse.Namespace) -> tuple[list[MovingPart], Background, _Range | None]:
-    """The visible shapes with their motions, what lies behind them, and the loop range."""
+    """The visible shapes with their motions, what lies behind them, and the range of --loop-range;
+    None for all of the motion."""
     if chosen.source.suffix.lower() != ".json":
         document = glid_nb.io.load_document(chosen.source)
         if (count := len(document.poses)) < 2:
             raise InputFileError(f"{chosen.source} holds {count} poses; a motion needs at least 2")
         if chosen.picture is not None:
             raise InputError("--picture is for saved motions; a session holds its picture")
+        if len(visible := [part.name for part in document.parts if part.visible]) > 1:
+            _check_places(chosen, visible)
         if document.unsolved:  # saved while the solver was paused, or by an older version
             with step("solving the poses that were saved unsolved") as detail:
                 document = solved_document(document, detail)
         shapes, behind = shapes_of(document)
         timeline = shapes[0].timeline
         timeline = replace(timeline, repeat=chosen.loop or timeline.repeat)
+        if chosen.loop_range:
+            _check_marked(chosen.source, timeline)
         if chosen.seconds is not None:
             there = 2 if timeline.repeat == "ping-pong" else 1
             timeline = timeline.lasting(_seconds(chosen) / there)
         parts = [replace(shape, timeline=timeline).moving for shape in shapes]
-        return parts, WHITE if behind is None else behind, timeline.played_range
+        marked = timeline.played_range if chosen.loop_range else None
+        return parts, WHITE if behind is None else behind, marked
     motion = glid_nb.Motion.load(chosen.source)
     if chosen.picture is None or chosen.loop not in (None, motion.repeat):
         advice = "name its picture with --picture, and leave out --loop: it has its own setting"
         raise InputError(f"{chosen.source} is a saved motion: {advice}")
+    if chosen.loop_range:
+        what = f"{chosen.source} is a saved motion, which has no loop range"
+        raise InputError(f"{what}; give times with --range")
     if motion.image_size is None:
         doubt = f"{chosen.source} does not say how large its picture is"
         advice = f"make sure that its cage was traced from {chosen.picture}"
@@ -112,14 +130,15 @@ def _read(chosen: argparse.Namespace) -> tuple[list[MovingPart], Background, _Ra
     return [MovingPart(glid_nb.read_image(chosen.picture), motion)], WHITE, None
 
 
-def _within(chosen: argparse.Namespace, marked: _Range | None) -> _Range | None:
-    """The part of the motion that is asked for; None for all of it."""
-    if not chosen.loop_range:
-        return None if chosen.range is None else (chosen.range[0], chosen.range[1])
-    if marked is None:
-        what = f"{chosen.source} has no loop range; set it on the timeline in the editor"
+def _check_marked(source: Path, timeline: Timeline) -> None:
+    """Raise an InputError unless a part of the motion lies in the timeline's loop range."""
+    if timeline.loop_range is None:
+        what = f"{source} has no loop range; set it on the timeline in the editor"
         raise InputError(f"{what}, or give times with --range")
-    return marked
+    (start, end), first, last = timeline.loop_range, timeline.times[0], timeline.end
+    if min(end, last) - max(start, first) < LEAST_GAP:
+        where = f"lies from {start:g} to {end:g} s, but the motion from {first:g} to {last:g} s"
+        raise InputError(f"{source}: the loop range {where}; give times with --range")
 
 
 def _seconds(chosen: argparse.Namespace) -> float:

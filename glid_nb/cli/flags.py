@@ -12,9 +12,11 @@ from typing import Any, Literal, get_args, get_origin
 
 import glid_nb
 from glid_nb._arguments import field_kinds
-from glid_nb.energies import ENERGIES
+from glid_nb.energies import ENERGIES, SymmetricDirichlet
 
 _WITH_S = " and ".join(name for name, energy in ENERGIES.items() if "s" in energy.parameters())
+
+_USUAL = SymmetricDirichlet.name  # of the energies
 
 _PIXEL = {"type": float, "nargs": 2, "metavar": ("X", "Y")}
 _ARGUMENTS: dict[Any, dict[str, Any]] = {  # argparse's keywords for each annotation of a field
@@ -38,7 +40,7 @@ def add_energy_flags(group: Any) -> None:
     """Add ``--energy`` and ``--s`` to a parser or a group."""
     energies = "; ".join(f"{name}: {energy.label}" for name, energy in ENERGIES.items())
     names = f"{{{','.join(ENERGIES)}}}"
-    group.add_argument("--energy", metavar=names, default="iso", help=energies)
+    group.add_argument("--energy", metavar=names, help=f"{energies} (default: {_USUAL})")
     s = f"parameter of {_WITH_S}, above 0 (default 1)"
     group.add_argument("--s", type=float, metavar="S", help=s)
 
@@ -68,7 +70,7 @@ def _add_flags(group: Any, settings: Any) -> None:
 def energy_of(chosen: argparse.Namespace) -> glid_nb.energies.Energy:
     """The chosen energy. Raises an InputError for an unknown name, or for --s with an energy that
     has no s."""
-    energy = glid_nb.energies.by_name(chosen.energy, chosen.s)
+    energy = glid_nb.energies.by_name(chosen.energy or _USUAL, chosen.s)
     if chosen.s is not None and not hasattr(energy, "s"):
         raise glid_nb.InputError(f"--s is the parameter of {_WITH_S}; {energy.name} has none")
     return energy
@@ -83,6 +85,16 @@ def trace_options_of(chosen: argparse.Namespace) -> glid_nb.TraceOptions:
     if "scribbles" in options:
         options["scribbles"] = glid_nb.Scribbles.load(chosen.scribbles)
     return glid_nb.TraceOptions(**options)
+
+
+def sets_energy(chosen: argparse.Namespace) -> bool:
+    """Whether a flag of the energy was given, with any value."""
+    return chosen.energy is not None or chosen.s is not None
+
+
+def sets_tracing(chosen: argparse.Namespace) -> bool:
+    """Whether a flag of the tracing was given, with any value."""
+    return bool(_given(chosen, glid_nb.TraceOptions))
 
 
 def _given(chosen: argparse.Namespace, kind: Any) -> dict[str, Any]:

@@ -14,11 +14,18 @@ import argparse
 from pathlib import Path
 
 import glid_nb
-from glid_nb._errors import InputError, about
-from glid_nb.cli.flags import add_energy_flags, add_trace_flags, energy_of, trace_options_of
+from glid_nb._errors import InputError, InputFileError, about
+from glid_nb._files import read_file
+from glid_nb.cli.flags import (
+    add_energy_flags,
+    add_trace_flags,
+    energy_of,
+    sets_energy,
+    sets_tracing,
+    trace_options_of,
+)
 from glid_nb.cli.many import destination
 from glid_nb.cli.output import STANDARD_OUTPUT, check_files, step, tell, write
-from glid_nb.energies import SymmetricDirichlet
 from glid_nb.session.posed_shapes import live_parts, shapes_of
 from glid_nb.session.unsolved import solved_document
 
@@ -49,6 +56,9 @@ def _page_of_picture(chosen: argparse.Namespace) -> str:
     energy, options = energy_of(chosen), trace_options_of(chosen)
     path: Path | None = chosen.pose
     pose = None if path is None else glid_nb.io.load_pose(path)
+    if chosen.image.is_file() and read_file(chosen.image).startswith(b"PK"):
+        what = f"{chosen.image} is a session or another zip file"
+        raise InputFileError(f"{what}; the name of a session must end in .glid")
     image = glid_nb.read_image(chosen.image)
     with about(chosen.image), step(f"tracing {chosen.image.name}"):
         tracing = glid_nb.trace(image, options)
@@ -75,8 +85,7 @@ def _page_of_session(chosen: argparse.Namespace) -> str:
 
 def _refuse_settings(chosen: argparse.Namespace) -> None:
     """Raise an InputError if something was set that a session has already."""
-    settings = energy_of(chosen) != SymmetricDirichlet() or chosen.pose is not None
-    if settings or trace_options_of(chosen) != glid_nb.TraceOptions():
+    if sets_energy(chosen) or sets_tracing(chosen) or chosen.pose is not None:
         what = f"{chosen.image} is a session, with its own outlines, pins and energy"
         raise InputError(f"{what}; leave out --pose, --energy, --s and the flags of the tracing")
 

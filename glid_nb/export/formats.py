@@ -1,6 +1,7 @@
 """Tables of the export formats, one for maps and one for motions, by the endings of file names."""
 
 import itertools
+import re
 import unicodedata
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -73,11 +74,22 @@ def _folded(name: str) -> str:
 def obj_names(name: str, parts: Sequence[str]) -> tuple[str, ...]:
     """The files of an OBJ with several parts: the named one, its materials, and their textures.
 
-    Materials have the names of their textures, in which programs do not expect spaces.
+    Materials have the names of their textures, which are single words.
     """
-    stem, texture = name[: -len(".obj")], "-texture.png"
-    unspaced = ["_".join(part.split()) for part in parts]
-    return (name, f"{stem}.mtl", *part_names(stem + texture, texture, unspaced))
+    stem = name[: -len(".obj")]
+    textures = (f"{_word(stem)}-{part}-texture.png" for part in object_names(parts))
+    return (name, f"{stem}.mtl", *textures)
+
+
+def object_names(parts: Sequence[str]) -> tuple[str, ...]:
+    """The names of parts in an OBJ file: single words, all different."""
+    names = part_names("", "", [_word(part) for part in parts])
+    return tuple(name.removeprefix("-") for name in names)
+
+
+def _word(text: str) -> str:
+    """A text without spaces, which end a name in an OBJ file, and "#", which begins a comment."""
+    return re.sub(r"[\s#]+", "_", text.strip())
 
 
 def suffix_of(name: str, formats: Mapping[str, Format] = MOTION_FORMATS) -> str:
@@ -97,3 +109,17 @@ def file_names(name: str, formats: Mapping[str, Format] = MOTION_FORMATS) -> tup
     suffix = suffix_of(name, formats)
     stem, beside = name[: len(name) - len(suffix)], formats[suffix].beside if suffix else ()
     return (name, *(stem + ending for ending in beside))
+
+
+def names_for_parts(
+    name: str, parts: Sequence[str], formats: Mapping[str, Format] = MOTION_FORMATS
+) -> tuple[str, ...]:
+    """The names of all files of an export of parts with these names, of which there is at least
+    one."""
+    suffix = suffix_of(name, formats)
+    if len(parts) == 1 or suffix not in OF_ONE_SHAPE | {".obj"}:
+        return file_names(name, formats)
+    if suffix == ".obj":
+        return obj_names(name, parts)
+    each = part_names(name, suffix, parts)
+    return tuple(own for one in each for own in file_names(one, formats))

@@ -13,7 +13,7 @@ from typing import Any, Self
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from glid_nb._arguments import check_type
+from glid_nb._arguments import check_type, unmet
 from glid_nb._errors import InputError
 from glid_nb.energies import ENERGIES, CustomEnergy, Energy, SymmetricDirichlet
 from glid_nb.export.moving import check_picture
@@ -25,6 +25,7 @@ from glid_nb.export.page import (
     packed,
     playing,
 )
+from glid_nb.export.parts import checked_parts, named_parts
 from glid_nb.figures.style import COLORS, rgb
 from glid_nb.geometry import Cage, Domain, GeometryError, triangulate
 from glid_nb.harmonic import HarmonicMap
@@ -109,13 +110,16 @@ def parts_live_html(
 
     Each part has a solver and a proof of its own. The page shows the worst of their bounds, and
     draws a frame of a motion only when it is proved for all. The pictures have the same size. The
-    motions, if there are any, have the same times.
+    motions, if there are any, have the same times. The names differ; a part without one gets its
+    number.
     """
+    parts = checked_parts(parts, LivePart)
     if len(parts) == 1:
         one = parts[0]
         shape = one.image, one.shown, one.pose, one.energy, one.p2p_weight
         return live_page_html(*shape, title, background)
-    _check_parts(parts)
+    parts = named_parts(parts, LivePart)
+    _check_together(parts)
     prepared = [_Prepared.of(part) for part in parts]
     each = [{**one.data(), **one.mesh(_VERTICES[0])} for one in prepared]
     data = {"title": title, **_common(prepared), "parts": each}
@@ -124,11 +128,8 @@ def parts_live_html(
     return _page(title, deflated, "\n".join(pictures), background)
 
 
-def _check_parts(parts: Sequence[LivePart]) -> None:
-    if not parts:
-        raise InputError("there are no parts; a live page needs at least one")
-    for part in parts:
-        check_type("a part", part, LivePart, "make one of a picture and its map", InputError)
+def _check_together(parts: Sequence[LivePart]) -> None:
+    """Raise an InputError unless one page can show these parts."""
     sizes = {as_rgba8(part.image).shape[:2] for part in parts}
     if len(sizes) > 1:
         raise InputError("the pictures of the parts have different sizes; they share one frame")
@@ -149,12 +150,12 @@ class _Prepared:
 
     @classmethod
     def of(cls, part: LivePart) -> Self:
-        shown, energy = part.shown, part.energy or SymmetricDirichlet()
+        shown = part.shown
         kinds = Domain | HarmonicMap | Motion
         check_type("shown", shown, kinds, "pass a domain or a map", InputError)
-        if energy.name not in ENERGIES or isinstance(energy, CustomEnergy):
-            known = ", ".join(ENERGIES)
-            raise InputError(f"a live page has no energy {energy.name!r}; choose one of {known}")
+        _check_energy(part.energy)
+        if wanted := unmet(float, part.p2p_weight, {"above": 0}):
+            raise InputError(f"p2p_weight is {part.p2p_weight!r:.60}; it must be {wanted}")
         texture = as_rgba8(part.image)
         domain = page_domain(shown if isinstance(shown, Domain) else shown.domain)
         start = HarmonicMap.identity(domain) if isinstance(shown, Domain) else shown
@@ -228,6 +229,14 @@ def _page(title: str, deflated: bytes, pictures: str, background: Background) ->
 def _template() -> str:
     """The page's frame, in one line. All statements of its script end with a semicolon."""
     return _plain(template("live_page")).replace("\n", "")
+
+
+def _check_energy(energy: Energy | None) -> None:
+    advice = 'for example glid_nb.energies.by_name("amips")'
+    check_type("energy", energy, Energy | None, advice, InputError)
+    if energy is not None and (energy.name not in ENERGIES or isinstance(energy, CustomEnergy)):
+        known = ", ".join(ENERGIES)
+        raise InputError(f"a live page has no energy {energy.name!r}; choose one of {known}")
 
 
 def _check_poses(shown: Domain | HarmonicMap | Motion, poses: Sequence[Pose | None]) -> None:

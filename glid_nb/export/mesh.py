@@ -2,7 +2,8 @@
 
 import functools
 import io
-from collections.abc import Callable, Mapping, Sequence
+import itertools
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -13,8 +14,9 @@ from PIL import Image
 from glid_nb._arguments import check_type
 from glid_nb._arrays import Array
 from glid_nb._errors import InputError
-from glid_nb.export.formats import obj_names
-from glid_nb.export.moving import MovingMesh, MovingPart, check_picture
+from glid_nb.export.formats import obj_names, object_names
+from glid_nb.export.moving import MovingMesh, MovingPart, check_picture, moving_parts
+from glid_nb.export.parts import checked_meshes
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging import PixelFrame, as_rgba8, png
 from glid_nb.imaging.bleed import bled
@@ -84,6 +86,7 @@ def mesh_obj(mesh: TexturedMesh, name: str = "shape") -> dict[str, bytes]:
     The files must stay in one folder. The OBJ file refers to the material file, and the material
     file refers to the texture.
     """
+    check_type("mesh", mesh, TexturedMesh, "make one with textured_mesh", InputError)
     from trimesh.exchange.obj import export_obj  # noqa: PLC0415
     from trimesh.visual.material import SimpleMaterial  # noqa: PLC0415
 
@@ -99,17 +102,20 @@ def mesh_obj(mesh: TexturedMesh, name: str = "shape") -> dict[str, bytes]:
 
 
 def parts_obj(meshes: Mapping[str, TexturedMesh], name: str = "shape") -> dict[str, bytes]:
-    """Several meshes as one Wavefront OBJ, with an object and a material for each by its name.
+    """Several meshes as one Wavefront OBJ, with an object and a material for each by its name, in
+    which "_" stands for spaces and other signs that programs may not read.
 
     The files, by name, are ``name.obj``, ``name.mtl`` and a texture for each part
     (`formats.obj_names`). The first mesh is the rearmost; each lies a little in front of the one
     before, as in `parts_glb`. The files must stay in one folder.
     """
+    meshes = checked_meshes(meshes, TexturedMesh)
     textures = obj_names(f"{name}.obj", list(meshes))[2:]
     materials = [texture.removesuffix("-texture.png") for texture in textures]
     lines, first = ["# glid_nb", f"mtllib {name}.mtl"], 1
-    for part, mesh, material in zip(meshes, _stacked(meshes).values(), materials, strict=True):
-        lines += [f"o {' '.join(part.split())}", f"usemtl {material}"]
+    objects = object_names(list(meshes))
+    for part, mesh, material in zip(objects, _stacked(meshes).values(), materials, strict=True):
+        lines += [f"o {part}", f"usemtl {material}"]
         lines += [f"v {x:.8f} {y:.8f} {z:.8f}" for x, y, z in mesh.positions.tolist()]
         lines += [f"vt {u:.8f} {v:.8f}" for u, v in mesh.texture_coordinates.tolist()]
         corners = (mesh.triangles + first).tolist()
@@ -136,6 +142,7 @@ def _stacked(meshes: Mapping[str, TexturedMesh]) -> dict[str, TexturedMesh]:
 
 def mesh_glb(mesh: TexturedMesh, edit: Callable[..., None] | None = None) -> bytes:
     """A mesh as binary glTF 2.0 (.glb), with its texture. ``edit(buffers, tree)`` may change it."""
+    check_type("mesh", mesh, TexturedMesh, "make one with textured_mesh", InputError)
     from trimesh.visual.material import PBRMaterial  # noqa: PLC0415
 
     matt: Any = {"metallicFactor": 0.0, "roughnessFactor": 1.0}
@@ -153,10 +160,11 @@ def parts_glb(meshes: Mapping[str, TexturedMesh], edit: Callable[..., None] | No
     The first is the rearmost. Each lies a little in front of the one before, as sheets of one shape
     do. ``edit(buffers, tree)`` may change the file.
     """
+    meshes = checked_meshes(meshes, TexturedMesh)
     from trimesh import Scene  # noqa: PLC0415
     from trimesh.visual.material import PBRMaterial  # noqa: PLC0415
 
-    scene = Scene()
+    scene = Scene(base_frame=_frame_beside(meshes))
     matt: Any = {"metallicFactor": 0.0, "roughnessFactor": 1.0}
     look: Any = {**matt, "alphaMode": "BLEND", "doubleSided": True}
     for name, mesh in _stacked(meshes).items():
@@ -165,6 +173,12 @@ def parts_glb(meshes: Mapping[str, TexturedMesh], edit: Callable[..., None] | No
     data = scene.export(file_type="glb", buffer_postprocessor=functools.partial(_finish_all, edit))
     assert isinstance(data, bytes)
     return data
+
+
+def _frame_beside(names: Collection[str]) -> str:
+    """A name for the node that holds all others. A part with it would become their parent."""
+    tries = itertools.chain(["world"], (f"world {n}" for n in itertools.count(2)))
+    return next(name for name in tries if name not in names)
 
 
 def _finish_all(edit: Callable[..., None] | None, buffers: Any, tree: Any) -> None:
@@ -227,8 +241,12 @@ def parts_motion_glb(
     tolerance: float | None = 0.02,
     progress: Progress | None = None,
 ) -> bytes:
-    """Like `motion_glb` for several shapes, the rearmost first: a node for each by its name, which
-    must differ, and one animation that moves all of them."""
+    """Like `motion_glb` for several shapes, the rearmost first: a node for each by its name, and
+    one animation that moves all of them.
+
+    The motions have the same times. The names differ; a part without one gets its number.
+    """
+    parts = moving_parts(parts)
     count = len(parts) + 1
     report(progress, 0, count)
     meshes, tracks = {}, []
@@ -236,8 +254,6 @@ def parts_motion_glb(
         meshes[part.name], track = _track(part, n_vertices, tolerance)
         tracks.append(track)
         report(progress, done, count)
-    if len(meshes) < len(parts):
-        raise InputError("two parts have the same name; give each a name of its own")
     data = parts_glb(meshes, functools.partial(_animate, tracks))
     report(progress, count, count)
     return data

@@ -12,7 +12,7 @@ from glid_nb._files import write_atomically
 from glid_nb.export import encode
 from glid_nb.export.formats import OF_ONE_SHAPE, file_names, part_names, suffix_of
 from glid_nb.export.mesh import motion_glb, parts_motion_glb
-from glid_nb.export.moving import MovingPart, check_picture, frames
+from glid_nb.export.moving import MovingPart, check_picture, frames, moving_parts
 from glid_nb.export.page import PagePart, parts_page_html
 from glid_nb.imaging import as_rgba8
 from glid_nb.imaging.backdrop import WHITE, Backdrop, Background
@@ -51,6 +51,7 @@ def animate_parts(
     path: str | Path, parts: Sequence[MovingPart], **settings: Any
 ) -> tuple[Path, ...]:
     """Like `animate` for several shapes. The settings are those of `parts_motion_files`."""
+    parts = moving_parts(parts)
 
     def made(name: str) -> dict[str, bytes]:
         return parts_motion_files(name, parts, **settings)
@@ -157,7 +158,7 @@ def parts_motion_files(
     ones. A glTF file has a node for each. The formats in `OF_ONE_SHAPE` hold one shape. So there
     are files for each part, with its name in theirs (`part_names`).
     """
-    suffix, fps = suffix_of(name), frames_per_second
+    suffix, fps, parts = suffix_of(name), frames_per_second, moving_parts(parts)
     if suffix in OF_ONE_SHAPE:
         how: dict[str, Any] = {"size": size, "frames_per_second": fps, "background": background}
         how |= {"loop": loop, "progress": progress}

@@ -4,7 +4,7 @@ import functools
 import itertools
 import math
 import threading
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from typing import Self
 
@@ -16,6 +16,7 @@ from glid_nb._arguments import check_type
 from glid_nb._arrays import Array
 from glid_nb._errors import InputError
 from glid_nb.export.encode import Frames
+from glid_nb.export.parts import named_parts
 from glid_nb.export.picture import frame_around
 from glid_nb.geometry import Cage
 from glid_nb.harmonic import HarmonicMap, images_under
@@ -132,6 +133,18 @@ class MovingPart:
         orders = [_order_of(self.motion.domain.cage, one) for one in self.poses]
         poses = [order_at(orders, self.motion.times, time) for time in motion.times]
         return replace(self, motion=motion, poses=poses)
+
+
+def moving_parts(parts: Iterable[MovingPart]) -> list[MovingPart]:
+    """Parts with names of their own that can move together. Raises an InputError for others."""
+    named = named_parts(parts, MovingPart)
+    for part in named:
+        what = f"the motion of {part.name!r:.80}" if part.name else "motion"
+        check_type(what, part.motion, Motion, "make one of certified maps", InputError)
+    if len({(part.motion.repeat, *part.motion.times) for part in named}) > 1:
+        what = "the motions of the parts have different times or repeat differently"
+        raise InputError(f"{what}; all share one timeline")
+    return named
 
 
 def _order_of(cage: Cage, pose: Pose | Order | None) -> Order:

@@ -13,6 +13,7 @@ from glid_nb._arguments import check_type
 from glid_nb._arrays import Array
 from glid_nb._errors import InputError
 from glid_nb.export.encode import Frames, check_settings, encoded
+from glid_nb.export.parts import checked_parts
 from glid_nb.figures.style import CYAN, INK
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging import PixelFrame, Sheets, as_rgba8, deformed_loops, deformed_mesh, order_of
@@ -80,6 +81,11 @@ def parts_png(
 
     Their pictures have the same size. The arguments are those of `glid_nb.render`.
     """
+    parts = checked_parts(parts, StillPart)
+    for i, part in enumerate(parts):
+        check_type(
+            f"the map of parts[{i}]", part.map, HarmonicMap, "for example result.map", InputError
+        )
     textures = [Texture.from_image(as_rgba8(part.image)) for part in parts]
     source = PixelFrame(*textures[0].size)
     frame = frame_of(source, [part.map for part in parts], size, view)

@@ -61,7 +61,8 @@ def opened(data: bytes, name: str) -> Image.Image | None:
             return None
         advice = "not in a picture format that can be read; save it as PNG or JPEG first"
         if data.startswith(b"PK"):
-            advice = "a session or another zip file; open a session by its path"
+            kind = "a session or another zip file"
+            advice = f"{kind}; open a session with glid_nb.Editor(path=...)"
         raise TraceError(f"{name} is {advice}") from None
 
 

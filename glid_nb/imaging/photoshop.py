@@ -47,6 +47,7 @@ def photoshop_layers(path: str | os.PathLike[str]) -> list[tuple[str, NDArray[np
     try:
         document = psd_tools.PSDImage.open(Path(path))
         check_size(*document.size)
+        _release(document)
         drawn = [(str(way[-1].name), *_drawn(document, way)) for way in _ways(document)]
         left_out = [text for *_, undrawn in drawn for text in undrawn] + _adjusting(document)
     except TraceError:
@@ -58,6 +59,21 @@ def photoshop_layers(path: str | os.PathLike[str]) -> list[tuple[str, NDArray[np
         text = f"{Path(path).name} is drawn without {'; '.join(left_out)}"
         warnings.warn(text, LayerWarning, stacklevel=2)
     return [(name, pixels) for name, pixels, _ in drawn]
+
+
+def _release(group: Any) -> None:
+    """Unclip the layers that no layer below them holds, in a document that is only read.
+
+    Otherwise they would not be drawn: those at the bottom of the document or of a group, and those
+    above a clipped group.
+    """
+    layers = list(group)
+    held = {id(one) for base in layers for one in base.clip_layers}
+    for layer in [one for one in layers if one.clipping and id(one) not in held]:
+        layer.clipping = False
+    for layer in layers:
+        if layer.is_group():
+            _release(layer)
 
 
 def _ways(group: Any, around: _Path = ()) -> Iterator[_Path]:

@@ -17,11 +17,12 @@ from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging import Scribbles, TraceOptions
 from glid_nb.pose import Pose
 from glid_nb.session.look import WHOLE_CAGE, Look
+from glid_nb.session.names import LONGEST_NAME
 from glid_nb.session.pin_marks import PinMarks
 from glid_nb.session.timeline import Timeline
 from glid_nb.solvers import Iteration, Method, Newton, Options, Status
 
-_MOST_POSES, _LONGEST_NAME = 1000, 200
+_MOST_POSES = 1000
 MOST_PARTS = 100  # of a session
 _ASKED = ("pose", "energy", "options", "method")  # the fields that a solve depends on
 
@@ -73,8 +74,8 @@ class NamedPose:
 
     def __post_init__(self) -> None:
         check_fields(self, DocumentError, lambda field: f"{field} of the pose {self.name!r:.60}")
-        if not 1 <= (count := len(self.name)) <= _LONGEST_NAME:
-            wanted = f"the name of a pose must have 1 to {_LONGEST_NAME} characters"
+        if not 1 <= (count := len(self.name)) <= LONGEST_NAME:
+            wanted = f"the name of a pose must have 1 to {LONGEST_NAME} characters"
             raise DocumentError(f"{wanted}, not {count}")
         with about(f"the pose {self.name!r}", DocumentError):
             self.pose.check_inside(self.map.domain)
@@ -122,8 +123,8 @@ class DocumentPart:
         return self.domain.cage
 
     def __post_init__(self) -> None:
-        if not isinstance(self.name, str) or not 1 <= len(self.name) <= _LONGEST_NAME:
-            wanted = f"the name of a part must have 1 to {_LONGEST_NAME} characters"
+        if not isinstance(self.name, str) or not 1 <= len(self.name) <= LONGEST_NAME:
+            wanted = f"the name of a part must have 1 to {LONGEST_NAME} characters"
             raise DocumentError(f"{wanted}, not {self.name!r:.60}")
         if not isinstance(self.visible, bool):
             raise DocumentError(f"visible must be true or false, not {self.visible!r:.60}")
@@ -190,8 +191,12 @@ class Document:
             raise DocumentError(f"parts: there are {count}; 2 to {MOST_PARTS} are allowed")
         if type(self.part) is not int or not 0 <= self.part < count:
             raise DocumentError(f"part must be 0 to {count - 1}, not {self.part!r}")
+        names: set[str] = set()
         for i, part in enumerate(self.parts):
             _check_kind(f"parts[{i}]", part, DocumentPart)
+            if part.name in names:
+                raise DocumentError(f"parts[{i}]: another part has the name {part.name!r:.80}")
+            names.add(part.name)
             if part.image.shape != self.image.shape:
                 raise DocumentError(f"parts[{i}] ({part.name!r}): its picture has another size")
             if len(part.poses) != len(self.poses):

@@ -38,6 +38,7 @@ from glid_nb.session.document import (
     is_identity,
 )
 from glid_nb.session.look import WHOLE_CAGE, Look
+from glid_nb.session.names import free_name
 from glid_nb.session.pin_marks import PinMarks
 from glid_nb.session.timeline import Timeline
 from glid_nb.solvers import Newton, Options
@@ -234,7 +235,7 @@ def _with_parts(
     posed = {key: _KEYS[key] for key in ("domain", "trace_options", "poses")}
     size = document.image.shape[1], document.image.shape[0]
     images = {_IMAGE: document.image}
-    parts = []
+    parts: list[DocumentPart] = []
     for i, entry in enumerate(data["parts"]):
         with about(where := f"parts[{i}]", DocumentError):
             if i == part:
@@ -254,8 +255,10 @@ def _with_parts(
                 )
                 shape = {"image": images[member], "domain": domain, "trace_options": options}
                 shape |= {"scribbles": scribbles, "poses": poses}
-            visible = entry.get("visible", True)
-            parts.append(DocumentPart(entry["name"], **shape, visible=visible))
+            name, taken = entry["name"], [one.name for one in parts]
+            if name in taken:  # no editor writes that, but such a session opens
+                name = free_name(name, taken)
+            parts.append(DocumentPart(name, **shape, visible=entry.get("visible", True)))
     return dataclasses.replace(document, parts=tuple(parts), part=part)
 
 

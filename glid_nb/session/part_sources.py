@@ -8,7 +8,7 @@ from glid_nb.imaging import TraceError
 from glid_nb.imaging.photoshop import SUFFIXES, photoshop_layers
 from glid_nb.imaging.read import ImageSource, as_rgba8, read_image
 from glid_nb.session.document import MOST_PARTS
-from glid_nb.session.parts import free_name
+from glid_nb.session.names import free_name
 
 PartSources = Mapping[str, ImageSource] | Sequence[ImageSource]
 """Pictures by the names of their parts, or only pictures; the rearmost first."""

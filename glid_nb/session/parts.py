@@ -17,6 +17,7 @@ from glid_nb.harmonic import HarmonicMap
 from glid_nb.pose import Pose
 from glid_nb.session.document import MOST_PARTS, NamedPose
 from glid_nb.session.edit_state import EditError, EditState, Part
+from glid_nb.session.names import LONGEST_NAME, free_name
 
 P = ParamSpec("P")
 
@@ -154,21 +155,11 @@ def remove_part(state: EditState, index: int) -> EditState:
 
 
 def checked_name(name: str) -> str:
-    """A part's name without spaces around it. Raises an EditError unless it has 1 to 200
-    characters."""
+    """A part's name without spaces around it. Raises an EditError if it is empty or too long."""
     name = name.strip()
-    if not 1 <= len(name) <= 200:
-        raise EditError("the name of a part must have 1 to 200 characters")
+    if not 1 <= len(name) <= LONGEST_NAME:
+        raise EditError(f"the name of a part must have 1 to {LONGEST_NAME} characters")
     return name
-
-
-def free_name(name: str, taken: Sequence[str]) -> str:
-    """The name, with a number if it is taken."""
-    if name not in taken:
-        return name
-    stem = name.rstrip("0123456789").rstrip() or "Part"
-    numbered = (f"{stem[:190]} {i}" for i in itertools.count(2))
-    return next(candidate for candidate in numbered if candidate not in taken)
 
 
 def _with_part(state: EditState, index: int, **changes: Any) -> EditState:

@@ -17,10 +17,9 @@ from glid_nb.certificate.certify import proof_text
 from glid_nb.export.formats import (
     FORMATS,
     MOTION_FORMATS,
-    OF_ONE_SHAPE,
     ExportError,
     file_names,
-    obj_names,
+    names_for_parts,
     part_names,
     suffix_of,
 )
@@ -83,14 +82,7 @@ def files_of(path: Path) -> tuple[Path, ...]:
 def written_names(model: EditorModel, path: Path, *, moving: bool) -> tuple[str, ...]:
     """The names of all files that an export of the model with this name writes."""
     formats = MOTION_FORMATS if moving else FORMATS
-    suffix = suffix_of(path.name, formats)
-    shapes = shown_shapes(model)
-    if len(shapes) == 1 or suffix not in OF_ONE_SHAPE | {".obj"}:
-        return file_names(path.name, formats)
-    if suffix == ".obj":
-        return obj_names(path.name, [shape.name for shape in shapes])
-    each = part_names(path.name, suffix, [shape.name for shape in shapes])
-    return tuple(name for one in each for name in file_names(one, formats))
+    return names_for_parts(path.name, [shape.name for shape in shown_shapes(model)], formats)
 
 
 def shown_shapes(model: EditorModel) -> list[Shape]:

@@ -99,6 +99,29 @@ def test_a_part_of_the_timeline_becomes_a_gif_that_repeats(
     assert opened(tmp_path / "a.gif")[2]
 
 
+def test_a_loop_range_that_covers_the_motion_is_all_of_it(run: Any, tmp_path: Path) -> None:
+    save_document(document(replace(Timeline.even(2), loop_range=(0, 1.0))), tmp_path / "walk.glid")
+    words = ("animate", tmp_path / "walk.glid", "--out", tmp_path / "a.gif", *SMALL)
+    for more, seconds in (((), "1"), (("--seconds", 2), "2")):
+        outcome = run(*words, "--loop-range", *more)
+        assert outcome.code == 0, outcome.err
+        assert f"; {seconds} s." in outcome.out
+        assert opened(tmp_path / "a.gif")[2]
+
+
+@pytest.mark.parametrize("more", [(), ("--seconds", 4)])
+def test_a_loop_range_beyond_the_motion_is_refused_with_its_place(
+    run: Any, tmp_path: Path, more: tuple
+) -> None:
+    timeline = replace(Timeline.even(2), repeat="loop", loop_range=(1.25, 2.0))
+    save_document(document(timeline), tmp_path / "walk.glid")
+    words = ("animate", tmp_path / "walk.glid", "--out", tmp_path / "a.gif", *SMALL)
+    outcome = run(*words, "--loop-range", "--loop", "once", *more)
+    where = "the loop range lies from 1.25 to 2 s, but the motion from 0 to 1 s"
+    assert (outcome.code, where in outcome.err) == (1, True)
+    assert run(*words, "--loop-range").code == 0
+
+
 def test_a_part_that_is_not_there_is_refused(run: Any, session: Path, tmp_path: Path) -> None:
     words = ("animate", session, "--out", tmp_path / "a.gif", *SMALL)
     outcome = run(*words, "--loop-range")

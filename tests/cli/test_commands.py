@@ -59,6 +59,15 @@ def test_page_makes_a_live_page(run, picture: Path, tmp_path: Path) -> None:
     assert run("page", picture, "--out", picture).code == 1  # it would overwrite the picture
 
 
+def test_page_says_how_a_session_must_be_named(run, tmp_path: Path) -> None:
+    (tmp_path / "two.zip").write_bytes(b"PK\x03\x04 and so on")
+    outcome = run("page", tmp_path / "two.zip", "--out", tmp_path / "page.html")
+    assert outcome.code == 1
+    assert "two.zip is a session or another zip file; the name of a session must end in .glid" in (
+        outcome.err
+    )
+
+
 def test_trace_writes_the_cage_in_world_coordinates(run, picture: Path, tmp_path: Path) -> None:
     out = tmp_path / "cage.json"
     outcome = run("trace", picture, "--out", out, "--offset", 0, "--simplify", 0.5)

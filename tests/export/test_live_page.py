@@ -160,7 +160,7 @@ def test_the_motions_of_all_parts_are_in_the_page() -> None:
 
 def test_parts_that_do_not_fit_together_are_refused() -> None:
     (one,) = parts_of(count=1)
-    (moving,) = parts_of(motion=True, count=1)
+    _, moving = parts_of(motion=True)
     with pytest.raises(InputError, match="different times"):
         parts_live_html([one, moving])
     with pytest.raises(InputError, match="different sizes"):

@@ -211,7 +211,7 @@ def test_a_session_becomes_a_live_page_from_the_command_line(
     text = page.read_text(encoding="utf-8")
     assert "<title>Both</title>" in text
     assert len(re.findall('<img id="source', text)) == 2
-    for flags in (["--energy", "arap"], ["--max-vertices", "40"]):
+    for flags in (["--energy", "arap"], ["--energy", "iso"], ["--max-vertices", "40"]):
         assert main(["page", str(session), "--out", str(page), *flags])
         assert "a session, with its own outlines" in capsys.readouterr().err
 

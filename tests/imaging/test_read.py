@@ -95,7 +95,8 @@ class TestFormats:
             read_image(data)
 
     def test_a_session_is_no_picture(self):
-        with pytest.raises(TraceError, match=r"^a\.glid is a session or another zip file"):
+        says = r"^a\.glid is a session or another zip file; .* glid_nb\.Editor\(path=\.\.\.\)$"
+        with pytest.raises(TraceError, match=says):
             read_image(b"PK\x03\x04 and so on", "a.glid")
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+import warnings
 from pathlib import Path
 from typing import Any
 
@@ -70,6 +71,24 @@ def test_parts_without_names_get_numbers_and_files_their_names(tmp_path: Path) -
         named_parts([])
 
 
+def test_long_names_of_layers_and_pictures_are_cut(tmp_path: Path) -> None:
+    psd_tools = pytest.importorskip("psd_tools")
+    document: Any = psd_tools.PSDImage.new("RGB", (RED.shape[1], RED.shape[0]))
+    for pixels in (RED, BLUE):
+        _layer(document, "x" * 230, pixels)
+    document.save(tmp_path / "long.psd")
+    Image.fromarray(RED).save(tmp_path / f"{'y' * 230}.png")
+    for parts in (parts_in(tmp_path / "long.psd"), named_parts([*tmp_path.glob("y*.png"), BLUE])):
+        assert parts is not None
+        model = EditorModel(parts=parts)
+        try:
+            names = [shape.name for shape in model.shapes]
+            assert names == list(parts)
+            assert max(map(len, names)) == 200
+        finally:
+            model.close()
+
+
 def test_a_photoshop_file_is_its_visible_layers(tmp_path: Path) -> None:
     psd_tools = pytest.importorskip("psd_tools")
     document: Any = psd_tools.PSDImage.new("RGB", (RED.shape[1], RED.shape[0]))
@@ -128,6 +147,25 @@ def test_masks_and_opacity_of_groups_and_clipped_layers_are_drawn(tmp_path: Path
     half = BLUE.astype(float)
     half[..., 3] *= (left / 255) * (128 / 255)
     _assert_drawn(parts["grouped"], half)
+
+
+def test_a_clipped_layer_without_a_layer_below_is_drawn_as_it_is(tmp_path: Path) -> None:
+    psd_tools = pytest.importorskip("psd_tools")
+    path, document = tmp_path / "a.psd", psd_tools.PSDImage.new("RGB", (RED.shape[1], RED.shape[0]))
+    for name, pixels in {"bottom": RED, "faint": BLUE}.items():
+        layer = _layer(document, name, pixels)
+        layer.clipping = True
+    layer.opacity = 51
+    document.create_group([_layer(document, "inner", BLUE)], name="group")[0].clipping = True
+    document.save(path)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error", LayerWarning)
+        parts: Any = parts_in(path)
+    assert list(parts) == ["bottom", "faint", "inner"]
+    faint = BLUE.astype(float)
+    faint[..., 3] *= 51 / 255
+    for pixels, wanted in zip(parts.values(), (RED, faint, BLUE), strict=True):
+        _assert_drawn(pixels, wanted)
 
 
 def test_a_warning_names_the_layer_and_what_is_not_drawn(tmp_path: Path) -> None:

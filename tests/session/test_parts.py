@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import zipfile
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -22,6 +23,7 @@ from glid_nb.session.document import DocumentError
 from glid_nb.session.document_file import load_document, save_document
 from glid_nb.session.edit_state import EditError, EditState
 from glid_nb.session.editor_model import EditorModel
+from glid_nb.widgets import exporting
 
 SIZE = (120, 90)
 
@@ -293,6 +295,21 @@ def test_one_shape_is_saved_as_before_and_parts_of_one_picture_share_it(tmp_path
         model.close()
 
 
+def changed_session(model: EditorModel, folder: Path, change: Any) -> Path:
+    """A file of the model's session whose JSON ``change`` changed."""
+    path = folder / "changed.glid"
+    save_document(model.document, path)
+    with zipfile.ZipFile(path) as archive:
+        members = {name: archive.read(name) for name in archive.namelist()}
+    data = json.loads(members["document.json"])
+    change(data)
+    members["document.json"] = json.dumps(data).encode()
+    with zipfile.ZipFile(path, "w") as archive:
+        for name, content in members.items():
+            archive.writestr(name, content)
+    return path
+
+
 @pytest.mark.parametrize(
     ("change", "says"),
     [
@@ -309,18 +326,26 @@ def test_one_shape_is_saved_as_before_and_parts_of_one_picture_share_it(tmp_path
 def test_wrong_parts_are_refused(
     model: EditorModel, tmp_path: Path, change: Any, says: str
 ) -> None:
-    save_document(model.document, tmp_path / "good.glid")
-    with zipfile.ZipFile(tmp_path / "good.glid") as archive:
-        members = {name: archive.read(name) for name in archive.namelist()}
-    data = json.loads(members["document.json"])
-    change(data)
-    with zipfile.ZipFile(tmp_path / "bad.glid", "w") as archive:
-        for name, content in members.items():
-            archive.writestr(
-                name, json.dumps(data).encode() if name == "document.json" else content
-            )
+    path = changed_session(model, tmp_path, change)
     with pytest.raises(DocumentError, match=says):
-        load_document(tmp_path / "bad.glid")
+        load_document(path)
+
+
+def test_a_session_with_two_parts_of_one_name_opens_with_a_number(
+    model: EditorModel, tmp_path: Path
+) -> None:
+    path = changed_session(model, tmp_path, lambda d: d["parts"][1].update(name="red"))
+    opened = load_document(path)
+    assert [part.name for part in opened.parts] == ["red", "red 2"]
+    again = [replace(part, name="red") for part in opened.parts]
+    with pytest.raises(DocumentError, match=r"parts\[1\]: another part has the name 'red'"):
+        replace(opened, parts=again)
+    other = EditorModel(document=opened)
+    try:
+        files = exporting.exported(other, tmp_path / "a.obj", None, "source")
+        assert {"a-red-texture.png", "a-red_2-texture.png"} < set(files)
+    finally:
+        other.close()
 
 
 def test_pictures_of_parts_have_one_size() -> None:

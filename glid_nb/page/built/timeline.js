@@ -392,49 +392,50 @@ showRate(this.model.get("rate"))}showKeys(){this.track.showKeys(this.shown,this.
 s"));const segment=this.#segment(this.ease.index);if(segment)this.ease.show(segment.title,segment.easing);else
 this.ease.close()}showState(){const{keyframes,active}=this.shown;const now=`${active}/${keyframes.length}`;
 const moved=this.root.dataset.active!==now;this.root.dataset.active=now;this.bar.update(this.shown);
-this.showKeys();this.showMotion();if(moved)this.release();else if(!this.player.seen)this.player.release(
-this.#goal??this.active.time)}showMotion(){const{player,shown,spans}=this;player.only=shown.keyframes?.[0].
-time??0;player.range=shown.range??null;player.set(intervalsOf(spans),shown.repeat,this.#others);const computing=spans.
-some(({status})=>status==="computing");if(shown.kernel&&!player.playing&&player.seen&&computing)this.
-release();this.tell();this.track.showSegments(this.segments,noteOn(shown,this.segments).text);this.showHead()}get#others(){
-const motions=this.model.get("part_motions");return Object.fromEntries(motions.map(({key,spans})=>[key,
-intervalsOf(spans)]))}showOthers(){const layers=this.model.get("part_motions").map(one=>[one.key,layersOf(
-one.heights)]);this.#otherLayers=Object.fromEntries(layers);this.showMotion()}showPins(){this.player.
-renew()}showHeights(){this.#layers=layersOf(this.model.get("heights"))}#show(floats,time,others={},at=void 0){
-const{stage}=this;if(!stage)return;const moving=time!==void 0;const heights=moving?this.#layers?.at(
-time)??null:null;const parts=Object.entries(others).map(([key,theirs])=>{return[key,{floats:theirs,heights:this.#otherLayers[key]?.
-at(time??0)??null}]});const seen=moving?floats??true:null;const pins=at===void 0?null:this.#pinsAt(at);
-stage.trigger("glid:motion",seen,this.#playing,heights,Object.fromEntries(parts),pins);if(this.shown.
-kernel)return this.act("frame",{time:time??null,replaces:"frame"})}#pinsAt(at){const{player,model}=this;
-if(player.playing)return null;const pins=model.get("pins");return player.later===null?pinsAt(pins,at):
-pinsLater(pins)}play(){this.player.play();if(!this.player.playing||this.#played)return;this.#played=
-true;void this.act("played")}keep(){const{player}=this;if(player.seen)this.#go("keep",{time:player.place},
-player.place);else this.act("keep",{time:this.active.time})}#segment(index){const[start,end]=withReturn(
-this.shown).slice(index,index+2);return index>=0&&end?{title:`${start.name} → ${end.name}`,easing:start.
-easing}:null}#ease(){const{active,keyframes}=this.shown;const last=withReturn(this.shown).length-2;const{
-bar,track}=this;const index=Math.min(active,last);const own=track.eases.children[index];if(keyframes.
-length>1)this.#openEase(index,own&&!own.hidden?own:bar.ease)}#easePressed(){this.#easeBefore=this.ease.
-index}#openEase(index,at){const segment=this.#segment(index);if(segment&&this.#easeBefore!==index){this.
-ease.open(index,segment.title,segment.easing,at)}this.#easeBefore=-1}#easeClosed(index){const{activeElement}=document;
-const lost=!activeElement||activeElement===document.body;if(!lost&&!this.ease.element.contains(activeElement))
-return;const button=this.track.eases.children[index];if(button instanceof HTMLElement&&!button.hidden)
-button.focus({preventScroll:true});else this.track.focus()}#scrub(time){this.player.scrub(Math.min(time,
-this.track.span))}#selectHere(){const index=keyAt(this.shown.keyframes,this.player.place);if(index>=
-0)this.select(index)}#typing(e){return this.bar.element.contains(e.target)}#keydown(e){const history=undoOrRedo(
-e);if(!history&&(e.ctrlKey||e.metaKey))return;e.stopPropagation();const does=this.#typing(e)?null:this.#keyDoes(
-e);if(!history&&!does)return;e.preventDefault();if(history)this.act(history);else does?.()}#rangeEnd(which){
-const{player}=this;this.track.range.key(which,player.seen?player.place:this.active.time)}#keyDoes(e){
-const{keyframes}=this.shown;switch(e.key){case" ":return()=>void(e.repeat||this.play());case"ArrowLe\
-ft":return()=>this.#step(e,-1);case"ArrowRight":return()=>this.#step(e,1);case"Enter":return e.target===
-this.track.ruler?()=>this.#ease():null;case"F2":return()=>this.track.rename();case"Delete":case"Back\
-space":return()=>void this.edit("delete_pose");case"Home":return()=>e.shiftKey?this.#rangeEnd(0):this.
-select(0);case"End":return()=>e.shiftKey?this.#rangeEnd(1):this.select(keyframes.length-1);case"Esca\
-pe":return()=>{this.track.drop();this.release()};default:return null}}#step(e,sign){const{player,track}=this;
-const{keyframes,active}=this.shown;if(e.altKey){const time=track.landing(active,this.active.time+sign*
-NUDGE);this.edit("move_pose",{time})}else if(e.shiftKey){this.select(nextKey(keyframes,player.place,
-sign)??active)}else{this.#scrub(player.place+sign/track.rate)}}};function intervalsOf(spans){return spans.
-map(span=>({...span,floats:toFloats(span.floats)}))}function layersOf({times,floats}){return times.length?
-new Motion({times,repeat:"once"},toFloats(floats)):null}function render(context){const{model,el,signal}=context;const timeline=new Timeline(context);const{player}=timeline;
+this.showKeys();this.showMotion();if(moved)this.release();else if(!this.player.seen&&!this.player.playing){
+this.player.release(this.#goal??this.active.time)}}showMotion(){const{player,shown,spans}=this;player.
+only=shown.keyframes?.[0].time??0;player.range=shown.range??null;player.set(intervalsOf(spans),shown.
+repeat,this.#others);const computing=spans.some(({status})=>status==="computing");if(shown.kernel&&!player.
+playing&&player.seen&&computing)this.release();this.tell();this.track.showSegments(this.segments,noteOn(
+shown,this.segments).text);this.showHead()}get#others(){const motions=this.model.get("part_motions");
+return Object.fromEntries(motions.map(({key,spans})=>[key,intervalsOf(spans)]))}showOthers(){const layers=this.
+model.get("part_motions").map(one=>[one.key,layersOf(one.heights)]);this.#otherLayers=Object.fromEntries(
+layers);this.showMotion()}showPins(){this.player.renew()}showHeights(){this.#layers=layersOf(this.model.
+get("heights"))}#show(floats,time,others={},at=void 0){const{stage}=this;if(!stage)return;const moving=time!==
+void 0;const heights=moving?this.#layers?.at(time)??null:null;const parts=Object.entries(others).map(
+([key,theirs])=>{return[key,{floats:theirs,heights:this.#otherLayers[key]?.at(time??0)??null}]});const seen=moving?
+floats??true:null;const pins=at===void 0?null:this.#pinsAt(at);stage.trigger("glid:motion",seen,this.#playing,
+heights,Object.fromEntries(parts),pins);if(this.shown.kernel)return this.act("frame",{time:time??null,
+replaces:"frame"})}#pinsAt(at){const{player,model}=this;if(player.playing)return null;const pins=model.
+get("pins");return player.later===null?pinsAt(pins,at):pinsLater(pins)}play(){this.player.play();if(!this.
+player.playing||this.#played)return;this.#played=true;void this.act("played")}keep(){const{player}=this;
+if(player.seen)this.#go("keep",{time:player.place},player.place);else this.act("keep",{time:this.active.
+time})}#segment(index){const[start,end]=withReturn(this.shown).slice(index,index+2);return index>=0&&
+end?{title:`${start.name} → ${end.name}`,easing:start.easing}:null}#ease(){const{active,keyframes}=this.
+shown;const last=withReturn(this.shown).length-2;const{bar,track}=this;const index=Math.min(active,last);
+const own=track.eases.children[index];if(keyframes.length>1)this.#openEase(index,own&&!own.hidden?own:
+bar.ease)}#easePressed(){this.#easeBefore=this.ease.index}#openEase(index,at){const segment=this.#segment(
+index);if(segment&&this.#easeBefore!==index){this.ease.open(index,segment.title,segment.easing,at)}this.#easeBefore=
+-1}#easeClosed(index){const{activeElement}=document;const lost=!activeElement||activeElement===document.
+body;if(!lost&&!this.ease.element.contains(activeElement))return;const button=this.track.eases.children[index];
+if(button instanceof HTMLElement&&!button.hidden)button.focus({preventScroll:true});else this.track.
+focus()}#scrub(time){this.player.scrub(Math.min(time,this.track.span))}#selectHere(){const index=keyAt(
+this.shown.keyframes,this.player.place);if(index>=0)this.select(index)}#typing(e){return this.bar.element.
+contains(e.target)}#keydown(e){const history=undoOrRedo(e);if(!history&&(e.ctrlKey||e.metaKey))return;
+e.stopPropagation();const does=this.#typing(e)?null:this.#keyDoes(e);if(!history&&!does)return;e.preventDefault();
+if(history)this.act(history);else does?.()}#rangeEnd(which){const{player}=this;this.track.range.key(
+which,player.seen?player.place:this.active.time)}#keyDoes(e){const{keyframes}=this.shown;switch(e.key){case"\
+ ":return()=>void(e.repeat||this.play());case"ArrowLeft":return()=>this.#step(e,-1);case"ArrowRight":
+return()=>this.#step(e,1);case"Enter":return e.target===this.track.ruler?()=>this.#ease():null;case"\
+F2":return()=>this.track.rename();case"Delete":case"Backspace":return()=>void this.edit("delete_pose");case"\
+Home":return()=>e.shiftKey?this.#rangeEnd(0):this.select(0);case"End":return()=>e.shiftKey?this.#rangeEnd(
+1):this.select(keyframes.length-1);case"Escape":return()=>{this.track.drop();this.release()};default:
+return null}}#step(e,sign){const{player,track}=this;const{keyframes,active}=this.shown;if(e.altKey){
+const time=track.landing(active,this.active.time+sign*NUDGE);this.edit("move_pose",{time})}else if(e.
+shiftKey){this.select(nextKey(keyframes,player.place,sign)??active)}else{this.#scrub(player.place+sign/
+track.rate)}}};function intervalsOf(spans){return spans.map(span=>({...span,floats:toFloats(span.floats)}))}
+function layersOf({times,floats}){return times.length?new Motion({times,repeat:"once"},toFloats(floats)):
+null}function render(context){const{model,el,signal}=context;const timeline=new Timeline(context);const{player}=timeline;
 const tapped=e=>{const target=e.target;if(target.closest(".glid-editor")===el.closest(".glid-editor"))
 timeline.play()};window.addEventListener("glid:play",tapped,{signal});const keyed=e=>{const target=e.
 target;if(target.closest(".glid-editor")===el.closest(".glid-editor"))timeline.keep()};window.addEventListener(

@@ -247,7 +247,9 @@ export class Timeline {
     this.showKeys();
     this.showMotion();
     if (moved) this.release();
-    else if (!this.player.seen) this.player.release(this.#goal ?? this.active.time);
+    else if (!this.player.seen && !this.player.playing) {
+      this.player.release(this.#goal ?? this.active.time);
+    }
   }
 
   showMotion() {
