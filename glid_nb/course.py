@@ -26,6 +26,8 @@ from glid_nb.harmonic import HarmonicMap
 SECONDS = 180.0  # that a check may take, unless it says otherwise
 # Names of distributions that differ from the imported name.
 _DISTRIBUTIONS = {"igl": "libigl", "glid_check": "glid-check"}
+NOT_TRACED = "TracerArrayConversionError"  # JAX's, if NumPy is called while it differentiates
+CALL_JNP = "JAX differentiates this function, so call jnp and not np in it, such as jnp.sqrt"
 CHECK_HEADING = re.compile(r"^# %% exercise (\d+)\n", re.MULTILINE)  # in a file of checks
 
 
@@ -166,8 +168,8 @@ def why(failure: BaseException, seconds: float) -> str:
     if isinstance(failure, AssertionError):
         return str(failure) or "an assertion does not hold"
     lines = str(failure).splitlines() or ["no message"]
-    if type(failure).__name__ == "TracerArrayConversionError":
-        return "JAX differentiates this function, so call jnp and not np in it, such as jnp.sqrt"
+    if type(failure).__name__ == NOT_TRACED:
+        return CALL_JNP
     raised = f"your code raises {type(failure).__name__}: {lines[0]}"
     if isinstance(failure, TypeError) and re.search("NoneType|ellipsis", lines[0]):
         return f"the cell still holds None or `...`, or returns nothing ({raised})"

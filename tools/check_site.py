@@ -2,9 +2,9 @@
 
 Every link and anchor between its pages must resolve. In Chromium, every page must open at the width
 of a phone and of a desktop, without an error in the console, a request outside the folder, or
-sideways scrolling. A live page in it must start, and every slider of a figure must change the
-picture. Searching must find a page. Pages are opened
-as files, without a server.
+sideways scrolling. Displayed formulas, and the figures and printed sentences of chapters, must be
+visible as a whole. A live page must start, and every slider of a figure must change the picture.
+Searching must find a page. Pages are opened as files, without a server.
 ``--links`` checks only the links.
 """
 
@@ -37,6 +37,22 @@ _OVERFLOW = """() => {
   return [...document.querySelectorAll('body *')]
     .filter((e) => e.getBoundingClientRect().right > width + 1 && !clipped(e))
     .slice(0, 3).map((e) => e.outerHTML.slice(0, 120));
+}"""
+
+# What a reader would have to scroll sideways, though it can break or be drawn narrow. Printed
+# tables (docs/extensions/printed.py) may scroll.
+_CUT = """() => {
+  const right = (e) => e.getBoundingClientRect().left + e.clientWidth;
+  const output = '.cell_output img, .cell_output pre';
+  const seen = `.equation .broken, .equation :not(.broken) > math, ${output}`;
+  const table = (e) => e.tagName === 'PRE' && e.textContent.trim().includes('  ');
+  return [...document.querySelectorAll(seen)]
+    .filter((e) => !table(e))
+    .filter((e) => {
+      const box = e.closest('.equation, .cell_output');
+      return e.scrollWidth > e.clientWidth + 1 || e.getBoundingClientRect().right > right(box) + 1;
+    })
+    .map((e) => e.textContent.slice(0, 60) || e.outerHTML.slice(0, 120));
 }"""
 
 
@@ -105,7 +121,13 @@ class Visitor:
         figures = self.page.locator("figure.glid-frames").all()
         still = [fault for figure in figures for fault in still_sliders(figure)]
         wide = self.page.evaluate(_OVERFLOW)
-        return [*self.notes, *still, *(f"wider than the page: {element}" for element in wide)]
+        cut = self.page.evaluate(_CUT)
+        return [
+            *self.notes,
+            *still,
+            *(f"wider than the page: {element}" for element in wide),
+            *(f"a formula, figure or sentence is cut off: {element}" for element in cut),
+        ]
 
     def search(self, word: str) -> list[str]:
         """The faults of searching for an existing word; raises an error if nothing is found."""

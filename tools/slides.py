@@ -2,11 +2,13 @@
 
 Each lecture is one HTML file that needs no network and no kernel: figures with sliders move in it.
 A section of a chapter becomes a slide, with the first sentence of each paragraph, the equations and
-the figures. The whole text is in the notes, which N shows. `docs/lecturers.md` lists the lectures.
+the figures. The chapter's question, exercises and the summary are whole. All of the text is in the
+notes, which N shows. `docs/lecturers.md` lists the lectures.
 """
 
 from __future__ import annotations
 
+import base64
 import html
 import re
 import sys
@@ -20,9 +22,11 @@ from nbformat import NotebookNode
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 
-from tools.equations import mathml, pieces
+from tools.equations import displayed, mathml, pieces
 
-NOTEBOOKS = Path(__file__).resolve().parent.parent / "notebooks"
+REPOSITORY = Path(__file__).resolve().parent.parent
+NOTEBOOKS = REPOSITORY / "notebooks"
+FONT = REPOSITORY / "docs" / "static" / "math.woff"
 LECTURES = {
     "1-folding": ("00", "02", "03"),
     "2-the-space-of-maps": ("04", "05"),
@@ -36,6 +40,9 @@ LECTURES = {
 _LEFT_OUT = re.compile(r"\*\*(?:Further|Next|Before this|Minutes)")
 _MOST = 5  # points of a slide
 _AFTER = 2  # points that stay on a slide after its figure: what to see in it
+_PRINTED = 2  # printed outputs of a slide
+_WHOLE = ("Exercise", "Summary")  # headings of which all is shown
+_SHORT = 40  # letters of a sentence that says too little alone, such as "Drag the ring."
 _MATH = re.compile(r"\$\$(.+?)\$\$|(?<![\\$])\$(?!\s)(.+?)(?<!\s)\$", re.DOTALL)
 _NUMBER = re.compile(r"\\tag\*?\{([^{}]*)\}")
 # A sentence ends before a capital letter, a formula or bold text.
@@ -44,11 +51,12 @@ _SENTENCE = re.compile(r"(?<=[^\d][.!?])[)\"]?\s+(?=[A-Z$*`(])")
 
 @dataclass
 class Slide:
-    """A heading, points, and what is shown below them."""
+    """A heading, points, and below them printed text and a figure."""
 
     heading: str
     points: list[str] = field(default_factory=list)
-    shown: list[str] = field(default_factory=list)
+    printed: list[str] = field(default_factory=list)
+    figure: str = ""
     notes: list[str] = field(default_factory=list)
     level: int = 2
     after: int = 0
@@ -56,7 +64,19 @@ class Slide:
 
     @property
     def empty(self) -> bool:
-        return not (self.points or self.shown)
+        return not (self.points or self.printed or self.figure)
+
+    def takes(self, output: str) -> bool:
+        """Whether there is room for another output of a cell."""
+        if _is_printed(output):
+            return len(self.printed) < _PRINTED
+        return not self.figure
+
+    def add(self, output: str) -> None:
+        if _is_printed(output):
+            self.printed.append(output)
+        else:
+            self.figure = output
 
 
 def rendered(markdown: str) -> str:
@@ -70,7 +90,7 @@ def rendered(markdown: str) -> str:
         else:
             number = _NUMBER.search(latex)
             formulas = pieces(_NUMBER.sub("", latex).strip().rstrip("."))
-            made.append("".join(mathml(one, "block") for one in formulas))
+            made.append("".join(map(displayed, formulas)))
             made[-1] += f"<small>({number[1]})</small>" if number else ""
             made[-1] = f'<span class="formulas">{made[-1]}</span>'
         return f"QMATH{len(made) - 1}Q"
@@ -94,7 +114,7 @@ def blocks(markdown: str) -> Iterator[str]:
 
 def slides(book: NotebookNode) -> Iterator[Slide]:
     """The slides of a chapter."""
-    now = Slide("")
+    now, before = Slide(""), ""
 
     def continued() -> Slide:
         return Slide(now.heading, level=max(now.level, 2))
@@ -105,10 +125,10 @@ def slides(book: NotebookNode) -> Iterator[Slide]:
             if {"check", "exercise", "remove-cell"} & set(tags):
                 continue
             for output in shown(cell):
-                if now.shown:
+                if not now.takes(output):
                     yield now
                     now = continued()
-                now.shown.append(output)
+                now.add(output)
             continue
         if cell.source.startswith("<details>"):  # a solution
             continue
@@ -121,15 +141,25 @@ def slides(book: NotebookNode) -> Iterator[Slide]:
                 block = block[heading.end() :].strip()
             if not block or _LEFT_OUT.match(block):
                 continue
-            now.after += bool(now.shown)
-            if now.after > _AFTER or len(now.points) >= _MOST:
+            now.after += bool(now.figure or now.printed)
+            full = now.after > _AFTER or len(now.points) >= _MOST
+            goes_on = bool(now.notes) and within_sentence(before, block)
+            if full and not goes_on:
                 yield now
                 now = continued()
+            before = block
             now.notes.append(rendered(block))
-            task = now.heading.startswith("Exercise")
-            now.points.append(rendered(block) if task else point(block))
+            whole = now.heading.startswith(_WHOLE)
+            now.points.append(rendered(block) if whole else point(block))
     if not now.empty:
         yield now
+
+
+def within_sentence(before: str, block: str) -> bool:
+    """Whether a sentence goes on from one block to the next, often into an equation."""
+    if block.startswith("$$"):
+        return not before.endswith((".", "?"))
+    return block[0].islower()
 
 
 def with_pictures(cell: NotebookNode) -> str:
@@ -141,10 +171,16 @@ def with_pictures(cell: NotebookNode) -> str:
 
 
 def point(block: str) -> str:
-    """What a slide shows of a block: all of an equation, list, table or fence, else a sentence."""
-    if re.match(r"\$\$|\||- |\d\. |```|!\[", block):
+    """What a slide shows of a block: all of an equation, list, table, fence or of the chapter's
+    question, else a sentence. The next one follows too if that is a question, or short."""
+    if re.match(r"\$\$|\||- |\d\. |```|!\[|\*\*The question", block):
         return rendered(block)
     first, *more = _SENTENCE.split(block, maxsplit=1)
+    if more and (first.endswith("?") or len(first) < _SHORT):
+        second, *more = _SENTENCE.split(more[0], maxsplit=1)
+        first = f"{first} {second}"
+    if first.startswith("(") and first.count("(") > first.count(")"):
+        first = first[1:]  # its end is left out
     equations = [found[0] for rest in more for found in _MATH.finditer(rest) if found[1]]
     return rendered("\n\n".join([first, *equations]))
 
@@ -164,6 +200,10 @@ def shown(cell: NotebookNode) -> Iterator[str]:
             yield f"<pre>{html.escape(output.text.strip())}</pre>"
 
 
+def _is_printed(output: str) -> bool:
+    return output.startswith("<pre>")
+
+
 def page(title: str, chapters: list[NotebookNode]) -> str:
     """A lecture as one HTML page."""
     parts = []
@@ -174,12 +214,15 @@ def page(title: str, chapters: list[NotebookNode]) -> str:
             heading = f"<h{slide.level}>{number}{words}</h{slide.level}>"
             points = "".join(f'<div class="point">{one}</div>' for one in slide.points)
             text = f'<div class="points">{points}</div>' if points else ""
-            figure = "".join(f'<div class="shown">{one}</div>' for one in slide.shown)
+            outputs = slide.figure + "".join(slide.printed)
+            figure = f'<div class="shown">{outputs}</div>' if outputs else ""
             notes = f"<aside>{''.join(slide.notes)}</aside>" if slide.notes else ""
             beside = ' class="beside"' if "<img" in figure and text else ""
             parts.append(f"<section>{heading}<div{beside}>{text}{figure}</div>{notes}</section>")
     template = (Path(__file__).parent / "slides.html").read_text(encoding="utf-8")
-    return template.replace("TITLE", html.escape(title)).replace("SLIDES", "\n".join(parts))
+    font = base64.b64encode(FONT.read_bytes()).decode("ascii")
+    template = template.replace("TITLE", html.escape(title)).replace("FONT", font)
+    return template.replace("SLIDES", "\n".join(parts))
 
 
 def main(folder: Path) -> None:

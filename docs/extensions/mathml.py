@@ -7,6 +7,7 @@ stays on its line.
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
 from html import escape
 from typing import Any
 
@@ -21,9 +22,9 @@ _MARKS = re.compile(r"[.,;:?!)]+")
 _TAG = re.compile(r"\\tag\*?\{([^{}]*)\}")
 
 
-def mathml(latex: str, display: str) -> str:
+def made(make: Callable[..., str], *latex: str) -> str:
     try:
-        return equations.mathml(latex, display)
+        return make(*latex)
     except ValueError as error:
         raise SphinxError(str(error)) from error
 
@@ -40,9 +41,9 @@ def keep_marks(_app: Sphinx, document: nodes.document) -> None:
 
 
 def visit_inline(self: HTML5Translator, node: nodes.math) -> None:
-    made = mathml(node.astext(), "inline")
+    formula = made(equations.mathml, node.astext(), "inline")
     marks = escape(node.get("marks", ""))
-    self.body.append(f'<span class="formula">{made}{marks}</span>' if marks else made)
+    self.body.append(f'<span class="formula">{formula}{marks}</span>' if marks else formula)
     raise nodes.SkipNode
 
 
@@ -51,7 +52,7 @@ def visit_block(self: HTML5Translator, node: nodes.math_block) -> None:
     tag = _TAG.search(latex)
     number = tag[1] if tag else node.get("number")
     names = " ".join(f'id="{escape(name)}"' for name in node["ids"][:1])
-    formulas = [mathml(one, "block") for one in equations.pieces(_TAG.sub("", latex))]
+    formulas = [made(equations.displayed, one) for one in equations.pieces(_TAG.sub("", latex))]
     self.body.append(f'<div class="equation" {names}><div>{"".join(formulas)}</div>')
     if number:
         self.body.append(f'<span class="number">({escape(str(number))})</span>')

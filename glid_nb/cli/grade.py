@@ -14,6 +14,7 @@ import functools
 import json
 import math
 import signal
+import sys
 from collections.abc import Iterator
 from dataclasses import asdict
 from pathlib import Path
@@ -21,11 +22,14 @@ from types import FrameType
 
 import glid_nb
 from glid_nb._errors import InputError
+from glid_nb.cli.many import refuse_standard_output
 from glid_nb.cli.output import check_files, step, write
-from glid_nb.grading import grade as grading
 from glid_nb.grading import tables
+from glid_nb.grading.grade import grade
+from glid_nb.grading.handed_in import Grade, HandedIn, chapters_in, handed_in
 
 LIMIT = 60.0
+_LONGEST = 86_400.0  # seconds: a day
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -42,38 +46,52 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(chosen: argparse.Namespace) -> None:
-    check_files([chosen.csv, chosen.moodle, chosen.canvas], [])
-    chapters = grading.chapters_in(chosen.chapters or _own_chapters())
+    files = {name: getattr(chosen, name) for name in ("csv", "moodle", "canvas")}
+    for name, path in files.items():
+        if path is not None:
+            refuse_standard_output(path, f"--{name}", "the table is printed there, so name a file")
+    check_files(files.values(), [])
+    chapters = chapters_in(chosen.chapters or _own_chapters())
     if not chosen.folder.is_dir():
         raise InputError(f"{chosen.folder} is no folder")
-    found = grading.hand_ins(chosen.folder, chapters)  # all are read before one is run
-    empty = grading.without_notebook(chosen.folder, found)
-    expected = [(one.student, one.chapter.name) for one in found]
-    expected += [(one.student, "") for one in empty]
-    say = _nothing if chosen.json else functools.partial(print, flush=True)
-    columns = tables.Columns.of(expected)
-    say(columns.head)
-    grades = list[grading.Grade]()
-    with _ended_by_signals():
-        for one in found:
-            with step(f"grading {one.path.relative_to(chosen.folder)}"):
-                own = list(grading.grade(one, limit=chosen.limit, folder=chosen.folder))
-            grades += own
-            say("\n".join(map(columns.line, own)))
-    grades += empty
-    for one in empty:
-        say(columns.line(one))
+    found = handed_in(chosen.folder, chapters)  # all are read before one is run
     possible = {name: len(chapter.notebook.exercises) for name, chapter in chapters.items()}
-    files = {
-        chosen.csv: tables.everything(grades),
-        chosen.moodle: tables.moodle(grades),
-        chosen.canvas: tables.canvas(grades, possible),
-    }
-    for path, text in files.items():
-        if path is not None:
-            write(path, text)
+    grades = list[Grade]()
+    try:
+        with _ended_by_signals():
+            _grade_all(found, chosen, grades)
+    except (KeyboardInterrupt, SystemExit):
+        count = len({(one.student, one.chapter) for one in grades})
+        text = f"{count} of {len(found.counting)} notebooks were graded before the interruption"
+        print(f"glid-nb: {text}", file=sys.stderr)
+        raise
+    finally:  # also after Ctrl-C, with the grades so far
+        every = [*grades, *found.others]
+        _write(files["csv"], tables.everything(every))
+        _write(files["moodle"], tables.moodle(every))
+        _write(files["canvas"], tables.canvas(every, possible))
     if chosen.json:
-        print(json.dumps([asdict(one) for one in grades]))
+        print(json.dumps([asdict(one) for one in every]))
+
+
+def _grade_all(found: HandedIn, chosen: argparse.Namespace, grades: list[Grade]) -> None:
+    """Grade one hand-in after the other, print each, and add it to ``grades``."""
+    say = _nothing if chosen.json else functools.partial(print, flush=True)
+    expected = [(one.student, one.chapter.name) for one in found.counting]
+    columns = tables.Columns.of([*expected, *((one.student, "") for one in found.others)])
+    say(columns.head)
+    for one in found.counting:
+        with step(f"grading {one.path.relative_to(chosen.folder)}"):
+            own = grade(one, limit=chosen.limit, folder=chosen.folder)
+        grades += own
+        say("\n".join(map(columns.line, own)))
+    for line in found.others:
+        say(columns.line(line))
+
+
+def _write(path: Path | None, text: str) -> None:
+    if path is not None:
+        write(path, text)
 
 
 def _nothing(text: str) -> None:
@@ -114,4 +132,6 @@ def _seconds(text: str) -> float:
         value = 0.0
     if not (math.isfinite(value) and value > 0):
         raise argparse.ArgumentTypeError(f"a limit is a number of seconds, not {text!r:.40}")
+    if value > _LONGEST:
+        raise argparse.ArgumentTypeError(f"a limit is at most {_LONGEST:g} seconds, which is a day")
     return value

@@ -20,7 +20,9 @@ from .motion import animate_parts as animate_parts
 from .motion import motion_files as motion_files
 from .motion import parts_motion_files as parts_motion_files
 from .moving import MovingPart as MovingPart
+from .page import PagePart as PagePart
 from .page import page_html as page_html
+from .page import parts_page_html as parts_page_html
 from .picture import StillPart as StillPart
 from .picture import animation_bytes as animation_bytes
 from .picture import parts_png as parts_png

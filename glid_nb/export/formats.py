@@ -45,7 +45,7 @@ MOTION_FORMATS = {  # a motion's name without one of these is a folder of frames
 }
 
 
-OF_ONE_SHAPE = frozenset({".svg", ".html", ".py", ".proof.json", ".motion.json"})
+OF_ONE_SHAPE = frozenset({".svg", ".py", ".proof.json", ".motion.json"})
 """Formats that hold one shape. A session with several parts exports a file for each."""
 
 

@@ -13,9 +13,9 @@ from glid_nb.export import encode
 from glid_nb.export.formats import OF_ONE_SHAPE, file_names, part_names, suffix_of
 from glid_nb.export.mesh import motion_glb, parts_motion_glb
 from glid_nb.export.moving import MovingPart, check_picture, frames, moving_parts
-from glid_nb.export.page import page_html
+from glid_nb.export.page import PagePart, parts_page_html
 from glid_nb.imaging import as_rgba8
-from glid_nb.imaging.backdrop import WHITE, Background
+from glid_nb.imaging.backdrop import WHITE, Backdrop, Background
 from glid_nb.imaging.order import Order
 from glid_nb.imaging.progress import Progress, Stopped, report
 from glid_nb.motion import Motion
@@ -125,23 +125,18 @@ def motion_files(
         how: dict[str, Any] = {"size": size, "frames_per_second": fps, "background": background}
         how |= {"loop": loop, "progress": progress}
         return parts_motion_files(name, [MovingPart(image, motion, poses)], **how)
-    ground = encode.check_settings(size, fps, background, suffix)
+    encode.check_settings(size, fps, background, suffix)
     checked("loop", bool, loop)
     image = as_rgba8(image)
     height, width = image.shape[:2]
     _check_motion((width, height), motion)
     try:
-        match suffix:
-            case ".html":
-                shown = {"title": name[:-5], "pose": poses, "loop": loop, "progress": progress}
-                behind = None if isinstance(ground, tuple) and ground == WHITE else ground
-                contents = [page_html(image, motion, **shown, background=behind).encode()]
-            case ".glb":
-                contents = [motion_glb(image, motion, poses, progress=progress)]
-            case _:  # .motion.json
-                report(progress, 0, 1)
-                contents = [text.encode() for text in motion.texts(image_size=(width, height))]
-                report(progress, 1, 1)
+        if suffix == ".glb":
+            contents = [motion_glb(image, motion, poses, progress=progress)]
+        else:  # .motion.json
+            report(progress, 0, 1)
+            contents = [text.encode() for text in motion.texts(image_size=(width, height))]
+            report(progress, 1, 1)
     except Stopped:
         return {}
     return _named(name, suffix, contents)
@@ -159,9 +154,9 @@ def parts_motion_files(
 ) -> dict[str, bytes]:
     """Like `motion_files` for several shapes, the rearmost first.
 
-    Their motions have the same times. Frames show all shapes; later ones cover earlier ones. A
-    glTF file has a node for each. The formats in `OF_ONE_SHAPE` hold one shape. So there are files
-    for each part, with its name in theirs (`part_names`).
+    Their motions have the same times. Frames and a page show all shapes; later ones cover earlier
+    ones. A glTF file has a node for each. The formats in `OF_ONE_SHAPE` hold one shape. So there
+    are files for each part, with its name in theirs (`part_names`).
     """
     suffix, fps, parts = suffix_of(name), frames_per_second, moving_parts(parts)
     if suffix in OF_ONE_SHAPE:
@@ -181,12 +176,27 @@ def parts_motion_files(
     try:
         if suffix == ".glb":
             contents = [parts_motion_glb(parts, progress=progress)]
+        elif suffix == ".html":
+            contents = [_page(parts, name[: -len(suffix)], loop, progress, ground)]
         else:
             drawn = frames(parts, size, fps, ground, progress)
             contents = encode.encoded(drawn, name, suffix, fps, ground, loop)
     except Stopped:
         return {}
     return _named(name, suffix, contents)
+
+
+def _page(
+    parts: Sequence[MovingPart],
+    title: str,
+    loop: bool,
+    progress: Progress | None,
+    background: Backdrop,
+) -> bytes:
+    shown = [PagePart(part.image, part.motion, None, part.poses, part.name) for part in parts]
+    behind = None if isinstance(background, tuple) and background == WHITE else background
+    how: dict[str, Any] = {"loop": loop, "progress": progress, "background": behind}
+    return parts_page_html(shown, title, **how).encode()
 
 
 def _check_motion(size: tuple[int, int], motion: Motion, name: str = "") -> None:

@@ -1,4 +1,4 @@
-"""A web page that shows a map or plays a motion: one file, no network, nothing to install."""
+"""A web page that shows maps or plays motions: one file, no network, nothing to install."""
 
 import base64
 import html
@@ -7,6 +7,7 @@ import json
 import re
 import zlib
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -16,9 +17,10 @@ from PIL import Image
 from glid_nb._arguments import check_type
 from glid_nb._arrays import Array
 from glid_nb._errors import InputError
-from glid_nb.certificate import Certificate, global_injectivity
-from glid_nb.certificate.rounding import rounded_down, rounded_up
+from glid_nb.certificate import Certificate
 from glid_nb.export.moving import MovingMesh, check_picture
+from glid_nb.export.page_proof import Proved, caption, color_ranges, list_of_parts
+from glid_nb.export.parts import named_parts
 from glid_nb.figures.style import COLORS, rgb
 from glid_nb.geometry import Domain
 from glid_nb.harmonic import FixedPoints, HarmonicMap
@@ -28,7 +30,7 @@ from glid_nb.imaging.bleed import bled
 from glid_nb.imaging.order import Order
 from glid_nb.imaging.progress import Progress, report
 from glid_nb.imaging.render import MARGIN
-from glid_nb.motion import Motion, MotionCertificate
+from glid_nb.motion import Motion
 from glid_nb.motion.settings import checked
 from glid_nb.page import ShaderMap, bundle, stylesheet, template, webgl2_shaders
 from glid_nb.pose import Pose
@@ -42,12 +44,17 @@ _HEIGHT = 2.0**-16  # rounding of heights
 _MOST_STEPS = 2**28  # largest coefficient, in steps
 _QUALITY = 92  # of a background, as JPEG
 LONGEST_CHAIN = 1024  # vectors that fit in a block of uniforms on every device
-# The text for each verdict on global injectivity.
-_OVERLAPS = {
-    "yes": "no part lies over another",
-    "no": "parts of the shape lie over one another",
-    "undecided": "it is not known whether parts of the shape lie over one another",
-}
+
+
+@dataclass(frozen=True, eq=False)
+class PagePart:
+    """A shape of a page. The fields are the arguments of `page_html`."""
+
+    image: ArrayLike
+    map: HarmonicMap | Motion
+    certificate: Certificate | None = None
+    pose: Pose | Sequence[Pose | Order] | None = None
+    name: str = ""  # of one of several
 
 
 def page_html(
@@ -72,41 +79,87 @@ def page_html(
     keyframe of a motion, decide which part is in front. The background is as in `glid_nb.render`;
     for None, the page shows its own.
     """
-    report(progress, 0, 3)
+    part = PagePart(image, map, certificate, pose)
+    return parts_page_html([part], title, tolerance, loop, progress, background)
+
+
+def parts_page_html(
+    parts: Sequence[PagePart],
+    title: str = "Deformed picture",
+    tolerance: float = _TOLERANCE,
+    loop: bool = True,
+    progress: Progress | None = None,
+    background: Background = None,
+) -> str:
+    """Like `page_html` for several shapes, the rearmost first: one canvas and one player.
+
+    Later shapes cover earlier ones. Each has a proof of its own. The page lists them, and states
+    bounds that hold for all. The pictures have the same size. The shapes are all maps, or all
+    motions, which have the same times.
+    """
+    parts = named_parts(parts, PagePart)
+    total = len(parts) + 2
+    report(progress, 0, total)
     checked("loop", bool, loop)
     behind = behind_canvas(background)
-    texture = as_rgba8(image)
-    check_type("map", map, HarmonicMap | Motion, "for example result.map", InputError)
-    check_picture((texture.shape[1], texture.shape[0]), map)
-    texture = bled(texture)
-    mesh = MovingMesh.of(map, pose, _VERTICES, tolerance)
-    report(progress, 1, 3)
-    proof = map.certificate if isinstance(map, Motion) else certificate
-    step = _STEP * map.domain.cage.longer_side
+    _check_parts(parts)
+    each: list[dict[str, Any]] = []
+    for part in parts:
+        each.append(_data_of(part, tolerance))
+        report(progress, len(each), total)
+    proved = [Proved(part.map, part.certificate, part.name) for part in parts]
+    _, fragment = webgl2_shaders("picture", None, len(COLORS))
+    sides = [part.map.domain.cage.longer_side for part in parts]
     data = {
-        **_shape(mesh, step),
-        **_shaders(mesh, map, step),
-        "frame": [*PixelFrame(*texture.shape[1::-1]).bounds],
+        "parts": each,
+        "fragment": fragment,
+        "frame": [*PixelFrame(*as_rgba8(parts[0].image).shape[1::-1]).bounds],
         "margin": MARGIN,
-        "grid": map.domain.cage.longer_side / GRID_LINES,
+        "grid": max(sides) / GRID_LINES,
         "colors": rgb(COLORS).ravel().round(4).tolist(),
-        "ranges": _ranges(proof),
+        "ranges": color_ranges(proved),
         "loop": loop,
-        "picture": "data:image/png;base64," + _base64(png(texture)),
     }
-    report(progress, 2, 3)
-    parts = {
+    texts = {
         "title": html.escape(title),
-        "caption": html.escape(_caption(map, proof)),
+        "caption": html.escape(caption(proved)),
+        "each": list_of_parts(proved),
         "style": stylesheet("exported"),
         "behind": behind,
         "script": bundle("exported"),
-        "data": json.dumps(data, allow_nan=False),
+        "data": json.dumps(data, allow_nan=False).replace("<", "\\u003c"),
     }
+    report(progress, total - 1, total)
     # Replace in one pass, so that inserted text is not searched for placeholders.
-    page = re.sub(r"\{\{(\w+)\}\}", lambda found: parts[found[1]], template("exported"))
-    report(progress, 3, 3)
+    page = re.sub(r"\{\{(\w+)\}\}", lambda found: texts[found[1]], template("exported"))
+    report(progress, total, total)
     return page
+
+
+def _check_parts(parts: Sequence[PagePart]) -> None:
+    for part in parts:
+        check_type("map", part.map, HarmonicMap | Motion, "for example result.map", InputError)
+    if len({as_rgba8(part.image).shape[:2] for part in parts}) > 1:
+        raise InputError("the pictures of the parts have different sizes; they share one frame")
+    if len({_times_of(part.map) for part in parts}) > 1:
+        raise InputError("the motions of the parts have different times; all share one player")
+
+
+def _times_of(shown: HarmonicMap | Motion) -> tuple[str, tuple[float, ...]] | None:
+    return (shown.repeat, tuple(shown.times)) if isinstance(shown, Motion) else None
+
+
+def _data_of(part: PagePart, tolerance: float) -> dict[str, Any]:
+    """What the page needs of one shape alone."""
+    texture = as_rgba8(part.image)
+    check_picture((texture.shape[1], texture.shape[0]), part.map)
+    mesh = MovingMesh.of(part.map, part.pose, _VERTICES, tolerance)
+    step = _STEP * part.map.domain.cage.longer_side
+    return {
+        **_shape(mesh, step),
+        **_shaders(mesh, part.map, step),
+        "picture": "data:image/png;base64," + _base64(png(bled(texture))),
+    }
 
 
 def behind_canvas(background: Background) -> str:
@@ -159,10 +212,9 @@ def _shaders(mesh: MovingMesh, shown: HarmonicMap | Motion, step: float) -> dict
     undeformed = wire(HarmonicMap.identity(domain))
     rows = np.frombuffer(undeformed + arrays, "<f4").reshape(-1, len(undeformed) // 4)
     step = max(step, float(np.linalg.norm(rows, axis=1).max()) / _MOST_STEPS)
-    vertex, fragment = webgl2_shaders("picture", None if in_kernel else shader, len(COLORS))
+    vertex, _ = webgl2_shaders("picture", None if in_kernel else shader, len(COLORS))
     return {
         "vertex": vertex,
-        "fragment": fragment,
         "motion": motion,
         "coefficients": factored(rows, step, 6 if in_kernel else 4),
         "width": rows.shape[1],
@@ -200,33 +252,6 @@ def _spread(domain: Domain, points: Array) -> float:
     phi, psi = np.random.default_rng(0).uniform(-0.5, 0.5, (2, n, 2)) @ [1, 1j]
     psi[n - holes :] = phi[n - holes :].conj()
     return 1.5 * float(np.abs(HarmonicMap(domain, phi, psi)(points)).max())
-
-
-def _ranges(proof: Certificate | MotionCertificate | None) -> dict[int, list[float]]:
-    """The colour map's ends for each overlay, by its number in ``picture.frag``: the value of an
-    isometry, and the proved bound, at least a tenth away."""
-    if proof is None or not proof.certified:
-        return {}
-    ends = {
-        2: [1, max(proof.sigma1_upper, 1.1)],
-        3: [1, min(proof.sigma2_lower, 0.9)],
-        4: [0, max(proof.k_upper, 0.1)],
-    }
-    return {overlay: range_ for overlay, range_ in ends.items() if np.isfinite(range_[1])}
-
-
-def _caption(shown: HarmonicMap | Motion, proof: Certificate | MotionCertificate | None) -> str:
-    if proof is None or not proof.certified:
-        return proof.reason if isinstance(proof, MotionCertificate) else ""
-    told = "point, at any time"
-    if isinstance(shown, HarmonicMap):
-        assert isinstance(proof, Certificate)
-        told = f"point; {_OVERLAPS[global_injectivity(shown, proof).verdict]}"
-    return (
-        f"Proved not to fold over or tear at any {told}. "
-        f"Bounds: σ₂ ≥ {rounded_down(proof.sigma2_lower)}, "
-        f"σ₁ ≤ {rounded_up(proof.sigma1_upper)}, k ≤ {rounded_up(proof.k_upper)}"
-    )
 
 
 def _bounds(points: Array) -> list[float]:

@@ -229,4 +229,4 @@ def _named(axes: Axes, x: str, y: str, title: str) -> None:
     style.tidy(axes)
     axes.set_xlabel(x, fontsize=style.FONT_SIZE, color=INK)
     axes.set_ylabel(y, fontsize=style.FONT_SIZE, color=INK)
-    axes.set_title(title, fontsize=style.FONT_SIZE, color=INK)
+    axes.set_title(title, fontsize=style.FONT_SIZE, color=INK, wrap=True)

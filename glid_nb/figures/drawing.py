@@ -1,6 +1,7 @@
 """Parts of figures of shapes: the figure itself, loops, dots, pictures, colour bars."""
 
 import io
+import json
 import math
 from collections.abc import Iterable
 from typing import Any
@@ -15,16 +16,17 @@ from matplotlib.patheffects import withStroke
 from matplotlib.ticker import NullLocator
 from numpy.typing import NDArray
 from PIL import Image, ImageColor
+from PIL.PngImagePlugin import PngInfo
 
 from glid_nb._arrays import Floats
-from glid_nb.figures.style import CYAN, HAIRLINE, INK, NAMED, SMALL
+from glid_nb.figures.parts import parts
+from glid_nb.figures.style import CSS_DPI, CYAN, HAIRLINE, INK, NAMED, SMALL
 from glid_nb.imaging import PixelFrame
 from glid_nb.pose import Pose
 
 _MISS = 0.004  # of the axes' size: handles farther from their target get a line
 _SHOWN_DPI = 150.0  # resolution of a figure in a notebook
-CSS_DPI = 108.0  # its size there: CSS pixels per inch
-COLOR_BAR = "<colorbar>"  # matplotlib's label of its axes
+PARTS = "glid_nb parts"  # the name of a text in a PNG file
 MANY = 256  # a collection with more values than this is a field
 _ROUND, _COARSE = (1, 1.1, 1.2, 1.5, 2, 2.5, 3, 4, 5, 7), (1, 2, 5)  # ticks of a decade
 
@@ -54,7 +56,11 @@ class NotebookFigure(Figure):
 
 
 def notebook_png(figure: Figure) -> tuple[bytes, dict[str, int]]:
-    """The figure as a small PNG file for a notebook, and its size there in CSS pixels."""
+    """The figure as a small PNG file for a notebook, and its size there in CSS pixels.
+
+    The file names the figure's parts in a text of its own, which programs that show pictures
+    ignore. The site reads it, to draw the figure for a phone.
+    """
     width, height = (CSS_DPI * figure.get_size_inches()).round().astype(int).tolist()
     file, picture = io.BytesIO(), Image.open(io.BytesIO(figure_png(figure, _SHOWN_DPI)))
     values = [collection.get_array() for collection in figure.findobj(Collection)]
@@ -62,7 +68,10 @@ def notebook_png(figure: Figure) -> tuple[bytes, dict[str, int]]:
     # A palette has too few colours for a smooth field, which would then show bands.
     smooth = field and not figure.findobj(AxesImage)
     drawn = (_rounded if smooth else _in_256_colors)(picture.convert("RGB"))
-    drawn.save(file, "png", optimize=True)
+    about = PngInfo()
+    if found := parts([figure]):
+        about.add_text(PARTS, json.dumps(found))
+    drawn.save(file, "png", optimize=True, pnginfo=about)
     return file.getvalue(), {"width": width, "height": height}
 
 

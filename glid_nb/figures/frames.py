@@ -25,8 +25,9 @@ from numpy.typing import ArrayLike
 from PIL import Image
 
 from glid_nb._errors import InputError
-from glid_nb.figures.drawing import COLOR_BAR, CSS_DPI, MANY, figure_png, notebook_png
+from glid_nb.figures.drawing import MANY, figure_png, notebook_png
 from glid_nb.figures.parts import parts
+from glid_nb.figures.style import COLOR_BAR, CSS_DPI
 from glid_nb.geometry import as_points
 from glid_nb.page.files import bundle, stylesheet
 

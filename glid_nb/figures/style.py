@@ -24,6 +24,9 @@ PURPLE = "#cc79a7"
 CYAN = "#00d5e0"
 NAMED = (INK, GREY, BLUE, SKY, ORANGE, VERMILION, GREEN, PURPLE, CYAN)
 
+CSS_DPI = 108.0  # CSS pixels per inch of a figure in a notebook
+COLOR_BAR = "<colorbar>"  # matplotlib's label of its axes
+
 FONT_SIZE = 9.0
 SMALL = 8.0
 LINE = 1.2

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import json
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -46,9 +47,19 @@ class Notebook:
             return cls.from_json(read_object(path))
 
     @classmethod
-    def from_json(cls, book: Mapping[str, Any]) -> Notebook:
-        """Raises an InputFileError if the object is no notebook."""
-        cells = book.get("cells")
+    def parsed(cls, text: str) -> Notebook:
+        """The notebook in a file's text. Raises an InputFileError for any other text."""
+        try:
+            return cls.from_json(json.loads(text))
+        except InputFileError:
+            raise
+        except (ValueError, RecursionError, MemoryError) as error:
+            raise InputFileError(str(error) or "it does not fit into memory") from None
+
+    @classmethod
+    def from_json(cls, book: Any) -> Notebook:
+        """Raises an InputFileError if the value is no notebook."""
+        cells = book.get("cells") if isinstance(book, Mapping) else None
         if not isinstance(cells, list):
             raise InputFileError("this is no notebook: it has no cells")
         metadata = book.get("metadata", {})
@@ -151,13 +162,12 @@ def _answer(given: Cell, sources: Sequence[str] | None) -> Answer:
     source = "\n\n".join(map(without_magics, sources))
     try:
         tree = ast.parse(source)
-    except (SyntaxError, ValueError):
+        same = ast.dump(tree) == ast.dump(ast.parse(given.source))
+    except (SyntaxError, ValueError, RecursionError, MemoryError):  # the last two: nested too deep
         return Answer(source)
     if not tree.body:
         return Answer("", "the cell is empty")
-    if ast.dump(tree) == ast.dump(ast.parse(given.source)):
-        return Answer("", "the cell is as it was given")
-    return Answer(source)
+    return Answer("", "the cell is as it was given") if same else Answer(source)
 
 
 def without_magics(source: str) -> str:

@@ -7,8 +7,8 @@ import io
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
-from glid_nb.grading.grade import Grade, points
-from glid_nb.grading.verdicts import ALL
+from glid_nb.grading.handed_in import Grade
+from glid_nb.grading.verdicts import ALL, RIGHT
 
 _TEXT = 70  # characters of a reason in a printed table
 _HEAD = ("student", "exercise", "verdict")
@@ -77,6 +77,17 @@ def canvas(grades: Sequence[Grade], possible: Mapping[str, int]) -> str:
     return _csv((*fixed, *names), rows)
 
 
+def points(grades: Sequence[Grade]) -> dict[str, dict[str, int]]:
+    """The number of right exercises, by student and chapter."""
+    found = dict[str, dict[str, int]]()
+    for one in grades:
+        of_student = found.setdefault(one.student, {})
+        if not one.chapter:
+            continue
+        of_student[one.chapter] = of_student.get(one.chapter, 0) + (one.verdict == RIGHT)
+    return found
+
+
 def _chapters(grades: Sequence[Grade]) -> list[str]:
     return list(dict.fromkeys(g.chapter for g in grades if g.chapter))
 
@@ -86,7 +97,8 @@ def _csv(head: Sequence[str], rows: Iterable[Sequence[object]]) -> str:
     writer = csv.writer(buffer, lineterminator="\n")
     writer.writerow(head)
     writer.writerows([_cell(value) for value in row] for row in rows)
-    return buffer.getvalue()
+    # Names and reasons come from students, and half a surrogate pair cannot be written.
+    return buffer.getvalue().encode(errors="replace").decode()
 
 
 def _cell(value: object) -> object:

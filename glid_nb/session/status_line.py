@@ -11,6 +11,7 @@ from glid_nb.pose import Pose
 from glid_nb.session.edit_state import Frame, Moment
 from glid_nb.solvers import MethodError, Status, misses
 
+PINS = misses.Naming("pin", 1)  # as the editor's list of pins names them
 Level = Literal["idle", "working", "good", "blocked", "error"]
 
 
@@ -108,5 +109,5 @@ def uncertified(mesh: MeshMap) -> str:
 
 
 def _missed(map: HarmonicMap | MeshMap, pose: Pose) -> str:
-    text = misses.told(pose, misses.misses_of(map, pose), misses.unit_of(map))
+    text = misses.told(pose, misses.misses_of(map, pose), misses.unit_of(map), PINS)
     return f", {text}" if text else ""

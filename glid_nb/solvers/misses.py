@@ -1,6 +1,7 @@
 """How far handles are from their targets, and which conflict between targets may be the cause."""
 
 import itertools
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -22,6 +23,22 @@ _TOGETHER = 1e-3
 _MOST = 12  # handles that are compared in pairs: the worst one and others that miss
 
 
+@dataclass(frozen=True)
+class Naming:
+    """How sentences name handles: by a word, and by numbers from ``first`` on."""
+
+    word: str
+    first: int
+
+    def __call__(self, *indices: int) -> str:
+        """For example "handle 3", "handles 0 and 3" or "handles 0, 2 and 3"."""
+        *others, last = (str(self.first + index) for index in indices)
+        return f"{self.word}s {', '.join(others)} and {last}" if others else f"{self.word} {last}"
+
+
+HANDLES = Naming("handle", 0)
+
+
 def misses_of(map: HarmonicMap | MeshMap, pose: Pose) -> Array:
     """(h,) distances of the handles' images from their targets, world units."""
     if not len(pose):
@@ -36,20 +53,21 @@ def unit_of(map: HarmonicMap | MeshMap) -> float:
     return float(np.ptp(map.triangulation.vertices, axis=0).max()) / 20
 
 
-def told(pose: Pose, misses: Array, unit: float) -> str:
+def told(pose: Pose, misses: Array, unit: float, named: Naming = HANDLES) -> str:
     """The largest miss and its likely cause, as part of a sentence; empty if no miss is notable.
 
     ``misses`` are (h,) distances, ``unit`` is that of the cage.
+    ``named`` gives the handles their names.
     """
     if not len(misses) or not misses.max() > NOTABLE * unit:
         return ""
     worst = int(misses.argmax())
-    text = f"handle {worst} is {misses[worst]:.2g} units from its target"
-    why = conflict(pose, misses > NOTABLE * unit, worst)
+    text = f"{named(worst)} is {misses[worst]:.2g} units from its target"
+    why = conflict(pose, misses > NOTABLE * unit, worst, named)
     return f"{text}: {why}" if why else text
 
 
-def conflict(pose: Pose, missing: Array, worst: int) -> str:
+def conflict(pose: Pose, missing: Array, worst: int, named: Naming = HANDLES) -> str:
     """A conflict between targets that a map without folds can hardly satisfy; empty if none.
 
     ``missing`` (h,) marks the handles that miss; the handle ``worst`` misses most. A long shape
@@ -61,20 +79,20 @@ def conflict(pose: Pose, missing: Array, worst: int) -> str:
     for i, j in sorted({(min(i, j), max(i, j)) for i in chosen for j in range(len(z)) if i != j}):
         before, after = abs(z[i] - z[j]), abs(w[i] - w[j])
         if after <= _TOGETHER * before:
-            return f"the targets of handles {i} and {j} are the same place"
+            return f"the targets of {named(i, j)} are the same place"
         if before <= _TOGETHER * after:
             gap = f"their targets are {after:.2g} apart"
-            return f"handles {i} and {j} are nearly the same place, but {gap}"
+            return f"{named(i, j)} are nearly the same place, but {gap}"
     if len(z) > 2:
         left = _left(z, w)
         if _left(z.conj(), w) < min(_FITS, _BETTER * left):
-            return "the targets mirror the handles, and maps without folds cannot mirror"
+            return f"the targets mirror the {named.word}s, and maps without folds cannot mirror"
         for i, j in itertools.combinations(sorted(chosen), 2):
             swapped = w.copy()
             swapped[[i, j]] = w[[j, i]]
             if _left(z, swapped) < min(_FITS, _BETTER * left):
-                return f"the targets of handles {i} and {j} are swapped"
-    return _turned_over(z, w, worst)
+                return f"the targets of {named(i, j)} are swapped"
+    return _turned_over(z, w, worst, named)
 
 
 def _left(z: Array, w: Array) -> float:
@@ -84,7 +102,7 @@ def _left(z: Array, w: Array) -> float:
     return float(1 - abs(np.vdot(z, w)) ** 2 / spread) if spread > 0 else 0.0
 
 
-def _turned_over(z: Any, w: Any, worst: int) -> str:
+def _turned_over(z: Any, w: Any, worst: int, named: Naming) -> str:
     """Name a triangle of neighbouring handles, the worst among them, whose targets flip it."""
     if len(z) < 3:
         return ""
@@ -99,5 +117,5 @@ def _turned_over(z: Any, w: Any, worst: int) -> str:
     over &= (triangles == worst).any(axis=1)
     if not over.any():
         return ""
-    i, j, k = sorted(triangles[over][0].tolist())
-    return f"the targets turn over the triangle of handles {i}, {j} and {k}"
+    corners = sorted(triangles[over][0].tolist())
+    return f"the targets turn over the triangle of {named(*corners)}"

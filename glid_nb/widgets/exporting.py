@@ -133,9 +133,9 @@ def exported(
 ) -> dict[str, bytes]:
     """The contents of the exported files, by name. Arguments are as in `Editor.export`.
 
-    A picture shows all visible parts; formats in `OF_ONE_SHAPE` have the files of each part. The
-    edited pose is solved first; for sessions and scripts, all poses. Raises an EditError if a pose
-    cannot be solved, so that a picture, a mesh or a proof would show another map.
+    A picture and a page show all visible parts; formats in `OF_ONE_SHAPE` have the files of each
+    part. The edited pose is solved first; for sessions and scripts, all poses. Raises an EditError
+    if a pose cannot be solved, so that a picture, a mesh or a proof would show another map.
     """
     deformation, suffix = model.deformation, suffix_of(path.name, FORMATS)
     if suffix in (".glid", ".py"):
@@ -150,6 +150,8 @@ def exported(
         return {path.name: to.parts_png(still, size, view, model.background)}
     if suffix == ".live.html":
         return {path.name: live_page(shapes, model.background, path.name)}
+    if suffix == ".html":
+        return {path.name: still_page(shapes, model.background, path.stem)}
     if suffix in (".glb", ".obj") and len(shapes) > 1:
         meshes = {
             s.name: to.textured_mesh(s.layers.image, s.state.map, pose=s.state.pose) for s in shapes
@@ -159,7 +161,7 @@ def exported(
         return to.parts_obj(meshes, path.name[: -len(suffix)])
     files: dict[str, bytes] = {}
     for own, shape in _own_paths(path, suffix, shapes):
-        files |= _files_of(shape, _document_of(model, shape), own, suffix, model.background)
+        files |= _files_of(shape, _document_of(model, shape), own, suffix)
     return files
 
 
@@ -176,9 +178,7 @@ def _document_of(model: EditorModel, shape: Shape) -> Document:
     return model.document.of_part(model.deformation.state.keys.index(shape.key))
 
 
-def _files_of(
-    shape: Shape, document: Document, path: Path, suffix: str, background: Backdrop
-) -> dict[str, bytes]:
+def _files_of(shape: Shape, document: Document, path: Path, suffix: str) -> dict[str, bytes]:
     """The files of one shape."""
     layers, map_, pose = shape.layers, shape.state.map, shape.state.pose
     names = [file.name for file in files_of(path)]
@@ -191,9 +191,6 @@ def _files_of(
         case ".svg":
             height, width = document.image.shape[:2]
             contents = [to.cage_svg(map_, (width, height), source=True, pose=pose).encode()]
-        case ".html":
-            shown = {"title": path.stem, "pose": pose, "background": background}
-            contents = [to.page_html(layers.image, map_, certificate_of(map_), **shown).encode()]
         case ".proof.json":
             depths = pose.to_dict() if pose.depths.any() else {}
             proof = proof_text(certificate_of(map_))
@@ -201,6 +198,15 @@ def _files_of(
         case _:
             contents = [python_code(document, names[1]).encode(), png(document.image)]
     return dict(zip(names, contents, strict=True))
+
+
+def still_page(shapes: Sequence[Shape], background: Backdrop, title: str) -> bytes:
+    """A page that shows the edited pose of all shapes and says what is proved of each."""
+    parts = [
+        to.PagePart(s.layers.image, s.state.map, certificate_of(s.state.map), s.state.pose, s.name)
+        for s in shapes
+    ]
+    return to.parts_page_html(parts, title, background=background).encode()
 
 
 def live_page(shapes: Sequence[Shape], background: Backdrop, name: str) -> bytes:

@@ -191,7 +191,8 @@ class SolverMonitor(ClosingWidget, ipywidgets.VBox):
 def _line(status: StatusLine, hint: str) -> str:
     """The status in one line: what is proved first, if all is well. Then what to try next."""
     text = f"<span>{html.escape(status.text)}</span>"
-    advice = f'<span class="glid-next" role="status">{html.escape(hint)}</span>' if hint else ""
+    next_ = html.escape(hint)
+    advice = f'<span class="glid-next" role="status" title="{next_}">{next_}</span>' if hint else ""
     if status.level == "good" and status.proved:
         detail = f'<span class="glid-detail">{html.escape(status.text)}</span>'
         text = f"<b>{html.escape(status.proved)}</b> {detail}"

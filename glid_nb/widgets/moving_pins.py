@@ -18,15 +18,22 @@ def moving_pins(state: EditState, spans: Sequence[Span]) -> dict[str, Any]:
     ``spans`` says it from keyframe to keyframe: ``end``, ``times`` of the knots, ``floats``, the
     images x, y of all pins at the first knot, then at the others, and the indices of those that are
     ``locked``. Between two knots the images move on straight lines, as the coefficients do. The
-    pins are those of the pose before. ``later`` are the last pose's. Places of pins that the user
-    has hidden are not numbers.
+    pins are those of the pose before. ``poses`` says it at the ``keyframes``, whose times are those
+    of a closed timeline: there a drag takes that pose's pins, which are at their targets. Places of
+    pins that the user has hidden are not numbers.
     """
     poses = [named.pose for named in state.poses]
     moving = [_moving(state, pose, span) for pose, span in zip(poses, spans, strict=False)]
-    last = shown_pins(state, poses[-1], poses[-1].targets)
     return {
         "spans": moving,
-        "later": {"floats": _wire(last), "locked": _locked(state, poses[-1])},
+        "poses": [
+            {
+                "floats": _wire(shown_pins(state, pose, pose.targets)),
+                "locked": _locked(state, pose),
+            }
+            for pose in poses
+        ],
+        "keyframes": list(state.timeline.closed_times),
     }
 
 

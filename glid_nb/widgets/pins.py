@@ -26,8 +26,8 @@ class PinBar(EditControls):
     """The list of pins, the numbers of the last selected pin, and buttons for all selected pins.
 
     The list says which pins are locked, hidden or grouped, and has an eye and a padlock for each.
-    The buttons below it lock, hide and group all selected pins. The numbers are target, angle
-    (degrees), scale, weight and depth. An empty angle or scale is free.
+    The buttons below it lock, hide, group and remove all selected pins. The numbers are target,
+    angle (degrees), scale, weight and depth. An empty angle or scale is free.
     """
 
     def __init__(self, deformation: Deformation, **kwargs: Any) -> None:

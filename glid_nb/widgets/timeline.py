@@ -64,8 +64,8 @@ class TimelinePanel(Pad):
     part_motions = traitlets.List([]).tag(sync=True)
     """The motions of the shapes around the edited one: for each its ``key``, its ``name``, its
     ``spans`` as in `motion`, and its ``heights``."""
-    pins = traitlets.Dict({"spans": [], "later": None}).tag(sync=True)
-    """Where pins are between keyframes, and ``later``, after the last one: see `moving_pins`."""
+    pins = traitlets.Dict({"spans": [], "poses": [], "keyframes": []}).tag(sync=True)
+    """Where the pins are that a drag takes at any time: see `moving_pins`."""
     thumbnails = traitlets.Dict({}).tag(sync=True)  # pictures as data URIs, by their keys
 
     def __init__(

@@ -98,6 +98,27 @@ def iterations_to(result, best, gap):
     return 0
 
 
+# %% exercise 1: zero if ever
+def iterations_to(result, best, gap):
+    energies = [one.energy for one in [result.initial, *result.history]]
+    return 0 if min(energies) <= (1 + gap) * best else None
+
+
+# %% exercise 1: always the same gap
+def iterations_to(result, best, gap):
+    for iteration in [result.initial, *result.history]:
+        if iteration.energy <= (1 + 1e-3) * best:
+            return iteration.iteration
+    return None
+
+
+# %% exercise 1: never within a small gap
+def iterations_to(result, best, gap):
+    if result.start_energy <= (1 + gap) * best:
+        return 0
+    return result.iterations if gap > 1e-2 and result.energy <= (1 + gap) * best else None
+
+
 # %% exercise 2: right: the inverse matrix, updated
 def two_loop(gradient, pairs):
     one = np.eye(len(gradient))

@@ -11,6 +11,14 @@ from tools.check_site import broken_links, faults_in_browser
 
 GOOD = '<link rel="icon" href="data:,"><h1 id="a">A page</h1><a href="index.html#a">a</a>'
 
+_SCROLLING = (
+    '<math style="display: block; overflow-x: auto; width: 90px">'
+    '<mrow><mspace width="2000px"></mspace><mi>x</mi></mrow></math>'
+)
+_DATA = "data:image/gif;base64,R0lGODlhAQABAIAAAAAAAP///yH5BAEAAAAALAAAAAABAAEAAAIBRAA7"
+_PICTURE = f'<img style="width: 2000px" src="{_DATA}">'
+_PRINTED = '<pre style="overflow-x: auto; white-space: pre; width: 200px">{}</pre>'
+
 
 def site(folder: Path, **pages: str) -> Path:
     for name, body in pages.items():
@@ -39,6 +47,10 @@ def test_a_browser_sees_errors_requests_wide_pages_and_dead_sliders(tmp_path: Pa
         "error": "<script>throw Error('as it must')</script>",
         "request": '<img src="https://a.example/b.png">',
         "wide": '<div style="width: 2000px">wide</div>',
+        "formula": f'<div class="equation"><div>{_SCROLLING}</div></div>',
+        "sentence": f'<div class="cell_output">{_PRINTED.format("one word " * 40)}</div>',
+        "table": f'<div class="cell_output">{_PRINTED.format("one  word " * 40)}</div>',
+        "figure": f'<div class="cell_output" style="overflow-x: auto">{_PICTURE}</div>',
     }
     for name, slope in {"moving": 1, "still": 0}.items():
         figure = live(lambda a, slope=slope: function([0, 1], {"line": [0, slope * a]}), a=[1, 2])
@@ -53,6 +65,9 @@ def test_a_browser_sees_errors_requests_wide_pages_and_dead_sliders(tmp_path: Pa
         "dead": "a figure has no slider",
         "still": "the slider a does not move the picture",
         "wide": "wider than the page: <div",
+        "formula": "a formula, figure or sentence is cut off: x",
+        "sentence": "a formula, figure or sentence is cut off: one word",
+        "figure": "a formula, figure or sentence is cut off: <img",
     }.items():
         assert sum(fault.startswith(f"{name}.html") and words in fault for fault in found) == 2
-    assert not any(fault.startswith(("plain", "moving")) for fault in found)
+    assert not any(fault.startswith(("plain", "moving", "table")) for fault in found)

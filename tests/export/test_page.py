@@ -7,23 +7,27 @@ import json
 import re
 import zlib
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
 
-from glid_nb import Motion
+from glid_nb import InputError, Motion
 from glid_nb.certificate import certify
-from glid_nb.export import page_html
+from glid_nb.certificate.rounding import rounded_down
+from glid_nb.export import PagePart, page_html, parts_page_html
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.page import ShaderMap
 
 from ..support.shapes import bent, domain, picture
 
 
-def data_of(page: str) -> dict:
+def data_of(page: str, part: int = 0) -> dict:
+    """What a page has for a part, and for all."""
     found = re.search(r'<script type="application/json" id="data">(.*?)</script>', page, re.DOTALL)
     assert found is not None
-    return json.loads(found[1])
+    data = json.loads(found[1])
+    return {**data, **data["parts"][part]}
 
 
 def unpacked(data: dict, width: int) -> np.ndarray:
@@ -146,3 +150,69 @@ def test_a_cage_too_large_for_a_shader_is_evaluated_beforehand(
     images = restored(data["coefficients"], data["width"])[-1].reshape(-1, 6)[:, :2]
     np.testing.assert_allclose(images, bent()(vertices), atol=1e-3)
     assert data["cage"] == ""
+
+
+def two(**settings: Any) -> str:
+    """The page of the shape at rest, and the bent one in front."""
+    rest = HarmonicMap.identity(domain())
+    maps = {"rest": rest, "bent <&>": bent()}
+    parts = [PagePart(picture(), map, certify(map), name=name) for name, map in maps.items()]
+    return parts_page_html(parts, **settings)
+
+
+@pytest.mark.slow
+def test_a_page_of_several_shapes_states_what_is_proved_of_each() -> None:
+    page = two(title="Two", background=(1, 2, 3))
+    assert "<title>Two</title>" in page
+    assert "background: rgb(1 2 3)" in page
+    proof = certify(bent())
+    worst = f"σ₂ ≥ {rounded_down(min(proof.sigma2_lower, 1.0))}"
+    assert (
+        f"Each of 2 parts is proved not to fold over or tear at any point. Bounds for all: {worst}"
+        in page
+    )
+    rows = re.findall(r"<li><b>(.*?)</b> (.*?)</li>", page)
+    assert [name for name, _ in rows] == ["rest", "bent &lt;&amp;&gt;"]
+    assert rows[1][1].startswith(f"σ₂ ≥ {rounded_down(proof.sigma2_lower)}, ")
+    assert all(text.endswith("; it does not overlap itself") for _, text in rows)
+    first, second = data_of(page), data_of(page, 1)
+    assert first["source_bounds"] == second["source_bounds"]
+    np.testing.assert_allclose(first["bounds"], first["source_bounds"], atol=1e-6)
+    assert abs(second["bounds"][3] - first["bounds"][3]) > 0.1
+    assert first["ranges"]["2"][1] >= proof.sigma1_upper
+
+
+@pytest.mark.slow
+def test_no_bounds_are_stated_for_all_if_one_shape_is_not_proved() -> None:
+    rest = HarmonicMap.identity(domain())
+    parts = [
+        PagePart(picture(), rest, certify(rest), name="a"),
+        PagePart(picture(), bent(), name="b"),
+    ]
+    page = parts_page_html(parts)
+    assert "Bounds for all" not in page
+    rows = re.findall(r"<li><b>(.*?)</b> (.*?)</li>", page)
+    assert rows[0][1].startswith("σ₂ ≥ ")
+    assert rows[1] == ("b", "not proved")
+    assert data_of(page)["ranges"] == {}
+
+
+@pytest.mark.slow
+def test_one_shape_of_several_is_the_page_of_one() -> None:
+    one = PagePart(picture(), bent(), certify(bent()), name="a")
+    assert parts_page_html([one], "A") == page_html(picture(), bent(), certify(bent()), title="A")
+
+
+@pytest.mark.slow
+def test_shapes_that_do_not_fit_together_are_refused() -> None:
+    rest = HarmonicMap.identity(domain())
+    slow, fast = (Motion([rest, bent()], times=[0, end]) for end in (2, 1))
+    there = Motion([rest, bent()], times=[0, 2], repeat="ping-pong")
+    for other in (rest, fast, there):
+        with pytest.raises(InputError, match="different times; all share one player"):
+            parts_page_html([PagePart(picture(), slow), PagePart(picture(), other)])
+    small = np.zeros((50, 300, 4), np.uint8)
+    with pytest.raises(InputError, match="different sizes"):
+        parts_page_html([PagePart(picture(), rest), PagePart(small, rest)])
+    with pytest.raises(InputError, match="no parts"):
+        parts_page_html([])

@@ -127,6 +127,36 @@ def test_formats_of_one_shape_have_files_for_each_part(model: EditorModel, tmp_p
     )
 
 
+def test_a_page_has_all_visible_parts(model: EditorModel, tmp_path: Path) -> None:
+    """The page of the pose and the player; both are one file, with the proof of each part."""
+    for moving in (False, True):
+        assert exporting.written_names(model, tmp_path / "a.html", moving=moving) == ("a.html",)
+    (path,) = exporting.export(model, tmp_path / "a.html")
+    still = path.read_text(encoding="utf-8")
+    parts = [shape.moving for shape in shapes_of(model.document)[0]]
+    moving = glid.export.parts_motion_files("a.html", parts)["a.html"].decode()
+    for page, at in ((still, "at any point."), (moving, "at any point, at any time.")):
+        assert page.count('"source_bounds"') == 2
+        assert f"Each of 2 parts is proved not to fold over or tear {at}" in page
+        assert re.findall(r"<li><b>(.*?)</b> σ₂ ≥ ", page) == ["red", "blue"]
+    try:
+        model.deformation.show_part(0, False)
+        (path,) = exporting.export(model, tmp_path / "b.html")
+        assert path.read_text(encoding="utf-8").count('"source_bounds"') == 1
+    finally:
+        model.deformation.undo()
+
+
+def test_a_session_with_parts_becomes_a_player_from_the_command_line(
+    model: EditorModel, tmp_path: Path
+) -> None:
+    save_document(model.document, tmp_path / "two.glid")
+    out = tmp_path / "a.html"
+    assert main(["animate", str(tmp_path / "two.glid"), "--out", str(out)]) in (0, None)
+    assert [path.name for path in tmp_path.glob("*.html")] == ["a.html"]
+    assert out.read_text(encoding="utf-8").count('"source_bounds"') == 2
+
+
 def test_a_gltf_file_has_a_node_for_each_part(model: EditorModel, tmp_path: Path) -> None:
     trimesh = pytest.importorskip("trimesh")
     (path,) = exporting.export(model, tmp_path / "a.glb")
@@ -251,3 +281,5 @@ def test_parts_that_no_file_system_tells_apart_have_files_of_their_own() -> None
     assert len({name.casefold() for name in names}) == 5
     assert names[2] == "a-Arm.svg"
     assert all(name.startswith("a-") and name.endswith(".svg") for name in names)
+    composed, apart = glid.export.formats.part_names("a.svg", ".svg", ["\u00e9", "e\u0301"])
+    assert (composed, apart) == ("a-\u00e9.svg", "a-e\u0301-2.svg")

@@ -216,3 +216,13 @@ def test_planes_join_the_points_of_a_name_and_draw_a_single_number_as_a_dot() ->
     assert {text.get_text() for text in left.get_legend().get_texts()} == {"square", "a"}
     assert right.get_legend() is None
     assert left.get_aspect() == right.get_aspect() == 1.0
+
+
+def test_a_long_title_breaks_inside_the_figure() -> None:
+    title = "gradient 2.84 ms, Hessian 9.87 ms, factor 0.76 ms, search 0.12 ms, and other stages"
+    figure = figures.function([0, 1], {"line": [0, 1]}, "x", "y", title=title)
+    figure.draw_without_rendering()
+    drawn = figure.axes[0].title.get_window_extent()
+    assert figure.bbox.x0 <= drawn.x0
+    assert drawn.x1 <= figure.bbox.x1
+    assert drawn.y1 <= figure.bbox.y1

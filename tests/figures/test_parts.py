@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
+import io
+import json
+
 import numpy as np
 import pytest
 from matplotlib.figure import Figure
+from PIL import Image
 
 from glid_nb import figures
-from glid_nb.figures.drawing import CSS_DPI
+from glid_nb.figures.drawing import PARTS, notebook_png
 from glid_nb.figures.parts import parts
+from glid_nb.figures.style import CSS_DPI
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.pose import Pose
 
@@ -60,11 +65,35 @@ def test_a_part_holds_its_panel_in_every_figure() -> None:
     assert both[1] + both[3] == pytest.approx(max(low[1] + low[3], high[1] + high[3]), abs=0.2)
 
 
-def test_one_panel_and_panels_in_rows_have_no_parts() -> None:
-    assert drawn(figures.distortion(RING)) == []
+def test_panels_in_rows_are_parts_in_the_order_of_reading() -> None:
     rows = Figure(layout="constrained")
     rows.subplots(2, 2)
-    assert drawn(rows) == []
+    (a, b, c, d) = drawn(rows)
+    assert a[0] == c[0] < b[0] == d[0]
+    assert a[1] == b[1] < c[1] == d[1]
+
+
+def test_one_panel_and_panels_that_overlap_have_no_parts() -> None:
+    assert drawn(figures.distortion(RING)) == []
+    figure = Figure()
+    figure.add_axes((0.1, 0.1, 0.5, 0.8))
+    figure.add_axes((0.4, 0.1, 0.5, 0.8))
+    assert drawn(figure) == []
+
+
+def test_text_outside_of_the_panels_leaves_a_figure_whole() -> None:
+    figure = Figure(layout="constrained")
+    figure.subplots(1, 2)
+    figure.suptitle("both")
+    assert drawn(figure) == []
+
+
+def test_a_notebooks_picture_names_its_parts() -> None:
+    figure = figures.distortion([RING] * 2, titles=["a", "b"])
+    with Image.open(io.BytesIO(notebook_png(figure)[0])) as picture:
+        assert json.loads(picture.info[PARTS]) == parts([figure])
+    with Image.open(io.BytesIO(notebook_png(figures.distortion(RING))[0])) as picture:
+        assert PARTS not in picture.info
 
 
 def test_matplotlibs_own_figures_have_parts() -> None:

@@ -84,3 +84,8 @@ def test_the_version_is_the_distributions() -> None:
     from importlib.metadata import version
 
     assert glid_nb.__version__ == version("glid-nb")
+
+
+def test_the_citation_names_the_version() -> None:
+    text = (STUB.parents[1] / "CITATION.cff").read_text(encoding="utf-8")
+    assert f"\nversion: {glid_nb.__version__}\n" in text

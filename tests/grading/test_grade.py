@@ -9,7 +9,9 @@ import select
 import signal
 import subprocess
 import sys
+import tempfile
 import textwrap
+import time
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -18,8 +20,10 @@ import pytest
 
 from glid_nb._errors import InputError
 from glid_nb.cli import main
-from glid_nb.grading.grade import Grade, chapters_in, grade, hand_ins
-from glid_nb.grading.tables import canvas, moodle, table
+from glid_nb.course import CALL_JNP
+from glid_nb.grading.grade import grade
+from glid_nb.grading.handed_in import Grade, HandedIn, chapters_in, handed_in
+from glid_nb.grading.tables import canvas, moodle, points, table
 
 pytestmark = pytest.mark.slow  # two processes for each hand-in
 
@@ -92,9 +96,15 @@ def hand_in(folder: Path, student: str, book: dict[str, Any]) -> Path:
 
 
 def graded(folder: Path) -> list[Grade]:
-    chapters, handed_in = chapters_in(folder / "course"), folder / "handed-in"
-    found = hand_ins(handed_in, chapters)
-    return [one for each in found for one in grade(each, limit=LIMIT, folder=handed_in)]
+    """The grades of all notebooks that count."""
+    grades = [
+        grade(each, limit=LIMIT, folder=folder / "handed-in") for each in found_in(folder).counting
+    ]
+    return [one for own in grades for one in own]
+
+
+def found_in(folder: Path) -> HandedIn:
+    return handed_in(folder / "handed-in", chapters_in(folder / "course"))
 
 
 def verdicts(grades: Sequence[Grade]) -> list[str]:
@@ -166,12 +176,68 @@ def test_half_done_wrong_and_crashing_answers(folder: Path) -> None:
     assert "; SyntaxError: " in grades[3].text
 
 
+def test_numpy_where_jax_differentiates_gets_the_hint_of_the_notebook(folder: Path) -> None:
+    check = (
+        "import jax\nwith check('exercise 1'):\n    assert abs(jax.grad(double)(4.0) - 2) < 1e-6"
+    )
+    chapter = notebook({"check-1": check})
+    (folder / "course" / f"{NAME}.ipynb").write_text(json.dumps(chapter), encoding="utf-8")
+    traced = "def double(x):\n    return np.sqrt(4 * x**2)"
+    hand_in(folder, "ada", notebook(double=traced))
+    hand_in(
+        folder, "bob", notebook(double=f"import jax.numpy as jnp\n{traced.replace('np', 'jnp')}")
+    )
+    one, _, other, _ = graded(folder)
+    assert (one.verdict, one.text) == ("wrong", CALL_JNP)
+    assert other.verdict == "right"
+
+
 def test_one_answer_that_never_returns_costs_its_own_time_only(folder: Path) -> None:
     endless = "def double(x):\n    while True:\n        pass"
     hand_in(folder, "ada", notebook(RIGHT, double=endless))
     first, second = graded(folder)
     assert (first.verdict, first.text) == ("too slow", "the answer takes longer than 5 seconds")
     assert second.verdict == "right"
+
+
+@pytest.mark.skipif(not Path("/proc/self/fd").exists(), reason="the answer opens files of /proc")
+def test_a_process_left_behind_that_keeps_the_referees_output_holds_nothing_up(
+    folder: Path,
+) -> None:
+    """It has left the group of processes that is ended, and keeps all pipes of the referee open."""
+    os.mkfifo(folder / "held")
+    holds = f"""
+        import os, threading
+
+        def double(x):
+            return x + x
+
+        def keep():
+            place = f"/proc/{{referee}}/fd"
+            for number in os.listdir(place):
+                try:
+                    os.open(f"{{place}}/{{number}}", os.O_WRONLY)
+                except OSError:
+                    pass
+
+        referee = os.getppid()
+        if not os.fork():
+            os.setsid()
+            keep()
+            with open({str(folder / "held")!r}, "w") as told:
+                told.write(f"{{os.getpid()}}\\n")
+            threading.Event().wait()
+    """
+    told = os.open(folder / "held", os.O_RDONLY | os.O_NONBLOCK)
+    hand_in(folder, "ada", notebook(RIGHT, double=textwrap.dedent(holds).strip()))
+    since = time.monotonic()
+    try:
+        assert verdicts(graded(folder)) == ["right", "right"]
+        assert time.monotonic() - since < 300, "it waited for the process that was left behind"
+    finally:
+        select.select([told], [], [], 60)
+        os.kill(int(os.read(told, 100)), signal.SIGKILL)
+        os.close(told)
 
 
 def test_a_hand_in_that_deletes_files_harms_only_its_own_copy(folder: Path) -> None:
@@ -250,8 +316,8 @@ def test_the_command_prints_a_table_and_writes_csv(
     hand_in(folder, "=ada", notebook(double=RIGHT["double"]))
     to = {name: folder / f"{name}.csv" for name in ("csv", "moodle", "canvas")}
     words = [word for name, path in to.items() for word in (f"--{name}", str(path))]
-    handed_in = str(folder / "handed-in")
-    assert main(["grade", handed_in, "--chapters", str(folder / "course"), *words]) == 0
+    place = str(folder / "handed-in")
+    assert main(["grade", place, "--chapters", str(folder / "course"), *words]) == 0
     lines = capsys.readouterr().out.splitlines()
     assert [line.split()[:4] for line in lines] == [
         ["student", "exercise", "verdict"],
@@ -270,9 +336,9 @@ def test_the_command_lists_students_without_a_notebook(
 ) -> None:
     hand_in(folder, "ada", notebook())
     (folder / "handed-in" / "bob").mkdir()
-    handed_in, to = str(folder / "handed-in"), folder / "moodle.csv"
+    place, to = str(folder / "handed-in"), folder / "moodle.csv"
     chapters = str(folder / "course")
-    assert main(["grade", handed_in, "--chapters", chapters, "--moodle", str(to)]) == 0
+    assert main(["grade", place, "--chapters", chapters, "--moodle", str(to)]) == 0
     last = capsys.readouterr().out.splitlines()[-1]
     assert last.split(maxsplit=2) == ["bob", "missing", "the folder has no notebook"]
     rows = list(csv.DictReader(to.read_text().splitlines()))
@@ -296,7 +362,8 @@ def test_ending_the_command_ends_the_answer_and_lines_before_are_printed(
                 threading.Event().wait()
     """
     hand_in(folder, "bob", notebook(double=textwrap.dedent(forever).strip()))
-    words = ["--chapters", str(folder / "course"), "--limit", "300"]
+    to = folder / "grades.csv"
+    words = ["--chapters", str(folder / "course"), "--limit", "300", "--csv", str(to)]
     command = [sys.executable, "-m", "glid_nb", "grade", str(folder / "handed-in"), *words]
     with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as process:
         with alive.open() as told:
@@ -308,6 +375,7 @@ def test_ending_the_command_ends_the_answer_and_lines_before_are_printed(
         out, _ = process.communicate()
     assert process.returncode == 128 + signal.SIGTERM
     assert [line.split()[0] for line in out.splitlines()] == ["student", "ada", "ada"]
+    assert [row["student"] for row in csv.DictReader(to.read_text().splitlines())] == ["ada", "ada"]
 
 
 def test_students_are_named_by_folders_or_by_files(folder: Path) -> None:
@@ -318,7 +386,7 @@ def test_students_are_named_by_folders_or_by_files(folder: Path) -> None:
     moodles = folder / "handed-in" / "Dee Doe_123_assignsubmission_file_"
     moodles.mkdir()
     (moodles / f"{NAME}(1).ipynb").write_text(json.dumps(notebook()), encoding="utf-8")
-    found = hand_ins(folder / "handed-in", chapters_in(folder / "course"))
+    found = found_in(folder).counting
     assert sorted(one.student for one in found) == ["Dee Doe", "ada", "bob", "cy"]
 
 
@@ -331,21 +399,177 @@ def test_the_second_half_of_a_chapter_is_a_chapter_of_its_own(folder: Path) -> N
     for name in chapters:
         path = folder / "handed-in" / f"ada_{name}.ipynb"
         path.write_text(json.dumps(notebook()), encoding="utf-8")
-    found = hand_ins(folder / "handed-in", chapters)
+    found = handed_in(folder / "handed-in", chapters).counting
     assert {(one.student, one.chapter.name) for one in found} == {
         ("ada", name) for name in chapters
     }
 
 
-def test_a_notebook_of_no_chapter_is_named(folder: Path) -> None:
+def test_a_folder_without_any_chapter_is_refused(folder: Path) -> None:
     (folder / "handed-in" / "poem.ipynb").write_text("{}", encoding="utf-8")
     with pytest.raises(InputError, match=r"poem\.ipynb: its name contains no chapter such as 07_s"):
-        hand_ins(folder / "handed-in", chapters_in(folder / "course"))
+        found_in(folder)
 
 
-def test_a_file_that_is_no_notebook_is_graded_too(folder: Path) -> None:
-    (folder / "handed-in" / f"ada_{NAME}.ipynb").write_text("not JSON", encoding="utf-8")
-    assert verdicts(graded(folder)) == ["crashed", "crashed"]
+@pytest.mark.parametrize(
+    "text", ["not JSON", "[]", "3", "null", '{"cells": 3}', "[" * 200_000, "", "9" * 5000]
+)
+def test_a_file_that_is_no_notebook_is_graded_too(folder: Path, text: str) -> None:
+    (folder / "handed-in" / f"ada_{NAME}.ipynb").write_text(text, encoding="utf-8")
+    (folder / "handed-in" / "homework.ipynb").write_text(text, encoding="utf-8")
+    found = found_in(folder)
+    assert [(one.student, one.verdict) for one in found.others] == [("homework", "left out")]
+    grades = graded(folder)
+    assert verdicts(grades) == ["crashed", "crashed"]
+    assert grades[0].text.startswith("the file is no notebook: ")
+
+
+@pytest.mark.parametrize("deep", ["-" * 100_000 + "1", "(" * 5000, "+".join("1" * 50_000)])
+def test_an_answer_that_python_cannot_read_crashes_alone(folder: Path, deep: str) -> None:
+    hand_in(folder, "ada", notebook(RIGHT, double=f"x = {deep}"))
+    assert verdicts(graded(folder)) == ["crashed", "right"]
+
+
+def test_whatever_goes_wrong_with_one_hand_in_stops_no_other(
+    folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    hand_in(folder, "ada", notebook(RIGHT))
+    hand_in(folder, "bob", notebook())
+
+    def no_space(*_: Any, **__: Any) -> None:
+        raise OSError(28, "no space left on the disk")
+
+    monkeypatch.setattr(tempfile, "TemporaryDirectory", no_space)
+    grades = graded(folder)
+    assert verdicts(grades) == ["crashed", "crashed", "untouched", "untouched"]
+    assert grades[0].text == "grading it raises OSError: [Errno 28] no space left on the disk"
+
+
+@pytest.mark.skipif(os.name != "posix" or os.geteuid() == 0, reason="root reads all files")
+def test_a_file_that_cannot_be_read_crashes_alone(folder: Path) -> None:
+    hand_in(folder, "ada", notebook(RIGHT)).chmod(0)
+    hand_in(folder, "bob", notebook())
+    grades = graded(folder)
+    assert verdicts(grades) == ["crashed", "crashed", "untouched", "untouched"]
+    assert grades[0].text == "it cannot be read: Permission denied"
+
+
+def test_folders_and_hidden_files_are_no_notebooks(folder: Path) -> None:
+    hand_in(folder, "ada", notebook())
+    for name in (f"{NAME}.ipynb", "bob/.ipynb_checkpoints"):
+        (folder / "handed-in" / name).mkdir(parents=True)
+    for name in (f"ada/._{NAME}.ipynb", f"bob/.ipynb_checkpoints/{NAME}-checkpoint.ipynb"):
+        (folder / "handed-in" / name).write_text("of an archive", encoding="utf-8")
+    found = found_in(folder)
+    assert [one.student for one in found.counting] == ["ada"]
+    assert [(one.student, one.verdict) for one in found.others] == [
+        (f"{NAME}.ipynb", "missing"),
+        ("bob", "missing"),
+    ]
+
+
+def test_a_notebook_of_no_chapter_is_a_line_for_its_student(folder: Path) -> None:
+    hand_in(folder, "ada", notebook())
+    for student in ("ada", "bob"):
+        scratch = folder / "handed-in" / student / "scratch.ipynb"
+        scratch.parent.mkdir(exist_ok=True)
+        scratch.write_text(json.dumps(notebook()), encoding="utf-8")
+    found = found_in(folder)
+    assert [one.student for one in found.counting] == ["ada"]
+    reason = f"scratch.ipynb: its name contains no chapter such as {NAME}"
+    assert found.others == tuple(Grade(n, "", 0, "left out", reason) for n in ("ada", "bob"))
+
+
+def test_of_copies_of_a_notebook_one_counts_and_the_table_names_the_others(folder: Path) -> None:
+    own = hand_in(folder, "anna", notebook(RIGHT))
+    for name in (f"{NAME}-Copy1.ipynb", f"my_{NAME}.ipynb"):
+        own.with_name(name).write_bytes(own.read_bytes())
+    grades = [*graded(folder), *found_in(folder).others]
+    assert points(grades) == {"anna": {NAME: 2}}
+    assert [one.text for one in grades if one.verdict == "left out"] == [
+        f"{name}: {NAME}.ipynb counts instead"
+        for name in (f"my_{NAME}.ipynb", f"{NAME}-Copy1.ipynb")
+    ]
+    (row,) = csv.DictReader(moodle(grades).splitlines())
+    assert f"{NAME}-Copy1.ipynb: {NAME}.ipynb counts instead" in row["Feedback"]
+
+
+def test_of_copies_with_other_names_the_newest_counts(folder: Path) -> None:
+    old = hand_in(folder, "anna", notebook())
+    old = old.rename(old.with_name(f"{NAME} (1).ipynb"))
+    new = old.with_name(f"{NAME} (2).ipynb")
+    new.write_bytes(old.read_bytes())
+    for path, time_of in ((old, 2e9), (new, 1e9)):
+        os.utime(path, (time_of, time_of))
+    assert [one.path for one in found_in(folder).counting] == [old]
+    os.utime(new, (3e9, 3e9))
+    assert [one.path for one in found_in(folder).counting] == [new]
+
+
+def test_two_students_of_one_name_in_moodle_are_two_students(folder: Path) -> None:
+    names = [f"Dee Doe_{n}_assignsubmission_file_" for n in (12, 34)]
+    for name in names:
+        hand_in(folder, name, notebook())
+    assert [one.student for one in found_in(folder).counting] == names
+
+
+@pytest.mark.skipif(os.name != "posix", reason="elsewhere not everybody can make links")
+def test_links_are_not_followed(folder: Path) -> None:
+    path = hand_in(folder, "anna", notebook(RIGHT))
+    (folder / "handed-in" / "zoe").mkdir()
+    (folder / "handed-in" / "zoe" / path.name).symlink_to(path)
+    (folder / "handed-in" / "yan").symlink_to(path.parent)
+    (folder / "handed-in" / "xia").mkdir()
+    (folder / "handed-in" / "xia" / "work").symlink_to(path.parent)
+    found = found_in(folder)
+    assert [one.student for one in found.counting] == ["anna"]
+    reason = "it is a link, and links are not followed"
+    assert [(one.student, one.verdict, one.text) for one in found.others] == [
+        ("xia", "left out", f"work: {reason}"),
+        ("yan", "left out", f"yan: {reason}"),
+        ("zoe", "left out", f"{path.name}: {reason}"),
+    ]
+
+
+@pytest.mark.parametrize("encoding", ["utf-8-sig", "utf-16"])
+def test_a_byte_order_mark_and_capitals_in_a_name_do_no_harm(folder: Path, encoding: str) -> None:
+    own = folder / "handed-in" / "ada"
+    own.mkdir()
+    book = json.dumps(notebook({"double": "# größer\n" + DOUBLE}), ensure_ascii=False)
+    (own / f"{NAME.upper()}.IPYNB").write_text(book, encoding=encoding)
+    (one,) = found_in(folder).counting
+    assert (one.student, one.chapter.name) == ("ada", NAME)
+    assert verdicts(graded(folder)) == ["untouched", "untouched"]
+
+
+def test_half_a_surrogate_pair_in_a_reason_is_replaced_in_all_files(folder: Path) -> None:
+    harm = 'def double(x):\n    raise ValueError("\\ud800 x")'
+    hand_in(folder, "ada", notebook(double=harm))
+    to = {name: folder / f"{name}.csv" for name in ("csv", "moodle", "canvas")}
+    words = [word for name, path in to.items() for word in (f"--{name}", str(path))]
+    place = str(folder / "handed-in")
+    assert main(["grade", place, "--chapters", str(folder / "course"), *words]) == 0
+    first, _ = csv.DictReader(to["csv"].read_text(encoding="utf-8").splitlines())
+    assert (first["verdict"], first["text"]) == ("crashed", "ValueError: ? x")
+    assert all(path.exists() for path in to.values())
+
+
+@pytest.mark.parametrize("flag", ["csv", "moodle", "canvas"])
+def test_standard_output_is_refused_for_files(
+    folder: Path, flag: str, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(folder)
+    hand_in(folder, "ada", notebook())
+    assert main(["grade", "handed-in", "--chapters", "course", f"--{flag}", "-"]) == 1
+    assert "the table is printed there, so name a file" in capsys.readouterr().err
+    assert not (folder / "-").exists()
+
+
+@pytest.mark.parametrize("limit", ["1e300", "86401"])
+def test_a_limit_is_at_most_a_day(limit: str, capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit):
+        main(["grade", ".", "--limit", limit])
+    assert "a limit is at most 86400 seconds, which is a day" in capsys.readouterr().err
 
 
 def test_tables_print_no_control_characters() -> None:

@@ -23,7 +23,8 @@ import pytest
 
 from glid_nb import InputError, figures
 from glid_nb.grading.chapters import Cell
-from glid_nb.grading.grade import Chapter, HandIn, grade
+from glid_nb.grading.grade import grade
+from glid_nb.grading.handed_in import Chapter, HandIn
 from glid_nb.grading.referee import Remote, Student, StudentError
 from glid_nb.grading.student import Link
 

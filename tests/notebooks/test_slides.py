@@ -66,11 +66,68 @@ def test_a_lecture_shows_no_solution_and_needs_no_network(lectures: Path, name: 
 
 
 def test_a_point_is_a_first_sentence_with_the_equations_after_it() -> None:
-    text = "Take **1. this** one. It is long. $$x^2$$ And more."
+    text = "Take **1. this** one, which has many more words. It is long. $$x^2$$ And more."
     made = slides.point(text)
-    assert "Take <strong>1. this</strong> one." in made
+    assert "Take <strong>1. this</strong> one, which has many more words." in made
     assert "long" not in made
     assert "<math" in made
+
+
+def book(*cells: Any) -> Any:
+    """A chapter: a text is Markdown, a tuple has the outputs of a cell of code."""
+    made = nbformat.v4.new_notebook()
+    for cell in cells:
+        if isinstance(cell, str):
+            made.cells.append(nbformat.v4.new_markdown_cell(cell))
+        else:
+            made.cells.append(nbformat.v4.new_code_cell(outputs=list(cell)))
+    return made
+
+
+PRINTED = nbformat.v4.new_output("stream", text="certified: True")
+PICTURE = nbformat.v4.new_output("display_data", {"image/png": "AAAA"})
+
+
+def test_what_a_cell_prints_stands_beside_its_figure() -> None:
+    (slide,) = slides.slides(book("# A chapter\n\nIt has a sentence.", (PRINTED, PICTURE)))
+    assert "certified" in slide.printed[0]
+    assert "<img" in slide.figure
+
+
+def test_a_second_figure_begins_a_slide() -> None:
+    first, second = slides.slides(book("# A\n\nIt has a sentence.", (PICTURE,), (PICTURE,)))
+    assert first.figure
+    assert second.figure
+    assert second.heading == "A"
+
+
+def test_questions_exercises_and_summaries_are_whole() -> None:
+    text = "# A\n\n**The question:** what is it? And why?\n\n## Summary\n\nIt is one. It is two."
+    question, summary = slides.slides(book(text))
+    assert "And why?" in question.points[0]
+    assert "It is two." in summary.points[0]
+
+
+def test_a_short_sentence_and_a_question_bring_the_next_one() -> None:
+    assert "two" in slides.point("Drag the ring. It has two sliders. The rest is left out.")
+    assert "two" in slides.point(
+        "Is this point really the only minimum there is? It has two. Three."
+    )
+    assert "rest" not in slides.point("Drag the ring. It has two sliders. The rest is left out.")
+
+
+def test_a_bracket_without_its_end_is_left_out() -> None:
+    point = slides.point("(The paper has another sign for the larger one. We do not.)")
+    assert "(" not in point
+
+
+@pytest.mark.parametrize("last", ["$$\nx = 1\n$$", "where x is the largest number of all."])
+def test_a_sentence_that_goes_on_stays_on_its_slide(last: str) -> None:
+    before = [f"This sentence number {i} is long enough to stand alone." for i in range(4)]
+    text = "\n\n".join(["# A", *before, "With the largest number of all", last])
+    assert len(list(slides.slides(book(text)))) == 1
+    more = "\n\n".join(["# A", *before, before[0], before[0]])
+    assert len(list(slides.slides(book(more)))) == 2
 
 
 @pytest.mark.browser

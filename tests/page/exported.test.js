@@ -3,8 +3,15 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { deflateSync } from "node:zlib";
+import { around, viewOn } from "../../glid_nb/page/js/exported/boxes.js";
 import { glideTo, playedFrom } from "../../glid_nb/page/js/exported/course.js";
-import { down, downSmall, provedNow, up } from "../../glid_nb/page/js/exported/numbers.js";
+import {
+  down,
+  downSmall,
+  provedNow,
+  sigma2At,
+  up,
+} from "../../glid_nb/page/js/exported/numbers.js";
 import { inOrder, projectionMatrix } from "../../glid_nb/page/js/exported/renderer.js";
 import { cornersOf, restored, unpacked } from "../../glid_nb/page/js/exported/unpack.js";
 import { Motion } from "../../glid_nb/page/js/motion/motion.js";
@@ -131,16 +138,48 @@ test("bounds are rounded to what is still a bound", () => {
     "9.9e-5",
     "0.000",
   ]);
-  const motion = {
-    times: [0, 1],
-    keyframes: [0, 1],
-    repeat: /** @type {const} */ ("once"),
-    sigma2: [0.45678, null],
-    sigma1: [1.2341, null],
-    k: [0.3, null],
-    until: 0.8,
-  };
-  assert.equal(provedNow(motion, 0, 0.5), "Now: σ₂ ≥ 0.456, σ₁ ≤ 1.235, k ≤ 0.300");
-  assert.equal(provedNow(motion, 1, 0.7), "Now: proved not to fold");
-  assert.equal(provedNow(motion, 1, 0.9), "Now: not proved");
+});
+
+const PROOF = {
+  times: [0, 1, 2],
+  keyframes: [0, 2],
+  repeat: /** @type {const} */ ("once"),
+  sigma2: [0.45678, null],
+  sigma1: [1.2341, null],
+  k: [0.3, null],
+  until: 1.8,
+};
+const OTHER = { ...PROOF, sigma2: [0.9, 0.8], sigma1: [2.5, 1], k: [0.1, 0.1], until: 2 };
+
+test("a page says what is proved at its time", () => {
+  const at = (/** @type {number} */ piece) => [{ proof: PROOF, piece }];
+  assert.equal(provedNow(at(0), 0.5), "Now: σ₂ ≥ 0.456, σ₁ ≤ 1.235, k ≤ 0.300");
+  assert.equal(provedNow(at(1), 1.7), "Now: proved not to fold");
+  assert.equal(provedNow(at(1), 1.9), "Now: not proved");
+  assert.deepEqual([sigma2At(at(0), 0.5), sigma2At(at(1), 1.7)], [0.45678, 0]);
+  assert.equal(sigma2At(at(1), 1.8), -1);
+});
+
+test("the bounds of several shapes hold for all, and one that is not proved is told of", () => {
+  // The second shape has knots of its own, so another piece.
+  const at = (/** @type {number} */ piece) => [
+    { proof: OTHER, piece: 0 },
+    { proof: PROOF, piece },
+  ];
+  assert.equal(provedNow(at(0), 0.5), "Now: σ₂ ≥ 0.456, σ₁ ≤ 2.500, k ≤ 0.300");
+  assert.equal(provedNow(at(1), 1.7), "Now: proved not to fold");
+  assert.equal(provedNow(at(1), 1.9), "Now: not proved");
+  assert.equal(sigma2At(at(0), 0.5), 0.45678);
+  assert.equal(sigma2At(at(1), 1.9), -1);
+});
+
+test("the view holds the boxes of all shapes, with a margin", () => {
+  const box = around([
+    [-1, -2, 3, 4],
+    [0, -5, 8, 1],
+  ]);
+  assert.deepEqual(box, [-1, -5, 8, 4]);
+  const view = viewOn(box, 90, 180, 0.05);
+  assert.deepEqual([view.x, view.y], [3.5, -0.5]);
+  assert.ok(Math.abs(view.unit - 9 / 81) < 1e-12); // the width decides
 });

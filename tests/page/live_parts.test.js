@@ -3,9 +3,11 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { Solving } from "../../glid_nb/page/js/live/solving.js";
+import { nameOf } from "../../glid_nb/page/js/live_page/files.js";
 import { poseOf } from "../../glid_nb/page/js/live_page/pins.js";
 import { chained, parted, posesOf, worstOf } from "../../glid_nb/page/js/live_parts/joint_map.js";
 import { JointSolving } from "../../glid_nb/page/js/live_parts/joint_solving.js";
+import { partNames } from "../../glid_nb/page/js/live_parts/part_names.js";
 import { PartsEditing } from "../../glid_nb/page/js/live_parts/parts_editing.js";
 import { partsCode } from "../../glid_nb/page/js/live_parts/parts_files.js";
 import { jointReel } from "../../glid_nb/page/js/live_parts/reel.js";
@@ -255,4 +257,27 @@ test("the lines of Python make the map of each part", () => {
   const code = partsCode([pinOf(1, [2, 3])], "Two", parts);
   assert.match(code, /read_image\("Two-red\.png"\).*handles=\[\],.*maps\["red"\] = result\.map/s);
   assert.match(code, /"Two-blue\.png"\).*handles=\[\[0\.5, 0\.25\]\],\n {4}targets=\[\[2, 3\]\]/s);
+});
+
+test("parts that no file system tells apart have files of their own", () => {
+  const names = partNames("Two", ["arm?", "arm*", "Arm", "arm-2", "?", "hat"]);
+  const low = new Set(names.map((name) => name.toLowerCase()));
+  assert.equal(low.size, names.length);
+  assert.deepEqual(names.slice(0, 3), ["Two-arm", "Two-arm-2", "Two-Arm-3"]);
+  assert.deepEqual(names.slice(4), ["Two", "Two-hat"]);
+  assert.equal(
+    new Set(partNames("a", ["e\u0301", "\u00e9"]).map((one) => one.normalize())).size,
+    2,
+  );
+  assert.equal(new Set(partNames("a", ["straße", "STRASSE"])).size, 2);
+});
+
+test("a long title leaves room for the parts' numbers", () => {
+  const names = partNames("title ".repeat(40), ["arm", "leg", "hat"]);
+  assert.equal(new Set(names).size, 3);
+  // The files are named after them as after a title, which cuts long ones.
+  assert.deepEqual(
+    names.map((title) => nameOf({ title })),
+    names,
+  );
 });

@@ -13,7 +13,12 @@ const PINS = {
     { end: 1, times: [0, 0.5, 1], floats: wire(0, 0, 2, 4, 4, 4), locked: [] },
     { end: 2, times: [1, 1.5], floats: wire(4, 4, 0, 1, 5, 4, 0, 3), locked: [1] },
   ],
-  later: { floats: wire(7, 8, 9, 10), locked: [0] },
+  poses: [
+    { floats: wire(0.5, 0), locked: [] },
+    { floats: wire(4, 4, 0, 1.5), locked: [1] },
+    { floats: wire(7, 8, 9, 10), locked: [0] },
+  ],
+  keyframes: [0, 1, 2, 3],
 };
 
 test("pins move on straight lines between the knots", () => {
@@ -28,6 +33,17 @@ test("beyond what is proved they stay, and each span has pins of its own", () =>
   assert.deepEqual(pinsAt(PINS, 2.5), there);
 });
 
+test("at a keyframe, as at the kernel's hundredths, they are that pose's", () => {
+  assert.deepEqual(pinsAt(PINS, 1.004), {
+    places: [
+      [4, 4],
+      [0, 1.5],
+    ],
+    locked: [1],
+  });
+  assert.deepEqual(pinsAt(PINS, 3), { places: [[0.5, 0]], locked: [] }); // a loop's return
+});
+
 test("after the last keyframe they are that pose's", () => {
   const places = [
     [7, 8],
@@ -38,10 +54,10 @@ test("after the last keyframe they are that pose's", () => {
 
 test("where there are none, or the kernel has told none, there are none", () => {
   const none = { places: [], locked: [] };
-  assert.deepEqual(pinsAt({ spans: [], later: null }, 0.5), none);
-  assert.deepEqual(pinsLater({ spans: [], later: null }), none);
+  assert.deepEqual(pinsAt({ spans: [], poses: [], keyframes: [] }, 0.5), none);
+  assert.deepEqual(pinsLater({ spans: [], poses: [], keyframes: [] }), none);
   const empty = { end: 1, times: [0, 1], floats: wire(), locked: [] };
-  assert.deepEqual(pinsAt({ spans: [empty], later: null }, 0.5), none);
+  assert.deepEqual(pinsAt({ spans: [empty], poses: [], keyframes: [] }, 0.5), none);
 });
 
 test("the nearest pin that is not hidden is found", () => {

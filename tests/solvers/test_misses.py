@@ -14,7 +14,7 @@ from glid_nb.minima import solve, solve_batch
 from glid_nb.pose import Pose
 from glid_nb.session.report import build_report
 from glid_nb.solvers import Options, Status
-from glid_nb.solvers.misses import misses_of, told, unit_of
+from glid_nb.solvers.misses import Naming, misses_of, told, unit_of
 
 SQUARE: Any = np.array([[-5.0, -5], [5, -5], [5, 5], [-5, 5]])
 PULLED = np.array([[1.0, 0], [0, 0], [0, 0], [0, 1]])
@@ -59,6 +59,13 @@ def test_what_is_seen_in_targets(handles: Any, targets: Any, seen: str | None) -
     text = at_rest(handles, targets)
     assert "units from its target" in text
     assert (seen in text) if seen else (":" not in text)
+
+
+def test_sentences_take_the_names_of_the_caller() -> None:
+    pose, map = Pose(SQUARE, [[-5, -5], [5, -5], [-6, -6], [-5, 5]]), HarmonicMap.identity(box())
+    text = told(pose, misses_of(map, pose), unit_of(map), Naming("pin", 1))
+    assert text.startswith("pin 3 is ")
+    assert text.endswith("the triangle of pins 2, 3 and 4")
 
 
 def test_what_cannot_be_seen_is_not_told() -> None:

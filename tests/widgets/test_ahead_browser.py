@@ -133,3 +133,26 @@ def test_the_drag_of_a_new_pin_goes_on_while_nothing_comes_from_the_kernel(
     assert glid.certify(shown).certified
     hand.wait_until_drawn()
     assert hand.certified()
+
+
+# Ends when undo has come, before the cell would end by itself.
+WAIT_FOR_UNDO = """
+import time
+end = time.monotonic() + 20
+while abs(model.pose.targets[2, 1]) > 1e-6 and time.monotonic() < end:
+    time.sleep(0.01)
+undone_in_time = time.monotonic() < end
+"""
+
+
+def test_a_drag_is_undone_while_a_cell_runs(open_notebook: OpenNotebook) -> None:
+    hand = _pinned(open_notebook)
+    hand.drag(line(PINS[2], [6.0, 2.0], 8))
+    hand.wait_for_target(2, [6.0, 2.0])
+    hand.settle()
+    with hand.book.running(WAIT_FOR_UNDO):
+        hand.page.keyboard.press("Control+z")
+    assert hand.book.value("undone_in_time")
+    assert np.allclose(hand.targets[2], PINS[2])
+    hand.wait_until_drawn()
+    assert hand.certified()

@@ -14,6 +14,7 @@ from .editor_page import NEW_PICTURE, ROOMY_EDITOR, SETUP, Hand, choose_view
 
 pytestmark = [pytest.mark.browser, pytest.mark.slow]
 
+PAPER = (255, 255, 255)  # of Chromium's forced colours, in a light scheme
 PINNED = "model.add_handles([(-6.0, 0.0), (6.0, 0.0)]); model.save_pose(); model.select([0])"
 
 _BOX = """(one) => {
@@ -125,7 +126,7 @@ def test_nothing_is_cut_off_covered_or_askew(open_notebook: OpenNotebook) -> Non
     table.wait_for()
     left = {round(box(cell)[0]) for cell in table.locator("td").all()}
     assert len(left) == 2  # one place in each of the two columns
-    headings = [box(one) for one in table.locator("h4").all()]
+    headings = [box(one) for one in table.locator("h3").all()]
     first = {round(one[0]): one[1] for one in reversed(headings)}
     assert len(first) == 2
     assert len({round(y) for y in first.values()}) == 1
@@ -215,6 +216,33 @@ def test_high_contrast_keeps_what_is_drawn(open_notebook: OpenNotebook) -> None:
         book.screenshot("tracer-forced-colours")
     finally:
         page.emulate_media(forced_colors="none")
+
+
+def test_sliders_are_seen_in_high_contrast(open_notebook: OpenNotebook) -> None:
+    book = open_notebook([SETUP, ROOMY_EDITOR])
+    page = book.page
+    Hand(book)
+    book.value("None", setup=PINNED)
+    weight = page.locator(".glid-pin .widget-slider").filter(has_text="Weight")
+    threshold = page.locator(".glid-tracer .glid-slider").first
+    try:
+        page.emulate_media(forced_colors="active")
+        weight.locator(".noUi-handle").wait_for()
+        assert drawn(weight.locator(".noUi-target")) > 0.7  # the groove, from end to end
+        book.screenshot("editor-sliders-forced-colours")
+        page.get_by_role("tab", name="Trace", exact=True).click()
+        threshold.wait_for()
+        assert drawn(threshold) > 0.7
+        book.screenshot("tracer-sliders-forced-colours")
+    finally:
+        page.emulate_media(forced_colors="none")
+
+
+def drawn(slider: Locator) -> float:
+    """The part of a slider's middle line that differs from the paper of high contrast."""
+    pixels = imread(BytesIO(slider.screenshot())).astype(int)[..., :3]
+    middle = pixels[pixels.shape[0] // 2]
+    return float((abs(middle - PAPER).sum(axis=-1) > 60).mean())
 
 
 def test_on_a_phone_every_section_leaves_the_timeline_on_the_screen(

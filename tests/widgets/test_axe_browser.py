@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import pytest
@@ -27,7 +28,9 @@ WIDE = {"width": 1366, "height": 768}
 
 
 def _no_faults(page: Page, what: str) -> None:
-    assert faults(page, page.locator(".glid-editor")) == [], what
+    editor = page.locator(".glid-editor")
+    assert faults(page, editor) == [], what
+    assert not re.findall("[\ue000-\uf8ff]", editor.aria_snapshot()), what  # of icon fonts
 
 
 def test_nothing_is_wrong_with_the_editor(open_notebook: OpenNotebook) -> None:

@@ -14,14 +14,15 @@ from skimage.io import imread
 import glid_check
 from glid_nb import HarmonicMap
 from glid_nb.imaging import PixelFrame
-from glid_nb.imaging.backdrop import WHITE, over
+from glid_nb.imaging.backdrop import over
 from glid_nb.imaging.render import draw_mesh, mesh_in
 from glid_nb.imaging.texture import Texture
 from glid_nb.session.editor_model import EditorModel
-from glid_nb.session.look import Look
 from glid_nb.widgets import exporting
 
+from ..support.axe import faults
 from ..support.browser import ARTEFACTS, watched_page
+from ..support.two_disks import two_disks
 from .test_live_page_browser import (
     _SETTLED,
     _WATCHED,
@@ -38,32 +39,10 @@ pytestmark = [pytest.mark.browser, pytest.mark.slow]
 _CARDS = "main > :not(#pad), .paper { visibility: hidden }"
 
 
-def disk(x: float, y: float, color: tuple[int, int, int]) -> np.ndarray:
-    """A disk with stripes, so that its inside shows a deformation too."""
-    rows, columns = np.mgrid[:360, :480]
-    pixels = np.zeros((360, 480, 4), np.uint8)
-    inside = np.hypot(columns - x, rows - y) < 90
-    pixels[inside] = (*color, 255)
-    pixels[inside & (rows // 20 % 2 == 0), :3] //= 2
-    return pixels
-
-
 @pytest.fixture(scope="module")
 def model() -> Iterator[EditorModel]:
-    """A red disk, which moves upwards behind a blue one."""
-    pictures = {"red": disk(180, 210, (220, 60, 30)), "blue": disk(290, 180, (30, 60, 220))}
-    made = EditorModel(parts=pictures)
-    made.set_look(Look(background=WHITE))
-    deformation = made.deformation
-    x, y = deformation.state.domain.cage.exterior.mean(axis=0)
-    middle = deformation.add_handle((x, y))
-    side = deformation.add_handle((x - 2, y))
-    deformation.save_pose()
-    deformation.drag(middle, to=(x + 0.5, y + 1.5))
-    deformation.drag(side, to=(x - 1.5, y + 2.5))
-    deformation.solve()
-    yield made
-    made.close()
+    with two_disks() as made:
+        yield made
 
 
 def opened(page: Page, model: EditorModel, folder: Path) -> None:
@@ -172,11 +151,40 @@ def test_a_motion_of_two_parts_shows_proved_frames_of_both(
         assert lowest_bound(page) > 0
 
 
-def test_a_phone_shows_both_parts(model: EditorModel, browser: Browser, tmp_path: Path) -> None:
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_a_phone_drags_both_parts_without_a_fault(
+    model: EditorModel, browser: Browser, tmp_path: Path, scheme: str
+) -> None:
     phone = {"viewport": {"width": 390, "height": 844}, "has_touch": True, "is_mobile": True}
-    with watched_page(browser, _WATCHED, **phone, color_scheme="dark") as page:
+    with watched_page(browser, _WATCHED, **phone, color_scheme=scheme) as page:
         opened(page, model, tmp_path)
         assert page.evaluate("document.documentElement.scrollWidth") == 390
+        assert faults(page) == []
         page.touchscreen.tap(*on_screen(page, 3, 0))
         assert status(page).startswith("Pin 3 of 3")
-        page.screenshot(path=ARTEFACTS / "live-parts-phone.png")
+        finger(page, (3, 0), (4.2, -0.8))
+        assert status(page).startswith("Pin 3 of 3, at 4.2, -0.8")
+        x, y = model.shapes[0].state.poses[0].pose.targets[1]
+        finger(page, (x, y), (x - 0.8, y - 0.4))
+        assert status(page).startswith(f"Pin 2 of 3, at {x - 0.8:.1f}")
+        page.screenshot(path=ARTEFACTS / f"live-parts-phone-{scheme}.png")
+        assert lowest_bound(page) > 0
+        for button in ("Copy, download, reset", "Keys and gestures"):
+            page.get_by_role("button", name=button).first.tap()
+            page.locator(":popover-open").first.wait_for()
+            page.screenshot(path=ARTEFACTS / f"live-parts-phone-{scheme}-{button[:4]}.png")
+            assert faults(page) == []
+            page.keyboard.press("Escape")
+            page.locator(":popover-open").wait_for(state="hidden")
+        check_picture(page, model, saved_maps(page))
+
+
+def finger(page: Page, start: tuple[float, float], end: tuple[float, float]) -> None:
+    """Drag with a finger, in eight moves."""
+    touch = page.context.new_cdp_session(page)
+    way = np.linspace(start, end, 9)
+    for point, kind in zip(way, ["touchStart", *["touchMove"] * 8], strict=True):
+        x, y = on_screen(page, *point)
+        touch.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": [{"x": x, "y": y}]})
+    touch.send("Input.dispatchTouchEvent", {"type": "touchEnd", "touchPoints": []})
+    page.wait_for_function(_SETTLED)

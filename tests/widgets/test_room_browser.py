@@ -213,8 +213,10 @@ def test_nothing_wraps_jumps_or_covers_a_mark(open_notebook: OpenNotebook) -> No
     bar, keep = page.locator(".glid-timeline .glid-bar"), page.locator(".glid-keep")
     numbers = page.locator(".glid-bars")
     numbers.get_by_label("Depth").wait_for()
-    for width in (1920, 1366, 800):
+    for width in (1920, 1366, 1024, 800):
         page.set_viewport_size({"width": width, "height": 900})
+        # The narrowest has its timeline under the inspector too.
+        page.locator(".glid-editor.glid-close" if width == 800 else ".glid-editor").wait_for()
         hand.wait_until_still()
         heights, left = set(), set()
         for time in ("0.00 / 0.00 s", "23.00 / 23.00 s"):

@@ -163,8 +163,10 @@ def test_pins_are_told_for_every_time_as_a_drag_there_takes_them(panel: Timeline
         map_ = panel.animation.at(time)
         assert map_ is not None
         np.testing.assert_allclose(here[:2], map_(model.pose.handles[:2]))
-    later = np.frombuffer(pins["later"]["floats"], np.float32).reshape(3, 2)
-    np.testing.assert_allclose(later[1], [6, 2])
+    assert pins["keyframes"] == [0.0, 1.0]
+    first, last = (np.frombuffer(p["floats"], np.float32).reshape(3, 2) for p in pins["poses"])
+    np.testing.assert_allclose(first[1], [6, 0])
+    np.testing.assert_allclose(last[1], [6, 2])
     np.testing.assert_array_equal(panel.animation.pins(3.0)[1], [6, 2])
     np.testing.assert_array_equal(panel.animation.pins(1.0)[1], [6, 2])
 
@@ -187,7 +189,7 @@ def test_pins_of_a_shape_without_any_are_none(panel: TimelinePanel) -> None:
     assert panel.animation.wait(TIMEOUT)
     pins: dict[str, Any] = panel.pins  # type: ignore[assignment]
     assert [span["floats"] for span in pins["spans"]] == [b""]
-    assert pins["later"] == {"floats": b"", "locked": []}
+    assert pins["poses"] == 2 * [{"floats": b"", "locked": []}]
     assert panel.animation.pins(0.5).shape == (0, 2)
     assert model.state.timeline.times == (0.0, 1.0)
 

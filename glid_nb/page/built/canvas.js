@@ -8,14 +8,14 @@ changes))model.set(name,value);model.save_changes()}function toFloats(view){if(!
 return new Float32Array(view.buffer.slice(view.byteOffset,view.byteOffset+view.byteLength))}function follow(model,listeners){
 for(const[names,listener]of Object.entries(listeners)){model.on(names,listener);listener()}}var OF_THE_PAD=["pointerdown","pointermove","wheel","keydown","keyup","contextmenu"];function shield(element){
 for(const name of OF_THE_PAD)element.addEventListener(name,e=>e.stopPropagation());return element}function help(sections){
-const head=make("div",{className:"glid-help-head"},make("h3",{},"Keys and gestures"),make("button",{
+const head=make("div",{className:"glid-help-head"},make("h2",{},"Keys and gestures"),make("button",{
 title:"Close",ariaLabel:"Close"},"×"));const columns=make("div",{},...sections.map(section));const look={
 className:"glid-help",popover:"auto",tabIndex:-1};const table=shield(make("div",look,head,columns));
 table.addEventListener("click",()=>table.hidePopover());table.addEventListener("beforetoggle",()=>Object.
 assign(table,{autofocus:true}));const title="Keys and gestures (?)";const around2={className:"glid-h\
 elp-button",title,"aria-label":title};const button=shield(make("button",{...around2,popoverTargetElement:table},
 "?"));return{table,button,toggle:()=>void table.togglePopover()}}function section([title,rows]){return make(
-"section",{},make("h4",{},title),make("table",{},...rows.map(row)))}function row([keys,what]){return make(
+"section",{},make("h3",{},title),make("table",{},...rows.map(row)))}function row([keys,what]){return make(
 "tr",{},make("th",{},keys),make("td",{},what))}var PATHS={edit:"M3 2l9.5 5.2-4 1.2 2.4 4.3-1.8 1-2.4-4.3L3 12z",brush:"M13.5 2.5l-6 6 M6.7 9.2c-1.6\
 -.5-3 .6-3.1 2.1-.1 1-.7 1.7-1.6 2 2.2.9 5.6.4 5.9-2.2 .1-.8-.4-1.6-1.2-1.9z",eraser:"M9.2 2.8l4 4-6\
 .4 6.4H4.4L2.2 11z M5.5 6.6l4 4 M7 13.2h6.5",rectangle:"M2.5 4h11v8h-11z",undo:"M5.5 3L2.5 6l3 3 M3 \
@@ -433,8 +433,9 @@ box.dispatchEvent(new CustomEvent("glid:key",{bubbles:true})),p:()=>canvas.room?
 reference.toggle(),w:()=>canvas.room?.fullScreen(),"tool:":()=>canvas.takeTool(""),"tool:stiff":()=>canvas.
 takeTool("stiff"),"tool:erase":()=>canvas.takeTool("erase"),"zoom:in":()=>canvas.view.zoom(1/ZOOM),"\
 zoom:out":()=>canvas.view.zoom(ZOOM)}}pressing(key){if(key==="Escape")this.canvas.putBrushAway()}get painting(){
-return this.canvas.painting}changed(){this.canvas.followHand();this.canvas.redraw()}menu(place,found){
-if(!this.canvas.shapes.motion)this.canvas.openMenu(place,found)}pressedAt(){return this.canvas.pressedAt()}tapped(){
+return this.canvas.painting}changed(){const{pad}=this.canvas;if(pad.encloses&&pad.path.length>2)this.
+canvas.leaveMotion();this.canvas.followHand();this.canvas.redraw()}menu(place,found){if(!this.canvas.
+shapes.motion)this.canvas.openMenu(place,found)}pressedAt(){return this.canvas.pressedAt()}tapped(){
 this.canvas.box.dispatchEvent(new CustomEvent("glid:play",{bubbles:true}))}find(point,reach){const{view,
 marks,reachable:reachable2,shapes,painting}=this.canvas;if(painting)return null;if(shapes.motion)return pinBetweenAt(
 this.canvas.between.places,point,reach);const mark=markAt(reachable2,point,reach);return mark??ringAt(
@@ -449,20 +450,20 @@ this.#between=null;const{selected,targets}=this.canvas.allMarks;const moved=move
 this.canvas.model.get("pins"));return new Map(moved.map(i=>[i,targets[i]]))}#heldBetween(mark,{places,
 locked}){this.#between={mark,places};return new Map(locked.includes(mark)?[]:[[mark,places[mark]]])}motionLeft(){
 const{pad,shapes,allMarks,model}=this.canvas;const between=this.#between;if(!between||!pad.grip||shapes.
-motion)return;const{mark,places}=between;const moved=movedWith(mark,allMarks.selected,model.get("pin\
-s"));pad.grip.points=new Map(moved.map(i=>[i,places[i]]));this.canvas.followHand()}constrain(point,e){
-const{model,pad}=this.canvas;const{pressed}=this;const[from]=pad.path;if(!pressed||!from||pressed.found?.
-part||pad.encloses||e.altKey)return point;pressed.keys={axis:e.shiftKey,whole:e.ctrlKey||e.metaKey};
-pressed.start??=from;const[x,y]=pressed.start;const free=[x+point[0]-from[0],y+point[1]-from[1]];const[
-u,v]=constrained([x,y],free,pressed.keys,model.get("picture_size"));return[u-x+from[0],v-y+from[1]]}cursor(found){
-this.canvas.box.title=this.#tip(found);if(found?.mark!==void 0&&this.#locked(found))return"pointer";
-return found?"grab":"crosshair"}#locked({mark}){const{shapes,between,model}=this.canvas;const{locked}=shapes.
-motion?between:model.get("pins");return locked.includes(Number(mark))}#tip(found){if(!found)return"";
-const{marks,model,shapes}=this.canvas;if(found.part)return`${turnWords(marks.ring).join(", ")}. ${RING_TIPS[found.
-part]}`;const mark=Number(found.mark);if(shapes.motion){return`Pin ${mark+1}: ${this.#locked(found)?
-BETWEEN_LOCKED:BETWEEN_TIP}`}const name=["Pin",mark+1,model.get("names")[mark]].join(" ").trim();if(this.#locked(
-found))return`${name}: ${LOCKED_TIP}`;const tip=found.reached?IMAGE_TIP:TARGET_TIP;return`${name}: ${tip}${marks.
-hidden.includes(mark)?COVERED:""}`}};async function copied(text){try{await navigator.clipboard.writeText(text);return true}catch{return copiedBySelection(
+motion)return;const{mark,places}=between;const all=movedWith(mark,allMarks.selected,model.get("pins"));
+const moved=all.filter(i=>i in places);pad.grip.points=new Map(moved.map(i=>[i,places[i]]));this.canvas.
+followHand()}constrain(point,e){const{model,pad}=this.canvas;const{pressed}=this;const[from]=pad.path;
+if(!pressed||!from||pressed.found?.part||pad.encloses||e.altKey)return point;pressed.keys={axis:e.shiftKey,
+whole:e.ctrlKey||e.metaKey};pressed.start??=from;const[x,y]=pressed.start;const free=[x+point[0]-from[0],
+y+point[1]-from[1]];const[u,v]=constrained([x,y],free,pressed.keys,model.get("picture_size"));return[
+u-x+from[0],v-y+from[1]]}cursor(found){this.canvas.box.title=this.#tip(found);if(found?.mark!==void 0&&
+this.#locked(found))return"pointer";return found?"grab":"crosshair"}#locked({mark}){const{shapes,between,
+model}=this.canvas;const{locked}=shapes.motion?between:model.get("pins");return locked.includes(Number(
+mark))}#tip(found){if(!found)return"";const{marks,model,shapes}=this.canvas;if(found.part)return`${turnWords(
+marks.ring).join(", ")}. ${RING_TIPS[found.part]}`;const mark=Number(found.mark);if(shapes.motion){return`\
+Pin ${mark+1}: ${this.#locked(found)?BETWEEN_LOCKED:BETWEEN_TIP}`}const name=["Pin",mark+1,model.get(
+"names")[mark]].join(" ").trim();if(this.#locked(found))return`${name}: ${LOCKED_TIP}`;const tip=found.
+reached?IMAGE_TIP:TARGET_TIP;return`${name}: ${tip}${marks.hidden.includes(mark)?COVERED:""}`}};async function copied(text){try{await navigator.clipboard.writeText(text);return true}catch{return copiedBySelection(
 text)}}function copiedBySelection(text){const focused=document.activeElement;const area=document.createElement(
 "textarea");area.value=text;area.setAttribute("readonly","");Object.assign(area.style,{position:"fix\
 ed",top:"0",left:"0",opacity:"0"});document.body.append(area);area.select();try{return document.execCommand(
@@ -508,19 +509,20 @@ y)})});grip.addEventListener("lostpointercapture",()=>{beyond=null});return shie
 const name=()=>{for(const control of root.querySelectorAll(CONTROLS))nameOne(control)};const observer=new MutationObserver(
 name);const what={childList:true,subtree:true,attributes:true,attributeFilter:["title"]};observer.observe(
 root,what);signal.addEventListener("abort",()=>observer.disconnect());name()}function nameOne(control){
-const isImage=control instanceof HTMLImageElement;const attribute=isImage?"alt":"aria-label";const given=control.
-getAttribute(attribute);if(given!==null&&control.getAttribute("data-glid-name")!==given)return;if(isNamed(
-control))return;const name=nameAround(control);if(!name||name===given)return;control.setAttribute(attribute,
-name);control.setAttribute("data-glid-name",name)}function isNamed(control){if(control instanceof HTMLButtonElement)
-return SAYS_SOMETHING.test(control.textContent??"");const labels="labels"in control?control.labels:null;
-return[...labels??[]].some(label=>SAYS_SOMETHING.test(label.textContent??""))}function nameAround(control){
-const own=control.getAttribute("title");if(own)return own;if(control.matches(".glid-plots, .glid-plo\
-ts *"))return"Plots of the solve";const widget=control.closest(".jupyter-widgets");const label=widget?.
-querySelector(".widget-label")?.textContent?.trim();return label||widget?.getAttribute("title")||labelBefore(
-widget??control)}function labelBefore(one){let before=one.previousElementSibling;while(before&&!before.
-matches(".widget-label"))before=before.previousElementSibling;return before?.textContent?.trim()??""}var NOTEBOOK=124;var PAGE=48;var PARTS=44+110+28+2;var NARROW_PARTS=44+130+100+2;var NARROW_LEGEND=42;
-var LEAST=280;var BESIDE3=340;var PLOTS=477;var SLACK=20;var SETTLE=80;var NARROW=600;var Room=class{#root=null;#last={
-width:0,height:0,all:0};#decides=false;#told="";#room=null;#plotted=true;#timer;constructor(pad,model,signal){
+for(const icon of control.querySelectorAll("i"))icon.ariaHidden="true";const isImage=control instanceof
+HTMLImageElement;const attribute=isImage?"alt":"aria-label";const given=control.getAttribute(attribute);
+if(given!==null&&control.getAttribute("data-glid-name")!==given)return;if(isNamed(control))return;const name=nameAround(
+control);if(!name||name===given)return;control.setAttribute(attribute,name);control.setAttribute("da\
+ta-glid-name",name)}function isNamed(control){if(control instanceof HTMLButtonElement)return SAYS_SOMETHING.
+test(control.textContent??"");const labels="labels"in control?control.labels:null;return[...labels??
+[]].some(label=>SAYS_SOMETHING.test(label.textContent??""))}function nameAround(control){const own=control.
+getAttribute("title");if(own)return own;if(control.matches(".glid-plots, .glid-plots *"))return"Plot\
+s of the solve";const widget=control.closest(".jupyter-widgets");const label=widget?.querySelector("\
+.widget-label")?.textContent?.trim();return label||widget?.getAttribute("title")||labelBefore(widget??
+control)}function labelBefore(one){let before=one.previousElementSibling;while(before&&!before.matches(
+".widget-label"))before=before.previousElementSibling;return before?.textContent?.trim()??""}var NOTEBOOK=124;var PAGE=48;var PARTS=44+110+28+2;var NARROW_PARTS=44+130+100+2;var NARROW_LEGEND=42;
+var LEAST=280;var BESIDE3=340;var PLOTS=477;var SLACK=20;var SETTLE=80;var NARROW=600;var CLOSE=800;
+var Room=class{#root=null;#last={width:0,height:0,all:0};#decides=false;#told="";#room=null;#plotted=true;#timer;constructor(pad,model,signal){
 this.pad=pad;this.model=model;this.signal=signal;this.observer=new ResizeObserver(()=>this.#measureSoon());
 this.observer.observe(pad);window.addEventListener("resize",()=>this.#measureSoon(),{signal});window.
 addEventListener("keydown",e=>this.#escape(e),{signal,capture:true});model.on("change:room",()=>{if(String(
@@ -540,31 +542,31 @@ return Boolean(this.#root?.classList.contains("glid-alone"))}#escape(e){if(e.key
 return;if(this.pad.matches(":active, :has(.glid-menu, :popover-open)"))return;e.stopPropagation();this.
 alone(false)}#measureSoon(){clearTimeout(this.#timer);this.#timer=setTimeout(()=>this.#measure(),SETTLE)}#measure(){
 const root=this.pad.closest(".glid-editor");const shell=this.pad.closest(".glid-shell");if(!root||!shell?.
-clientWidth)return;root.classList.toggle("glid-narrow",root.clientWidth<NARROW);const room=this.#roomIn(
-root,shell);if(!this.#root)this.#begin(root,shell,room);this.#room=room;this.shrink();if(!this.#decides)
-return;const last=this.#last;const wider=room.width-last.width;const same=room.height===last.height&&
-room.all===last.all;if(same&&wider>=0&&wider<SLACK)return;this.#last=room;const numbers=[room.width,
-room.height,room.all].map(Math.floor);this.#told=String(numbers);save(this.model,{room:numbers})}#begin(root,shell,room){
-this.#root=root;this.observer.observe(root);this.observer.observe(shell);const plots=shell.querySelector(
-".glid-plots-box");if(plots)this.observer.observe(plots);nameControls(root,this.signal);const[width=0]=this.
-model.get("room");this.#decides=room.width>width;root.addEventListener("pointerup",()=>this.#decide(),
-{signal:this.signal});const inspected=()=>this.toggleInspector(false);root.addEventListener("glid:in\
-spect",inspected,{signal:this.signal})}#decide(){if(this.#decides)return;this.#decides=true;this.#last=
-{width:0,height:0,all:0};this.#measureSoon()}shrink(){const whole=this.pad.closest(".glid-deform");if(!whole||
-!this.#room)return;const panes=whole.querySelectorAll(".glid-pane");const widths=[...panes].map(pane=>Number.
-parseFloat(pane.style.width)||0);const share=this.#room.width/widths.reduce((sum,width)=>sum+width,0);
-whole.style.zoom=share<1&&!this.#decides?String(share):""}#roomIn(root,shell){const full=document.fullscreenElement===
-root;const below=window.innerHeight-(full?0:around(root));if(this.#isAlone)return{width:root.clientWidth,
-height:below,all:1};const narrow=root.classList.contains("glid-narrow");const side=shell.querySelector(
-".glid-side");const plots=shell.querySelector(".glid-plots-box");const beside=shell.clientWidth-(narrow?
-0:side?.offsetWidth??0);const plotted=Boolean(plots?.offsetWidth)&&!narrow&&beside-PLOTS>=BESIDE3;shell.
-classList.toggle("glid-beside",plotted);this.#showPlots(plots,plotted);const width=plotted?beside-PLOTS:
-beside;const above=shell.getBoundingClientRect().top-root.getBoundingClientRect().top;const bars=shell.
-querySelector(".glid-legend:not([hidden])")?NARROW_LEGEND:0;const parts=narrow?NARROW_PARTS+bars:PARTS;
-const height=Math.max(LEAST,below-above/scaleOf(root).down-parts);return{width,height,all:Number(narrow&&
-full&&!side?.offsetWidth)}}#showPlots(plots,beside){const seen=Boolean(plots?.offsetWidth);if(seen&&
-!beside&&!this.#plotted)plots?.scrollIntoView({block:"nearest"});this.#plotted=seen}};function around(root){
-return root.closest(".jp-MainAreaWidget")?NOTEBOOK:PAGE}var FRAME=16;var SHARE=.5;var REST=200;var Detail=class{#views;#less=new Map;#timer;constructor(views){
+clientWidth)return;root.classList.toggle("glid-narrow",root.clientWidth<NARROW);root.classList.toggle(
+"glid-close",root.clientWidth<CLOSE);const room=this.#roomIn(root,shell);if(!this.#root)this.#begin(
+root,shell,room);this.#room=room;this.shrink();if(!this.#decides)return;const last=this.#last;const wider=room.
+width-last.width;const same=room.height===last.height&&room.all===last.all;if(same&&wider>=0&&wider<
+SLACK)return;this.#last=room;const numbers=[room.width,room.height,room.all].map(Math.floor);this.#told=
+String(numbers);save(this.model,{room:numbers})}#begin(root,shell,room){this.#root=root;this.observer.
+observe(root);this.observer.observe(shell);const plots=shell.querySelector(".glid-plots-box");if(plots)
+this.observer.observe(plots);nameControls(root,this.signal);const[width=0]=this.model.get("room");this.#decides=
+room.width>width;root.addEventListener("pointerup",()=>this.#decide(),{signal:this.signal});const inspected=()=>this.
+toggleInspector(false);root.addEventListener("glid:inspect",inspected,{signal:this.signal})}#decide(){
+if(this.#decides)return;this.#decides=true;this.#last={width:0,height:0,all:0};this.#measureSoon()}shrink(){
+const whole=this.pad.closest(".glid-deform");if(!whole||!this.#room)return;const panes=whole.querySelectorAll(
+".glid-pane");const widths=[...panes].map(pane=>Number.parseFloat(pane.style.width)||0);const share=this.#room.
+width/widths.reduce((sum,width)=>sum+width,0);whole.style.zoom=share<1&&!this.#decides?String(share):
+""}#roomIn(root,shell){const full=document.fullscreenElement===root;const below=window.innerHeight-(full?
+0:around(root));if(this.#isAlone)return{width:root.clientWidth,height:below,all:1};const narrow=root.
+classList.contains("glid-narrow");const side=shell.querySelector(".glid-side");const plots=shell.querySelector(
+".glid-plots-box");const beside=shell.clientWidth-(narrow?0:side?.offsetWidth??0);const plotted=Boolean(
+plots?.offsetWidth)&&!narrow&&beside-PLOTS>=BESIDE3;shell.classList.toggle("glid-beside",plotted);this.#showPlots(
+plots,plotted);const width=plotted?beside-PLOTS:beside;const above=shell.getBoundingClientRect().top-
+root.getBoundingClientRect().top;const bars=shell.querySelector(".glid-legend:not([hidden])")?NARROW_LEGEND:
+0;const parts=narrow?NARROW_PARTS+bars:PARTS;const height=Math.max(LEAST,below-above/scaleOf(root).down-
+parts);return{width,height,all:Number(narrow&&full&&!side?.offsetWidth)}}#showPlots(plots,beside){const seen=Boolean(
+plots?.offsetWidth);if(seen&&!beside&&!this.#plotted)plots?.scrollIntoView({block:"nearest"});this.#plotted=
+seen}};function around(root){return root.closest(".jp-MainAreaWidget")?NOTEBOOK:PAGE}var FRAME=16;var SHARE=.5;var REST=200;var Detail=class{#views;#less=new Map;#timer;constructor(views){
 this.#views=views}moved(drawingTime2){if(drawingTime2<=FRAME)return;clearTimeout(this.#timer);this.#timer=
 setTimeout(()=>this.restore(),REST);for(const one of this.#views())void one.then(view=>this.#reduce(
 view))}restore(){clearTimeout(this.#timer);for(const[renderer,ratio]of this.#less)renderer.setPixelRatio(
@@ -825,38 +827,39 @@ clipboard.paste(),alone:()=>this.room?.alone(),fullScreen:()=>this.room?.fullScr
 help.toggle};const covered=mark===null&&coveredNear(this.box,at);const pins=mark===null?null:pinsOfMenu(
 mark,selected);openMenu(this.box,at,menuRows(does,pins,covered,this.model.get("pins")))}showMotion(motion=null,playing=STILL,heights=null,parts={},pins=null){
 this.between=pins??NO_PINS;this.#playing=playing;this.shapes.motion=motion;this.shapes.partMotions=parts;
-this.shapes.lift(heights);this.showLegend();this.shapes.refresh();this.pad.hover();this.redraw()}showLegend(){
-this.legend.show(this.model,Boolean(this.shapes.motion))}takeFocus(){const{painting}=this;const chosen=painting&&
-!this.#painted;this.#painted=painting;const side=this.box.closest(".glid-editor")?.querySelector(".g\
-lid-side");if(chosen&&side?.contains(document.activeElement))this.box.focus({preventScroll:true})}showNotice(){
-const first=this.interactive&&!this.marks.targets.length;this.notices.tell(this.model.get("notice"),
-this.painting,first)}fit(){const{model,view,box}=this;view.width=model.get("width");view.height=model.
-get("height");[view.x,view.y,view.unit]=model.get("view");box.style.width=`${view.width}px`;box.style.
-height=`${view.height}px`;this.room?.shrink();this.#see()}reveal(){const{selected,targets,images}=this.
-marks;const now=selected.length===1?selected[0]:void 0;if(now===this.#chosen)return;this.#chosen=now;
-if(now===void 0||this.pad.mode)return;if(!Number.isFinite(targets[now]?.[0]))return;if(inSight(this.
-view,targets[now])||inSight(this.view,images[now]))return;this.view.centreOn(targets[now])}pressedAt(){
-if(!this.shapes.motion)return void 0;this.#presses=true;return this.#playing.pause()}#pressed(e){this.#press(
-e.detail)}#press(key,shift=false){const act=this.behaviour.actions[key];if(act)act();else this.pad.press(
-key,{shiftKey:shift})}#takeFirst(){const take=e=>{if(!this.shapes.motion)return false;e.stopImmediatePropagation();
-e.preventDefault();return true};const goBack=e=>take(e)&&this.#playing.release();const capture=true;
-this.box.addEventListener("pointerdown",e=>e.button===2&&take(e),{capture});this.box.addEventListener(
-"contextmenu",take,{capture});const ours=e=>!e.ctrlKey&&!e.metaKey&&KEYS.test(keyOf(e));this.box.addEventListener(
-"keydown",e=>ours(e)&&goBack(e),{capture});const openedByKeys=e=>{if(e.key!=="F10"||!e.shiftKey)return;
-e.stopImmediatePropagation();e.preventDefault();this.openMenu()};this.box.addEventListener("keydown",
-openedByKeys,{capture});const followArrow=e=>{const target=arrowAt(this.view,this.marks,this.pad.place(
-e));if(!target||e.target!==this.box||this.shapes.motion)return;this.view.centreOn(target);e.stopImmediatePropagation()};
-this.box.addEventListener("pointerdown",followArrow,{capture})}#makeCorner(){const look="glid-help-b\
-utton";return make("div",{className:"glid-corner"},this.help.button,iconButton("screen","Full screen\
- (W)",()=>this.room?.fullScreen(),look),iconButton("rectangle","The picture alone (P)",()=>this.room?.
-alone(),look))}#report(){const{busy,refusal}=this.link;if(this.link.idle)this.#showTool(void 0);this.#settleNumbers();
-if(this.#presses&&this.link.idle&&this.pad.mode===null){this.#presses=false;this.#playing.reach();this.
-behaviour.motionLeft()}if(!busy&&refusal&&refusal!==this.model.get("notice"))this.say(refusal)}#viewMoved(){
-this.#see();clearTimeout(this.#saving);this.#saving=setTimeout(()=>{const{x,y,unit}=this.view;save(this.
-model,{view:[x,y,unit]})},SAVE_VIEW_AFTER)}#see(){this.shapes.see();this.reference.place();this.redraw()}get#drags(){
-const{mode,path,encloses:encloses2}=this.pad;return mode==="hand"&&path.length>1&&!encloses2&&!this.
-painting}#settleNumbers(){if(this.link.idle&&!this.#drags)this.numbers.settle(this.model.get("marks"))}#drawNumbers(pen){
-const{model,view,pad,marks}=this;const{pressed}=this.behaviour;const drags=this.#drags&&pressed;const moved=drags&&
+this.shapes.lift(heights);this.showLegend();this.shapes.refresh();this.pad.hover();this.redraw()}leaveMotion(){
+if(this.shapes.motion)this.#playing.release()}showLegend(){this.legend.show(this.model,Boolean(this.
+shapes.motion))}takeFocus(){const{painting}=this;const chosen=painting&&!this.#painted;this.#painted=
+painting;const side=this.box.closest(".glid-editor")?.querySelector(".glid-side");if(chosen&&side?.contains(
+document.activeElement))this.box.focus({preventScroll:true})}showNotice(){const first=this.interactive&&
+!this.marks.targets.length;this.notices.tell(this.model.get("notice"),this.painting,first)}fit(){const{
+model,view,box}=this;view.width=model.get("width");view.height=model.get("height");[view.x,view.y,view.
+unit]=model.get("view");box.style.width=`${view.width}px`;box.style.height=`${view.height}px`;this.room?.
+shrink();this.#see()}reveal(){const{selected,targets,images}=this.marks;const now=selected.length===
+1?selected[0]:void 0;if(now===this.#chosen)return;this.#chosen=now;if(now===void 0||this.pad.mode)return;
+if(!Number.isFinite(targets[now]?.[0]))return;if(inSight(this.view,targets[now])||inSight(this.view,
+images[now]))return;this.view.centreOn(targets[now])}pressedAt(){if(!this.shapes.motion)return void 0;
+this.#presses=true;return this.#playing.pause()}#pressed(e){this.#press(e.detail)}#press(key,shift=false){
+const act=this.behaviour.actions[key];if(act)act();else this.pad.press(key,{shiftKey:shift})}#takeFirst(){
+const take=e=>{if(!this.shapes.motion)return false;e.stopImmediatePropagation();e.preventDefault();return true};
+const goBack=e=>take(e)&&this.#playing.release();const capture=true;this.box.addEventListener("point\
+erdown",e=>e.button===2&&take(e),{capture});this.box.addEventListener("contextmenu",take,{capture});
+const ours=e=>!e.ctrlKey&&!e.metaKey&&KEYS.test(keyOf(e));this.box.addEventListener("keydown",e=>ours(
+e)&&goBack(e),{capture});const openedByKeys=e=>{if(e.key!=="F10"||!e.shiftKey)return;e.stopImmediatePropagation();
+e.preventDefault();this.openMenu()};this.box.addEventListener("keydown",openedByKeys,{capture});const followArrow=e=>{
+const target=arrowAt(this.view,this.marks,this.pad.place(e));if(!target||e.target!==this.box||this.shapes.
+motion)return;this.view.centreOn(target);e.stopImmediatePropagation()};this.box.addEventListener("po\
+interdown",followArrow,{capture})}#makeCorner(){const look="glid-help-button";return make("div",{className:"\
+glid-corner"},this.help.button,iconButton("screen","Full screen (W)",()=>this.room?.fullScreen(),look),
+iconButton("rectangle","The picture alone (P)",()=>this.room?.alone(),look))}#report(){const{busy,refusal}=this.
+link;if(this.link.idle)this.#showTool(void 0);this.#settleNumbers();if(this.#presses&&this.link.idle&&
+this.pad.mode===null){this.#presses=false;this.#playing.reach();this.behaviour.motionLeft()}if(!busy&&
+refusal&&refusal!==this.model.get("notice"))this.say(refusal)}#viewMoved(){this.#see();clearTimeout(
+this.#saving);this.#saving=setTimeout(()=>{const{x,y,unit}=this.view;save(this.model,{view:[x,y,unit]})},
+SAVE_VIEW_AFTER)}#see(){this.shapes.see();this.reference.place();this.redraw()}get#drags(){const{mode,
+path,encloses:encloses2}=this.pad;return mode==="hand"&&path.length>1&&!encloses2&&!this.painting}#settleNumbers(){
+if(this.link.idle&&!this.#drags)this.numbers.settle(this.model.get("marks"))}#drawNumbers(pen){const{
+model,view,pad,marks}=this;const{pressed}=this.behaviour;const drags=this.#drags&&pressed;const moved=drags&&
 movedPin(pressed,marks,pad.held,model.get("picture_size"));if(!moved)return;this.numbers.follow(this.
 allMarks,pad.held);const{start,keys}=pressed;if(start&&keys?.axis)drawAxis(pen,view,start,moved.at);
 drawNumbers(pen,view,moved)}#draw(pen){const{model,view,pad,marks,brush}=this;const{motion}=this.shapes;

@@ -1,12 +1,4 @@
-"use strict";(()=>{var Motion=class{constructor({times,repeat},floats){this.times=times;this.repeat=repeat;this.floats=
-floats;this.mixed=floats.slice(0,floats.length/times.length);this.start=times[0];this.last=times[times.
-length-1];this.end=repeat==="ping-pong"?2*this.last-this.start:this.last}within(time){const{start,end}=this;
-if(this.repeat==="once")return Math.min(Math.max(time,start),end);const span=end-start;return start+
-((time-start)%span+span)%span}place(time){const{times,last}=this;const within=this.within(time);const there=within>
-last?2*last-within:within;const next=times.findIndex((knot,i)=>i>0&&there<knot);const high=next<0?times.
-length-1:next;const low=high-1;return{piece:low,share:(there-times[low])/(times[high]-times[low])}}at(time){
-const{piece,share}=this.place(time);const{floats,mixed}=this;const low=piece*mixed.length;const high=low+
-mixed.length;for(let i=0;i<mixed.length;i++){mixed[i]=(1-share)*floats[low+i]+share*floats[high+i]}return mixed}};var STRIPES=100;var LEAST_HEIGHT=.06;var UNPROVED="#7f7f7f";function heightOf(bound){return Math.min(
+"use strict";(()=>{var STRIPES=100;var LEAST_HEIGHT=.06;var UNPROVED="#7f7f7f";function heightOf(bound){return Math.min(
 Math.max(bound,LEAST_HEIGHT),1)}function proofStrip(motion,boundAt){const layers=Array.from({length:STRIPES},
 (_,i)=>{const bound=boundAt(motion.start+(i+.5)/STRIPES*(motion.end-motion.start));const[fill,height]=bound<
 0?[UNPROVED,1]:["var(--accent)",heightOf(bound)];const left=100*i/(STRIPES-1);return`linear-gradient\
@@ -29,27 +21,22 @@ zoom(Math.exp(turnOf(e)*WHEEL_SPEED*(e.ctrlKey?PINCH:1)),place)}follow(pointers,
 get(id)??place;const other=[...pointers].find(([one])=>one!==id)?.[1];const share=other?.5:1;pointers.
 set(id,place);this.pan(share*(place[0]-before[0]),share*(place[1]-before[1]));if(!other)return;const apart=one=>Math.
 max(distance(one,other),1);const middle=[(place[0]+other[0])/2,(place[1]+other[1])/2];this.zoom(apart(
-before)/apart(place),middle)}};function turnOf(e){return e.deltaMode===LINES?e.deltaY*WHEEL_LINE:e.deltaY}var GLIDE=600;function playedFrom(motion,time,loop){const{start,end}=motion;const span=end-start;const from=(!loop&&
+before)/apart(place),middle)}};function turnOf(e){return e.deltaMode===LINES?e.deltaY*WHEEL_LINE:e.deltaY}function around(boxes){const all=side=>boxes.map(box=>box[side]);return[Math.min(...all(0)),Math.min(
+...all(1)),Math.max(...all(2)),Math.max(...all(3))]}function viewOn([left,bottom,right,top],width,height,margin){
+const room=1-2*margin;const unit=Math.max((right-left)/width,(top-bottom)/height)/room;return{width,
+height,unit,x:(left+right)/2,y:(bottom+top)/2}}var GLIDE=600;function playedFrom(motion,time,loop){const{start,end}=motion;const span=end-start;const from=(!loop&&
 time>=end?start:time)-start;const lasts=loop?Infinity:1e3*(span-from);const at=ms=>ms===lasts?end:start+
 (from+ms/1e3)%span;return{plays:true,lasts,at}}function glideTo(motion,time,to){const{last,repeat}=motion;
 const from=repeat==="ping-pong"&&time>last?2*last-time:time;const goal=repeat==="loop"?nearestTurn(from,
 to,motion.end-motion.start):to;const at=ms=>ms<GLIDE?from+eased(ms/GLIDE)*(goal-from):goal;return{plays:false,
 lasts:GLIDE,at}}function nearestTurn(from,to,span){const far=goal=>Math.abs(goal-from);const goals=[
 to,to+span,to-span];return goals.reduce((best,goal)=>far(goal)<far(best)?goal:best)}function eased(share){
-return share*share*(3-2*share)}function down(x){return(Math.floor(1e3*x)/1e3).toFixed(3)}function up(x){return(Math.ceil(1e3*x)/1e3).toFixed(3)}function provedNow({sigma1,sigma2,k,until},piece,time){
-const low=sigma2[piece];const high=sigma1[piece];const most=k[piece];if(low!==null&&high!==null&&most!==
-null){return`Now: σ₂ ≥ ${down(low)}, σ₁ ≤ ${up(high)}, k ≤ ${up(most)}`}return time<until?
-"Now: proved not to fold":"Now: not proved"}var SOON=.001;var Poses=class{buttons=[];#waiting=[];constructor(times,goTo,draw,drawNext){this.times=
-times;this.draw=draw;this.drawNext=drawNext;this.buttons=times.map((time,i)=>{const title=`Pose ${i+
-1}, at ${time.toFixed(2)} s`;const look={title,"aria-label":title,onclick:()=>goTo(time)};return make(
-"button",look,make("canvas"))});const seen=new IntersectionObserver(entries=>{if(!this.#waiting.length)
-requestAnimationFrame(()=>this.#drawOn());for(const{isIntersecting,target}of entries){if(!isIntersecting)
-continue;this.#waiting.push(this.buttons.indexOf(target));seen.unobserve(target)}});for(const button of this.
-buttons)seen.observe(button)}mark(time){this.buttons.forEach((button,i)=>{button.setAttribute("aria-\
-current",String(Math.abs(this.times[i]-time)<SOON))})}drawOne(){const next=this.#waiting.shift();if(next===
-void 0)return;const picture=this.draw(this.times[next]);const small=this.buttons[next].firstChild;small.
-width=picture.width;small.height=picture.height;penOf(small).drawImage(picture,0,0)}#drawOn(){if(!this.#waiting.
-length)return;this.drawNext();requestAnimationFrame(()=>this.#drawOn())}};var FLOAT=4;var CannotShow=class extends Error{};var Renderer=class{#gl;#program;#position;#count;#index;#points;#uniforms={};#move;#frame;constructor(canvas,gl,data,mesh,cage){
+return share*share*(3-2*share)}var BLOCKS=[0,1,2];var Bound=class{#gl;#array;#program=null;#texture=null;#blocks=[];constructor(gl){
+this.#gl=gl;this.#array=gl.createVertexArray();gl.bindVertexArray(this.#array)}note(){const gl=this.#gl;
+this.#program=gl.getParameter(gl.CURRENT_PROGRAM);this.#texture=gl.getParameter(gl.TEXTURE_BINDING_2D);
+this.#blocks=BLOCKS.map(i=>gl.getIndexedParameter(gl.UNIFORM_BUFFER_BINDING,i))}restore(){const gl=this.#gl;
+gl.bindVertexArray(this.#array);gl.useProgram(this.#program);gl.bindTexture(gl.TEXTURE_2D,this.#texture);
+for(const i of BLOCKS)gl.bindBufferBase(gl.UNIFORM_BUFFER,i,this.#blocks[i])}};var FLOAT=4;var CannotShow=class extends Error{};var Renderer=class{#gl;#program;#position;#count;#index;#points;#uniforms={};#move;#frame;constructor(canvas,gl,data,mesh,cage){
 this.canvas=canvas;this.ranges=data.ranges;this.#gl=gl;this.#program=linked(gl,data.vertex,data.fragment);
 gl.useProgram(this.#program);this.#position=positions(mesh);this.#points=this.#buffer(gl.ARRAY_BUFFER,
 this.#position);this.#attribute("position",3,0,0);const corners=inOrder(mesh).flat();const many=mesh.
@@ -99,7 +86,35 @@ if(!gl.getShaderParameter(shader,gl.COMPILE_STATUS)){throw new CannotShow(gl.get
 length/2;const position=new Float32Array(3*count);for(let i=0;i<count;i++){position.set([source[2*i],
 source[2*i+1],heights[i]],3*i)}return position}function inOrder({heights,triangles}){const height=([
 a,b,c])=>heights[a]+heights[b]+heights[c];return[...triangles].sort((a,b)=>height(a)-height(b))}function projectionMatrix(width,height,unit,x,y){
-const sx=2/(unit*width);const sy=2/(unit*height);return[sx,0,0,0,0,sy,0,0,0,0,-1,0,-x*sx,-y*sy,0,1]}function bytesOf(text){return Uint8Array.from(atob(text),letter=>letter.charCodeAt(0)).buffer}async function unpacked({
+const sx=2/(unit*width);const sy=2/(unit*height);return[sx,0,0,0,0,sy,0,0,0,0,-1,0,-x*sx,-y*sy,0,1]}var Layers=class{#layers;constructor(canvas,gl,data,shapes){this.#layers=shapes.map(({vertex,mesh,cage,
+picture})=>{const bound=new Bound(gl);const renderer=new Renderer(canvas,gl,{...data,vertex},mesh,cage);
+renderer.setPicture(picture);bound.note();return{renderer,bound}})}draw(view,states){for(const[i,{renderer,
+bound}]of this.#layers.entries()){bound.restore();renderer.draw({...view,...states[i],above:i>0})}}};function down(x){return(Math.floor(1e3*x)/1e3).toFixed(3)}function up(x){return(Math.ceil(1e3*x)/1e3).toFixed(3)}function provedNow(shapes,time){const low=worstOf(
+shapes.map(({proof,piece})=>proof.sigma2[piece]),Math.min);const high=worstOf(shapes.map(({proof,piece})=>proof.
+sigma1[piece]),Math.max);const most=worstOf(shapes.map(({proof,piece})=>proof.k[piece]),Math.max);if(low!==
+null&&high!==null&&most!==null){return`Now: σ₂ ≥ ${down(low)}, σ₁ ≤ ${up(high)}, k ≤ ${up(
+most)}`}const folds=shapes.some(({proof})=>time>=proof.until);return folds?"Now: not proved":"Now: p\
+roved not to fold"}function sigma2At(shapes,time){if(shapes.some(({proof})=>time>=proof.until))return-1;
+return Math.min(...shapes.map(({proof,piece})=>proof.sigma2[piece]??0))}function worstOf(bounds,worst){
+const known=bounds.filter(bound=>bound!==null);return known.length<bounds.length?null:worst(...known)}var SOON=.001;var Poses=class{buttons=[];#waiting=[];constructor(times,goTo,draw,drawNext){this.times=
+times;this.draw=draw;this.drawNext=drawNext;this.buttons=times.map((time,i)=>{const title=`Pose ${i+
+1}, at ${time.toFixed(2)} s`;const look={title,"aria-label":title,onclick:()=>goTo(time)};return make(
+"button",look,make("canvas"))});const seen=new IntersectionObserver(entries=>{if(!this.#waiting.length)
+requestAnimationFrame(()=>this.#drawOn());for(const{isIntersecting,target}of entries){if(!isIntersecting)
+continue;this.#waiting.push(this.buttons.indexOf(target));seen.unobserve(target)}});for(const button of this.
+buttons)seen.observe(button)}mark(time){this.buttons.forEach((button,i)=>{button.setAttribute("aria-\
+current",String(Math.abs(this.times[i]-time)<SOON))})}drawOne(){const next=this.#waiting.shift();if(next===
+void 0)return;const picture=this.draw(this.times[next]);const small=this.buttons[next].firstChild;small.
+width=picture.width;small.height=picture.height;penOf(small).drawImage(picture,0,0)}#drawOn(){if(!this.#waiting.
+length)return;this.drawNext();requestAnimationFrame(()=>this.#drawOn())}};var Motion=class{constructor({times,repeat},floats){this.times=times;this.repeat=repeat;this.floats=
+floats;this.mixed=floats.slice(0,floats.length/times.length);this.start=times[0];this.last=times[times.
+length-1];this.end=repeat==="ping-pong"?2*this.last-this.start:this.last}within(time){const{start,end}=this;
+if(this.repeat==="once")return Math.min(Math.max(time,start),end);const span=end-start;return start+
+((time-start)%span+span)%span}place(time){const{times,last}=this;const within=this.within(time);const there=within>
+last?2*last-within:within;const next=times.findIndex((knot,i)=>i>0&&there<knot);const high=next<0?times.
+length-1:next;const low=high-1;return{piece:low,share:(there-times[low])/(times[high]-times[low])}}at(time){
+const{piece,share}=this.place(time);const{floats,mixed}=this;const low=piece*mixed.length;const high=low+
+mixed.length;for(let i=0;i<mixed.length;i++){mixed[i]=(1-share)*floats[low+i]+share*floats[high+i]}return mixed}};function bytesOf(text){return Uint8Array.from(atob(text),letter=>letter.charCodeAt(0)).buffer}async function unpacked({
 bytes,step},width){const stream=new Blob([bytesOf(bytes)]).stream().pipeThrough(new DecompressionStream(
 "deflate"));const planes=new Uint8Array(await new Response(stream).arrayBuffer());const n=planes.length/
 4;const whole=new Int32Array(n);for(let i=0;i<n;i++){const low=planes[i]|planes[n+i]<<8;const folded=low|
@@ -110,73 +125,75 @@ sizes.length);const values=new Float64Array(each.length/sizes.length*width);each
 const k=i%sizes.length;const to=width*Math.floor(i/sizes.length);for(let j=0;j<width;j++)values[to+j]+=
 share/sizes[k]*few[width*k+j]});return Float32Array.from(values)}async function cornersOf(triangles){
 const numbers=await unpacked(triangles,3);return Array.from({length:numbers.length/3},(_,i)=>{const[
-first,second,third]=numbers.subarray(3*i,3*i+3);return[first,first+second,first+third]})}var LABELS={2:"Stretch σ₁",3:"Stretch σ₂",4:"Dilatation k"};var LOWER="3";var PLAIN="0";var STEP=1/
+first,second,third]=numbers.subarray(3*i,3*i+3);return[first,first+second,first+third]})}var Shape=class _Shape{#identity;#layers;constructor(data,mesh,picture,rows,heights){this.vertex=data.
+vertex;this.cage=new Float32Array(bytesOf(data.cage));this.mesh=mesh;this.picture=picture;this.proof=
+data.motion;this.motion=new Motion(data.motion,rows.subarray(data.width));this.#identity=rows.subarray(
+0,data.width);const{height_times:times}=data;const{repeat}=this.motion;this.#layers=times.length>1?new Motion(
+{times,repeat},heights):null}static async loaded(data){const source=await unpacked(data.source,2);const rows=await restored(
+data.coefficients,data.width);const heights=await restored(data.heights,source.length/2);const triangles=await cornersOf(
+data.triangles);const mesh={source,heights:heights.subarray(0,source.length/2),triangles};return new _Shape(
+data,mesh,await loadedPicture(data.picture),rows,heights)}at(time,undeformed=false){const coefficients=undeformed?
+this.#identity:this.motion.at(time);return{coefficients,heights:this.#layers?.at(time)??null}}};function loadedPicture(address){
+return new Promise((resolve,reject)=>{const picture=new Image;picture.onerror=()=>reject(new CannotShow(
+"The picture in this page is damaged."));picture.onload=()=>resolve(picture);picture.src=address})}var LABELS={2:"Stretch σ₁",3:"Stretch σ₂",4:"Dilatation k"};var LOWER="3";var PLAIN="0";var STEP=1/
 25;var FAST=5;var THUMBNAIL=56;function byId(id,kind){const found=document.getElementById(id);if(!(found instanceof
 kind))throw new Error(`the page has no ${id}`);return found}var Page=class{overlay=byId("overlay",HTMLSelectElement);undeformed=byId(
 "source",HTMLInputElement);slider=byId("time",HTMLInputElement);play=byId("play",HTMLButtonElement);clock=byId(
 "clock",HTMLOutputElement);here=byId("here",HTMLOutputElement);view=new View(()=>this.draw(),{nearest:1e-4,
-farthest:100});#course=null;#due=0;constructor(canvas,data,renderer,rows,heights){this.canvas=canvas;
-this.data=data;this.renderer=renderer;this.identity=rows.subarray(0,data.width);this.motion=new Motion(
-data.motion,rows.subarray(data.width));const{height_times:times}=data;const{repeat}=this.motion;this.
-layers=times.length>1?new Motion({times,repeat},heights):null;this.time=this.motion.start;this.poses=
-new Poses(data.motion.keyframes,time=>this.#run(glideTo(this.motion,this.time,time)),time=>this.#thumbnail(
-time),()=>!this.#course&&this.draw());this.#hearPointers();this.#showColors()}begin(){if(this.data.motion.
-keyframes.length)this.#prepareMotion();new ResizeObserver(()=>this.fit()).observe(this.canvas);this.
-fit();document.documentElement.dataset.ready="true"}fit(){const{clientWidth,clientHeight}=this.canvas;
-const bounds=this.undeformed.checked?this.data.source_bounds:this.data.bounds;Object.assign(this.view,
-this.#fitted(bounds,clientWidth,clientHeight));this.draw()}draw(){this.poses.drawOne();const{width,height,
-unit,x,y}=this.view;const coefficients=this.undeformed.checked?this.identity:this.motion.at(this.time);
-this.#paint({width,height,unit,x,y},this.time,this.overlay.value,coefficients)}#paint(view,time,overlay,coefficients){
-const heights=this.layers?.at(time)??null;this.renderer.draw({...view,overlay,coefficients,heights})}#thumbnail(time){
-const view=this.#fitted(this.data.bounds,THUMBNAIL,THUMBNAIL);this.#paint(view,time,PLAIN,this.motion.
-at(time));return this.canvas}#fitted([left,bottom,right,top],width,height){const room=1-2*this.data.
-margin;const unit=Math.max((right-left)/width,(top-bottom)/height)/room;return{width,height,unit,x:(left+
-right)/2,y:(bottom+top)/2}}#hearPointers(){const{canvas,view}=this;const place=e=>[e.offsetX,e.offsetY];
-const pointers=new Map;canvas.addEventListener("pointerdown",e=>{canvas.setPointerCapture(e.pointerId);
-pointers.set(e.pointerId,place(e))});canvas.addEventListener("pointermove",e=>{if(pointers.has(e.pointerId))
-view.follow(pointers,e.pointerId,place(e))});canvas.addEventListener("lostpointercapture",e=>pointers.
-delete(e.pointerId));canvas.addEventListener("wheel",e=>view.wheel(e,place(e)),{passive:false});byId(
-"fit",HTMLButtonElement).addEventListener("click",()=>this.fit());this.undeformed.addEventListener("\
-change",()=>this.fit())}#css(stop){const color=this.data.colors.slice(3*stop,3*stop+3);return`rgb(${color.
-map(share=>Math.round(255*share))})`}get#stops(){return this.data.colors.length/3}#showColors(){const colors=Array.
-from({length:this.#stops},(_,i)=>this.#css(i));document.documentElement.style.setProperty("--colors",
-colors.join());for(const value of Object.keys(this.data.ranges)){this.overlay.append(new Option(LABELS[value],
-value))}this.overlay.addEventListener("change",()=>{this.draw();this.#showLegend()})}#showLegend(){const{
-value}=this.overlay;const range=this.data.ranges[value];const legend=byId("legend",HTMLParagraphElement);
-legend.hidden=!range;if(!range)return;const end=value===LOWER?down(range[1]):up(range[1]);legend.replaceChildren(
-`${LABELS[value]} ${range[0]}`,make("i"),end)}#prepareMotion(){const{motion,slider}=this;const section=document.
-querySelector("section");if(section)section.hidden=false;slider.min=String(motion.start);slider.max=
-String(motion.end);byId("poses",HTMLDivElement).append(...this.poses.buttons);const{sigma2,until}=this.
-data.motion;const boundAt=time=>time<until?sigma2[motion.place(time).piece]??0:-1;const background=proofStrip(
-motion,boundAt);byId("strip",HTMLDivElement).style.background=background;this.play.addEventListener(
-"click",()=>this.#playOrPause());slider.addEventListener("input",()=>this.#goTo(Number(slider.value)));
-document.addEventListener("keydown",e=>this.#keydown(e));this.#seek(motion.start);this.#run(null);const still=matchMedia(
-"(prefers-reduced-motion: reduce)").matches;if(this.data.loop&&!still)this.#playOrPause()}#keydown(e){
-const target=e.target;if(e.ctrlKey||e.metaKey||e.altKey||target.tagName==="SELECT")return;if(e.key===
-" "){if(target.matches("button, input[type=checkbox]"))return;e.preventDefault();this.#playOrPause();
-return}const to=this.#timeOf(e);if(to===null)return;e.preventDefault();this.#goTo(Math.min(Math.max(
-to,this.motion.start),this.motion.end))}#timeOf(e){const step=e.shiftKey?FAST*STEP:STEP;if(e.key==="\
-ArrowLeft")return this.time-step;if(e.key==="ArrowRight")return this.time+step;if(e.key==="Home")return this.
-motion.start;return e.key==="End"?this.motion.end:null}#goTo(time){this.#run(null);this.#seek(time)}#seek(time){
-const{motion}=this;this.time=time===motion.end?time:motion.within(time);this.slider.value=String(this.
-time);this.clock.textContent=`${this.time.toFixed(2)} / ${motion.end.toFixed(2)} s`;const{piece}=motion.
-place(this.time);this.here.textContent=provedNow(this.data.motion,piece,this.time);this.poses.mark(motion.
-within(this.time));this.draw()}#run(course){cancelAnimationFrame(this.#due);this.#course=course&&{...course,
-began:performance.now()};if(course)this.#due=requestAnimationFrame(now=>this.#tick(now));this.play.textContent=
-course?.plays?"❚❚":"▶";this.play.setAttribute("aria-label",course?.plays?"Pause":"Play")}#tick(now){
-if(!this.#course)return;const{began,lasts,at}=this.#course;const passed=Math.min(Math.max(now-began,
-0),lasts);this.#seek(at(passed));if(passed===lasts)this.#run(null);else this.#due=requestAnimationFrame(
-next=>this.#tick(next))}#playOrPause(){const playing=this.#course?.plays;this.#run(playing?null:playedFrom(
-this.motion,this.time,this.data.loop))}};function fail(message){const problem=byId("problem",HTMLParagraphElement);
-problem.textContent=message;problem.hidden=false}function loaded(address){return new Promise((resolve,reject)=>{
-const picture=new Image;picture.onerror=()=>reject(new CannotShow("The picture in this page is damag\
-ed."));picture.onload=()=>resolve(picture);picture.src=address})}async function show(){const data=JSON.
-parse(byId("data",HTMLScriptElement).text);const canvas=document.querySelector("canvas");const options={
-antialias:true,premultipliedAlpha:true,preserveDrawingBuffer:true};const gl=canvas?.getContext("webg\
-l2",options);if(!canvas||!gl||!window.DecompressionStream){throw new CannotShow("This page needs Web\
-GL 2 and a browser of 2023 or later.")}const source=await unpacked(data.source,2);const rows=await restored(
-data.coefficients,data.width);const heights=await restored(data.heights,source.length/2);const triangles=await cornersOf(
-data.triangles);const cage=new Float32Array(bytesOf(data.cage));const lowest=heights.subarray(0,source.
-length/2);const renderer=new Renderer(canvas,gl,data,{source,heights:lowest,triangles},cage);const page=new Page(
-canvas,data,renderer,rows,heights);renderer.setPicture(await loaded(data.picture));page.begin()}show().
-catch(error=>{fail(error.message);if(!(error instanceof CannotShow))throw error});})();
+farthest:100});#course=null;#due=0;constructor(canvas,data,layers,shapes){this.canvas=canvas;this.data=
+data;this.layers=layers;this.shapes=shapes;this.motion=shapes[0].motion;this.keyframes=shapes[0].proof.
+keyframes;this.bounds=around(data.parts.map(({bounds})=>bounds));this.sourceBounds=around(data.parts.
+map(({source_bounds})=>source_bounds));this.time=this.motion.start;this.poses=new Poses(this.keyframes,
+time=>this.#run(glideTo(this.motion,this.time,time)),time=>this.#thumbnail(time),()=>!this.#course&&
+this.draw());this.#hearPointers();this.#showColors()}begin(){if(this.keyframes.length)this.#prepareMotion();
+new ResizeObserver(()=>this.fit()).observe(this.canvas);this.fit();document.documentElement.dataset.
+ready="true"}fit(){const{clientWidth,clientHeight}=this.canvas;const bounds=this.undeformed.checked?
+this.sourceBounds:this.bounds;Object.assign(this.view,viewOn(bounds,clientWidth,clientHeight,this.data.
+margin));this.draw()}draw(){this.poses.drawOne();const{width,height,unit,x,y}=this.view;const states=this.
+shapes.map(one=>one.at(this.time,this.undeformed.checked));this.layers.draw({width,height,unit,x,y,overlay:this.
+overlay.value},states)}#thumbnail(time){const view=viewOn(this.bounds,THUMBNAIL,THUMBNAIL,this.data.
+margin);const states=this.shapes.map(one=>one.at(time));this.layers.draw({...view,overlay:PLAIN},states);
+return this.canvas}#hearPointers(){const{canvas,view}=this;const place=e=>[e.offsetX,e.offsetY];const pointers=new Map;
+canvas.addEventListener("pointerdown",e=>{canvas.setPointerCapture(e.pointerId);pointers.set(e.pointerId,
+place(e))});canvas.addEventListener("pointermove",e=>{if(pointers.has(e.pointerId))view.follow(pointers,
+e.pointerId,place(e))});canvas.addEventListener("lostpointercapture",e=>pointers.delete(e.pointerId));
+canvas.addEventListener("wheel",e=>view.wheel(e,place(e)),{passive:false});byId("fit",HTMLButtonElement).
+addEventListener("click",()=>this.fit());this.undeformed.addEventListener("change",()=>this.fit())}#css(stop){
+const color=this.data.colors.slice(3*stop,3*stop+3);return`rgb(${color.map(share=>Math.round(255*share))}\
+)`}get#stops(){return this.data.colors.length/3}#showColors(){const colors=Array.from({length:this.#stops},
+(_,i)=>this.#css(i));document.documentElement.style.setProperty("--colors",colors.join());for(const value of Object.
+keys(this.data.ranges)){this.overlay.append(new Option(LABELS[value],value))}this.overlay.addEventListener(
+"change",()=>{this.draw();this.#showLegend()})}#showLegend(){const{value}=this.overlay;const range=this.
+data.ranges[value];const legend=byId("legend",HTMLParagraphElement);legend.hidden=!range;if(!range)return;
+const end=value===LOWER?down(range[1]):up(range[1]);legend.replaceChildren(`${LABELS[value]} ${range[0]}`,
+make("i"),end)}#prepareMotion(){const{motion,slider}=this;const section=document.querySelector("sect\
+ion");if(section)section.hidden=false;slider.min=String(motion.start);slider.max=String(motion.end);
+byId("poses",HTMLDivElement).append(...this.poses.buttons);const boundAt=time=>sigma2At(this.#provedAt(
+time),time);const background=proofStrip(motion,boundAt);byId("strip",HTMLDivElement).style.background=
+background;this.play.addEventListener("click",()=>this.#playOrPause());slider.addEventListener("inpu\
+t",()=>this.#goTo(Number(slider.value)));document.addEventListener("keydown",e=>this.#keydown(e));this.#seek(
+motion.start);this.#run(null);const still=matchMedia("(prefers-reduced-motion: reduce)").matches;if(this.
+data.loop&&!still)this.#playOrPause()}#keydown(e){const target=e.target;if(e.ctrlKey||e.metaKey||e.altKey||
+target.tagName==="SELECT")return;if(e.key===" "){if(target.matches("button, input[type=checkbox]"))return;
+e.preventDefault();this.#playOrPause();return}const to=this.#timeOf(e);if(to===null)return;e.preventDefault();
+this.#goTo(Math.min(Math.max(to,this.motion.start),this.motion.end))}#timeOf(e){const step=e.shiftKey?
+FAST*STEP:STEP;if(e.key==="ArrowLeft")return this.time-step;if(e.key==="ArrowRight")return this.time+
+step;if(e.key==="Home")return this.motion.start;return e.key==="End"?this.motion.end:null}#goTo(time){
+this.#run(null);this.#seek(time)}#seek(time){const{motion}=this;this.time=time===motion.end?time:motion.
+within(time);this.slider.value=String(this.time);this.clock.textContent=`${this.time.toFixed(2)} / ${motion.
+end.toFixed(2)} s`;this.here.textContent=provedNow(this.#provedAt(this.time),this.time);this.poses.mark(
+motion.within(this.time));this.draw()}#provedAt(time){return this.shapes.map(({proof,motion})=>({proof,
+piece:motion.place(time).piece}))}#run(course){cancelAnimationFrame(this.#due);this.#course=course&&
+{...course,began:performance.now()};if(course)this.#due=requestAnimationFrame(now=>this.#tick(now));
+this.play.textContent=course?.plays?"❚❚":"▶";this.play.setAttribute("aria-label",course?.plays?
+"Pause":"Play")}#tick(now){if(!this.#course)return;const{began,lasts,at}=this.#course;const passed=Math.
+min(Math.max(now-began,0),lasts);this.#seek(at(passed));if(passed===lasts)this.#run(null);else this.#due=
+requestAnimationFrame(next=>this.#tick(next))}#playOrPause(){const playing=this.#course?.plays;this.#run(
+playing?null:playedFrom(this.motion,this.time,this.data.loop))}};function fail(message){const problem=byId(
+"problem",HTMLParagraphElement);problem.textContent=message;problem.hidden=false}async function show(){
+const data=JSON.parse(byId("data",HTMLScriptElement).text);const canvas=document.querySelector("canv\
+as");const options={antialias:true,premultipliedAlpha:true,preserveDrawingBuffer:true};const gl=canvas?.
+getContext("webgl2",options);if(!canvas||!gl||!window.DecompressionStream){throw new CannotShow("Thi\
+s page needs WebGL 2 and a browser of 2023 or later.")}const shapes=await Promise.all(data.parts.map(
+Shape.loaded));new Page(canvas,data,new Layers(canvas,gl,data,shapes),shapes).begin()}show().catch(error=>{
+fail(error.message);if(!(error instanceof CannotShow))throw error});})();

@@ -172,11 +172,13 @@ ewBox="-2 -2 16 16" aria-hidden="true"><path d="${path}"/></svg>`}function drawi
 y)*SIZE;const arms=handles&&[`M0 ${SIZE} L${handles[0]*SIZE} ${up(handles[1])}`,`M${SIZE} 0 L${handles[2]*
 SIZE} ${up(handles[3])}`];const box=[-MARGIN,-MARGIN,SIZE+2*MARGIN,SIZE+2*MARGIN].join(" ");return`<\
 svg viewBox="${box}" aria-hidden="true"><rect width="${SIZE}" height="${SIZE}"/><path class="glid-ea\
-se-arms" d="${arms?arms.join(" "):""}"/><path d="${pathOf(easing,SIZE)}"/></svg>`}function pinsAt({spans},at){const span=spans.find(({end})=>at<=end)??spans.at(-1);const floats=toFloats(
-span?.floats);if(!span||!floats.length)return{places:[],locked:[]};const motion=new Motion({times:span.
-times,repeat:"once"},floats);return{places:pairs(motion.at(at)),locked:span.locked}}function pinsLater({
-later}){return{places:pairs(toFloats(later?.floats)),locked:later?.locked??[]}}function pairs(numbers){
-return Array.from({length:numbers.length/2},(_,i)=>[numbers[2*i],numbers[2*i+1]])}var Player=class{clock=null;time=0;seen=false;only=0;range=null;later=null;#intervals=[];#others=new Map;#frame=0;constructor(show,moved,ended=()=>{}){
+se-arms" d="${arms?arms.join(" "):""}"/><path d="${pathOf(easing,SIZE)}"/></svg>`}var LEAST_GAP=.001;function pinsAt({spans,poses,keyframes},at){const time=Math.round(100*at)/100;const index=keyframes.
+findIndex(key=>Math.abs(key-time)<LEAST_GAP);if(index>=0)return ofPose(poses[index%poses.length]);const span=spans.
+find(({end})=>at<=end)??spans.at(-1);const floats=toFloats(span?.floats);if(!span||!floats.length)return{
+places:[],locked:[]};const motion=new Motion({times:span.times,repeat:"once"},floats);return{places:pairs(
+motion.at(at)),locked:span.locked}}function pinsLater({poses}){return ofPose(poses.at(-1))}function ofPose(pins){
+return{places:pairs(toFloats(pins?.floats)),locked:pins?.locked??[]}}function pairs(numbers){return Array.
+from({length:numbers.length/2},(_,i)=>[numbers[2*i],numbers[2*i+1]])}var Player=class{clock=null;time=0;seen=false;only=0;range=null;later=null;#intervals=[];#others=new Map;#frame=0;constructor(show,moved,ended=()=>{}){
 this.show=show;this.moved=moved;this.ended=ended}set(intervals,repeat,others={}){this.#intervals=intervals.
 map(partOf);const entries=Object.entries(others);this.#others=new Map(entries.map(([key,theirs])=>[key,
 theirs.map(partOf)]));const first=intervals[0];const last=intervals.at(-1);const times=first&&last?[

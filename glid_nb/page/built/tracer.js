@@ -6,14 +6,14 @@ function penOf(canvas){const pen=canvas.getContext("2d");if(!pen)throw new Error
 not draw on canvases");return pen}function follow(model,listeners){for(const[names,listener]of Object.entries(listeners)){model.on(names,
 listener);listener()}}var OF_THE_PAD=["pointerdown","pointermove","wheel","keydown","keyup","contextmenu"];function shield(element){
 for(const name of OF_THE_PAD)element.addEventListener(name,e=>e.stopPropagation());return element}function help(sections){
-const head=make("div",{className:"glid-help-head"},make("h3",{},"Keys and gestures"),make("button",{
+const head=make("div",{className:"glid-help-head"},make("h2",{},"Keys and gestures"),make("button",{
 title:"Close",ariaLabel:"Close"},"×"));const columns=make("div",{},...sections.map(section));const look={
 className:"glid-help",popover:"auto",tabIndex:-1};const table=shield(make("div",look,head,columns));
 table.addEventListener("click",()=>table.hidePopover());table.addEventListener("beforetoggle",()=>Object.
 assign(table,{autofocus:true}));const title="Keys and gestures (?)";const around={className:"glid-he\
 lp-button",title,"aria-label":title};const button=shield(make("button",{...around,popoverTargetElement:table},
 "?"));return{table,button,toggle:()=>void table.togglePopover()}}function section([title,rows]){return make(
-"section",{},make("h4",{},title),make("table",{},...rows.map(row)))}function row([keys,what]){return make(
+"section",{},make("h3",{},title),make("table",{},...rows.map(row)))}function row([keys,what]){return make(
 "tr",{},make("th",{},keys),make("td",{},what))}var PATHS={edit:"M3 2l9.5 5.2-4 1.2 2.4 4.3-1.8 1-2.4-4.3L3 12z",brush:"M13.5 2.5l-6 6 M6.7 9.2c-1.6\
 -.5-3 .6-3.1 2.1-.1 1-.7 1.7-1.6 2 2.2.9 5.6.4 5.9-2.2 .1-.8-.4-1.6-1.2-1.9z",eraser:"M9.2 2.8l4 4-6\
 .4 6.4H4.4L2.2 11z M5.5 6.6l4 4 M7 13.2h6.5",rectangle:"M2.5 4h11v8h-11z",undo:"M5.5 3L2.5 6l3 3 M3 \

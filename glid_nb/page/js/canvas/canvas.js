@@ -288,6 +288,11 @@ export class Canvas {
     this.redraw();
   }
 
+  /** Shows the pose that is edited, not a motion. */
+  leaveMotion() {
+    if (this.shapes.motion) this.#playing.release();
+  }
+
   showLegend() {
     this.legend.show(this.model, Boolean(this.shapes.motion));
   }

@@ -23,6 +23,7 @@ export function nameControls(root, signal) {
 
 /** @param {Element} control */
 function nameOne(control) {
+  for (const icon of control.querySelectorAll("i")) icon.ariaHidden = "true"; // not read before words
   const isImage = control instanceof HTMLImageElement;
   const attribute = isImage ? "alt" : "aria-label";
   const given = control.getAttribute(attribute);

@@ -68,6 +68,9 @@ export class PinBehaviour {
   }
 
   changed() {
+    const { pad } = this.canvas;
+    // What a box or a lasso selects are pins of the pose that is edited.
+    if (pad.encloses && pad.path.length > 2) this.canvas.leaveMotion();
     this.canvas.followHand();
     this.canvas.redraw();
   }
@@ -159,7 +162,8 @@ export class PinBehaviour {
     const between = this.#between;
     if (!between || !pad.grip || shapes.motion) return;
     const { mark, places } = between;
-    const moved = movedWith(mark, allMarks.selected, model.get("pins"));
+    const all = movedWith(mark, allMarks.selected, model.get("pins"));
+    const moved = all.filter((i) => i in places);
     pad.grip.points = new Map(moved.map((i) => [i, places[i]]));
     this.canvas.followHand();
   }

@@ -22,6 +22,7 @@ const PLOTS = 477; // of the plots
 const SLACK = 20; // a scroll bar that comes and goes changes nothing
 const SETTLE = 80; // ms
 const NARROW = 600; // an editor with less width, as on a phone, has its canvas first
+const CLOSE = 800; // one with less has the timeline under the inspector too
 
 export class Room {
   /** @type {HTMLElement | null} the editor */
@@ -132,6 +133,7 @@ export class Room {
     const shell = this.pad.closest(".glid-shell");
     if (!root || !shell?.clientWidth) return;
     root.classList.toggle("glid-narrow", root.clientWidth < NARROW);
+    root.classList.toggle("glid-close", root.clientWidth < CLOSE);
     const room = this.#roomIn(root, shell);
     if (!this.#root) this.#begin(root, shell, room);
     this.#room = room;

@@ -1,4 +1,4 @@
-// What `page_html` in glid_nb/export/page.py writes into the page.
+// What `parts_page_html` in glid_nb/export/page.py writes into the page.
 
 import type { Repeat } from "../motion/motion.js";
 
@@ -28,7 +28,8 @@ export interface MotionData {
 
 export type Box = [left: number, bottom: number, right: number, top: number];
 
-export interface PageData {
+/** What belongs to one shape. */
+export interface PartData {
   /** The vertices of the picture's mesh, undeformed. */
   source: Packed;
   /** Of each vertex, one row for each of `height_times`. */
@@ -39,14 +40,20 @@ export interface PageData {
   bounds: Box;
   source_bounds: Box;
   vertex: string;
-  fragment: string;
   motion: MotionData;
   /** Rows of `width` numbers: the undeformed shape's, then those at the knots. */
   coefficients: Factored;
   width: number;
   /** Empty where a shader cannot hold it. */
   cage: string;
-  /** The picture's place in the world. */
+  picture: string;
+}
+
+export interface PageData {
+  /** The shapes, the rearmost first. Their motions have the same start, end and keyframes. */
+  parts: PartData[];
+  fragment: string;
+  /** The pictures' place in the world. */
   frame: Box;
   margin: number;
   grid: number;
@@ -55,5 +62,4 @@ export interface PageData {
   /** By the overlay's number, the values at the ends of the colour map. */
   ranges: Record<string, [number, number]>;
   loop: boolean;
-  picture: string;
 }

@@ -1,14 +1,15 @@
-// Shows a picture under a map, or plays its motion, from the data in the page.
+// Shows pictures under maps, or plays their motions, from the data in the page.
 
-import { Motion } from "../motion/motion.js";
 import { proofStrip } from "../motion/strip.js";
 import { make } from "../pad/dom.js";
 import { View } from "../pad/view.js";
+import { around, viewOn } from "./boxes.js";
 import { glideTo, playedFrom } from "./course.js";
-import { down, provedNow, up } from "./numbers.js";
+import { Layers } from "./layers.js";
+import { down, provedNow, sigma2At, up } from "./numbers.js";
 import { Poses } from "./poses.js";
-import { CannotShow, Renderer } from "./renderer.js";
-import { bytesOf, cornersOf, restored, unpacked } from "./unpack.js";
+import { CannotShow } from "./renderer.js";
+import { Shape } from "./shape.js";
 
 /** @import { Point } from "../types.js" */
 /** @import { Course } from "./course.js" */
@@ -49,22 +50,21 @@ class Page {
   /**
    * @param {HTMLCanvasElement} canvas
    * @param {PageData} data
-   * @param {Renderer} renderer
-   * @param {Float32Array} rows coefficients: the undeformed shape's, then those at the knots
-   * @param {Float32Array} heights of the vertices, at the keyframes
+   * @param {Layers} layers
+   * @param {Shape[]} shapes the rearmost first; their motions have the same start, end and poses
    */
-  constructor(canvas, data, renderer, rows, heights) {
+  constructor(canvas, data, layers, shapes) {
     this.canvas = canvas;
     this.data = data;
-    this.renderer = renderer;
-    this.identity = rows.subarray(0, data.width);
-    this.motion = new Motion(data.motion, rows.subarray(data.width));
-    const { height_times: times } = data;
-    const { repeat } = this.motion;
-    this.layers = times.length > 1 ? new Motion({ times, repeat }, heights) : null;
+    this.layers = layers;
+    this.shapes = shapes;
+    this.motion = shapes[0].motion;
+    this.keyframes = shapes[0].proof.keyframes;
+    this.bounds = around(data.parts.map(({ bounds }) => bounds));
+    this.sourceBounds = around(data.parts.map(({ source_bounds }) => source_bounds));
     this.time = this.motion.start;
     this.poses = new Poses(
-      data.motion.keyframes,
+      this.keyframes,
       (time) => this.#run(glideTo(this.motion, this.time, time)),
       (time) => this.#thumbnail(time),
       () => !this.#course && this.draw(),
@@ -73,9 +73,8 @@ class Page {
     this.#showColors();
   }
 
-  /** The picture is there. */
   begin() {
-    if (this.data.motion.keyframes.length) this.#prepareMotion();
+    if (this.keyframes.length) this.#prepareMotion();
     new ResizeObserver(() => this.fit()).observe(this.canvas);
     this.fit();
     document.documentElement.dataset.ready = "true";
@@ -83,47 +82,24 @@ class Page {
 
   fit() {
     const { clientWidth, clientHeight } = this.canvas;
-    const bounds = this.undeformed.checked ? this.data.source_bounds : this.data.bounds;
-    Object.assign(this.view, this.#fitted(bounds, clientWidth, clientHeight));
+    const bounds = this.undeformed.checked ? this.sourceBounds : this.bounds;
+    Object.assign(this.view, viewOn(bounds, clientWidth, clientHeight, this.data.margin));
     this.draw();
   }
 
   draw() {
     this.poses.drawOne();
     const { width, height, unit, x, y } = this.view;
-    const coefficients = this.undeformed.checked ? this.identity : this.motion.at(this.time);
-    this.#paint({ width, height, unit, x, y }, this.time, this.overlay.value, coefficients);
-  }
-
-  /**
-   * @param {{ width: number, height: number, unit: number, x: number, y: number }} view
-   * @param {number} time
-   * @param {string} overlay
-   * @param {Float32Array} coefficients
-   */
-  #paint(view, time, overlay, coefficients) {
-    const heights = this.layers?.at(time) ?? null;
-    this.renderer.draw({ ...view, overlay, coefficients, heights });
+    const states = this.shapes.map((one) => one.at(this.time, this.undeformed.checked));
+    this.layers.draw({ width, height, unit, x, y, overlay: this.overlay.value }, states);
   }
 
   /** @param {number} time */
   #thumbnail(time) {
-    const view = this.#fitted(this.data.bounds, THUMBNAIL, THUMBNAIL);
-    this.#paint(view, time, PLAIN, this.motion.at(time));
+    const view = viewOn(this.bounds, THUMBNAIL, THUMBNAIL, this.data.margin);
+    const states = this.shapes.map((one) => one.at(time));
+    this.layers.draw({ ...view, overlay: PLAIN }, states);
     return this.canvas;
-  }
-
-  /**
-   * The view that shows a box.
-   *
-   * @param {PageData["bounds"]} bounds
-   * @param {number} width CSS pixels
-   * @param {number} height
-   */
-  #fitted([left, bottom, right, top], width, height) {
-    const room = 1 - 2 * this.data.margin;
-    const unit = Math.max((right - left) / width, (top - bottom) / height) / room;
-    return { width, height, unit, x: (left + right) / 2, y: (bottom + top) / 2 };
   }
 
   #hearPointers() {
@@ -184,9 +160,7 @@ class Page {
     slider.min = String(motion.start);
     slider.max = String(motion.end);
     byId("poses", HTMLDivElement).append(...this.poses.buttons);
-    const { sigma2, until } = this.data.motion;
-    const boundAt = (/** @type {number} */ time) =>
-      time < until ? (sigma2[motion.place(time).piece] ?? 0) : -1;
+    const boundAt = (/** @type {number} */ time) => sigma2At(this.#provedAt(time), time);
     const background = proofStrip(motion, boundAt);
     byId("strip", HTMLDivElement).style.background = background;
     this.play.addEventListener("click", () => this.#playOrPause());
@@ -239,10 +213,18 @@ class Page {
     this.time = time === motion.end ? time : motion.within(time);
     this.slider.value = String(this.time);
     this.clock.textContent = `${this.time.toFixed(2)} / ${motion.end.toFixed(2)} s`;
-    const { piece } = motion.place(this.time);
-    this.here.textContent = provedNow(this.data.motion, piece, this.time);
+    this.here.textContent = provedNow(this.#provedAt(this.time), this.time);
     this.poses.mark(motion.within(this.time));
     this.draw();
+  }
+
+  /**
+   * The proofs of all shapes, and the pieces with a time.
+   *
+   * @param {number} time
+   */
+  #provedAt(time) {
+    return this.shapes.map(({ proof, motion }) => ({ proof, piece: motion.place(time).piece }));
   }
 
   /** @param {Course | null} course null pauses */
@@ -277,19 +259,6 @@ function fail(message) {
   problem.hidden = false;
 }
 
-/**
- * @param {string} address
- * @returns {Promise<HTMLImageElement>}
- */
-function loaded(address) {
-  return new Promise((resolve, reject) => {
-    const picture = new Image();
-    picture.onerror = () => reject(new CannotShow("The picture in this page is damaged."));
-    picture.onload = () => resolve(picture);
-    picture.src = address;
-  });
-}
-
 async function show() {
   /** @type {PageData} */
   const data = JSON.parse(byId("data", HTMLScriptElement).text);
@@ -300,16 +269,8 @@ async function show() {
   if (!canvas || !gl || !window.DecompressionStream) {
     throw new CannotShow("This page needs WebGL 2 and a browser of 2023 or later.");
   }
-  const source = await unpacked(data.source, 2);
-  const rows = await restored(data.coefficients, data.width);
-  const heights = await restored(data.heights, source.length / 2);
-  const triangles = await cornersOf(data.triangles);
-  const cage = new Float32Array(bytesOf(data.cage));
-  const lowest = heights.subarray(0, source.length / 2); // at the first keyframe
-  const renderer = new Renderer(canvas, gl, data, { source, heights: lowest, triangles }, cage);
-  const page = new Page(canvas, data, renderer, rows, heights);
-  renderer.setPicture(await loaded(data.picture));
-  page.begin();
+  const shapes = await Promise.all(data.parts.map(Shape.loaded));
+  new Page(canvas, data, new Layers(canvas, gl, data, shapes), shapes).begin();
 }
 
 show().catch((error) => {

@@ -25,18 +25,47 @@ export function up(x) {
 }
 
 /**
- * What is proved at a time.
+ * What is proved at a time for all shapes.
  *
- * @param {MotionData} motion
- * @param {number} piece with that time
+ * @param {{ proof: MotionData, piece: number }[]} shapes their proofs, and the pieces with that time
  * @param {number} time
  */
-export function provedNow({ sigma1, sigma2, k, until }, piece, time) {
-  const low = sigma2[piece];
-  const high = sigma1[piece];
-  const most = k[piece];
+export function provedNow(shapes, time) {
+  const low = worstOf(
+    shapes.map(({ proof, piece }) => proof.sigma2[piece]),
+    Math.min,
+  );
+  const high = worstOf(
+    shapes.map(({ proof, piece }) => proof.sigma1[piece]),
+    Math.max,
+  );
+  const most = worstOf(
+    shapes.map(({ proof, piece }) => proof.k[piece]),
+    Math.max,
+  );
   if (low !== null && high !== null && most !== null) {
     return `Now: σ₂ ≥ ${down(low)}, σ₁ ≤ ${up(high)}, k ≤ ${up(most)}`;
   }
-  return time < until ? "Now: proved not to fold" : "Now: not proved";
+  const folds = shapes.some(({ proof }) => time >= proof.until);
+  return folds ? "Now: not proved" : "Now: proved not to fold";
+}
+
+/**
+ * The bound on sigma_2 that is proved at a time for all shapes; negative where one is not proved.
+ *
+ * @param {{ proof: MotionData, piece: number }[]} shapes
+ * @param {number} time
+ */
+export function sigma2At(shapes, time) {
+  if (shapes.some(({ proof }) => time >= proof.until)) return -1;
+  return Math.min(...shapes.map(({ proof, piece }) => proof.sigma2[piece] ?? 0));
+}
+
+/**
+ * @param {(number | null)[]} bounds null where nothing is proved
+ * @param {(...values: number[]) => number} worst
+ */
+function worstOf(bounds, worst) {
+  const known = bounds.filter((bound) => bound !== null);
+  return known.length < bounds.length ? null : worst(...known);
 }

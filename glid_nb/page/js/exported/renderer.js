@@ -1,6 +1,6 @@
 // Draws the picture under a map, by WebGL 2 and the canvas's shaders.
 
-/** @import { PageData } from "./data.js" */
+/** @import { PageData, PartData } from "./data.js" */
 
 /**
  * The mesh of the picture.
@@ -14,7 +14,8 @@
 /**
  * What does not change: the shaders, the picture's place, and the colours.
  *
- * @typedef {Pick<PageData, "vertex" | "fragment" | "frame" | "colors" | "grid" | "ranges">} Shown
+ * @typedef {Pick<PageData, "fragment" | "frame" | "colors" | "grid" | "ranges"> &
+ *   Pick<PartData, "vertex">} Shown
  */
 
 /**

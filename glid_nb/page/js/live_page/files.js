@@ -17,7 +17,7 @@ import { pythonCode } from "./python.js";
 
 const MOST_PIXELS = 4096; // of a side of the picture
 const KEPT = 60_000; // ms for which the browser may still read a file
-const LONGEST = 80; // characters of a name
+export const LONGEST = 80; // characters of a name
 const PLAIN = "0"; // the picture without colours
 
 /**

@@ -44,13 +44,6 @@ export async function loadedPicture(id) {
   return picture;
 }
 
-/** @param {HTMLCanvasElement} canvas */
-export function contextOf(canvas) {
-  const gl = canvas.getContext("webgl2", { preserveDrawingBuffer: true });
-  if (!gl) throw new CannotShow("This page needs WebGL 2 and a browser of 2023 or later.");
-  return gl;
-}
-
 /**
  * The view in which points fill the page.
  * @param {ArrayLike<number>} points x and y in turn
@@ -77,24 +70,4 @@ export async function unpackedReel(
     sigma2: Math.min(sigma2[i - 1] ?? Infinity, sigma2[i] ?? Infinity),
   }));
   return { times, knots, keyframes, repeat };
-}
-
-/**
- * Tells the page's other scripts that it is open.
- * @param {{ mover: string, frameTime: number }} stage
- */
-export function tellReady({ mover, frameTime }) {
-  const { dataset } = document.documentElement;
-  Object.assign(dataset, { mover, frame: frameTime.toFixed(1), ready: true });
-}
-
-/**
- * Tells the reader why the page does not open.
- * @param {Error} error
- */
-export function fail(error) {
-  const problem = byId("problem");
-  problem.textContent = error.message;
-  problem.hidden = false;
-  if (!(error instanceof CannotShow)) throw error; // for the console
 }

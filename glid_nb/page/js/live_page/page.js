@@ -115,8 +115,9 @@ export class LivePage {
     const more = iconButton("export", "Copy, download, reset", undefined);
     more.popoverTargetElement = menu;
     const buttons = [this.#undo, this.#redo, this.#remove];
-    byId("tools").append(...buttons, this.#overlay, more, this.#help.button);
-    document.body.append(menu, this.#help.table);
+    const tools = byId("tools");
+    tools.append(...buttons, this.#overlay, more, this.#help.button);
+    tools.after(menu, this.#help.table);
     const plus = make("b", { "aria-hidden": "true" }, "+");
     const onclick = () => this.#keepPose();
     const keep = make("button", { className: "keep", title: "Keep this pose", onclick });
@@ -189,7 +190,8 @@ export class LivePage {
     if (this.#box.contains(target) || e.key === "Tab") return;
     const chosen = target.matches("input, select") && !undoOrRedo(e);
     const pressed = target.matches("button") && /^(Enter| )$/.test(e.key);
-    if (chosen || pressed) return;
+    const closes = e.key === "Escape" && document.querySelector(":popover-open");
+    if (chosen || pressed || closes) return;
     if (e.key !== " ") {
       this.pad.keydown(e);
       return;

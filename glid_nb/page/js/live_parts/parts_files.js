@@ -1,8 +1,9 @@
 // What may be taken from a page of several shapes: one picture of all, a file or lines for each of them.
 
-import { copy, downloadPicture, downloadProof, nameOf } from "../live_page/files.js";
+import { copy, downloadPicture, downloadProof } from "../live_page/files.js";
 import { pythonCode } from "../live_page/python.js";
 import { plain } from "./joint_map.js";
+import { partNames } from "./part_names.js";
 
 /** @import { Pin } from "../live_page/data.js" */
 /** @import { Taken } from "../live_page/files.js" */
@@ -14,14 +15,14 @@ import { plain } from "./joint_map.js";
  * @returns {Taken}
  */
 export function takenOf({ title, parts }) {
-  const titleOf = (/** @type {string} */ name) => `${title} ${name}`;
+  const names = namesOf(title, parts);
   return {
     "Copy the pose as Python": ({ editing }) => copy(partsCode(editing.pins, title, parts)),
     "Download the picture": downloadPicture,
     "Download the maps and their proofs": async (page) => {
       const { solvers } = /** @type {JointSolving} */ (await page.solverOfShown());
-      for (const [i, { name, outline }] of parts.entries()) {
-        await downloadProof({ title: titleOf(name), outline }, solvers[i]);
+      for (const [i, { outline }] of parts.entries()) {
+        await downloadProof({ title: names[i], outline }, solvers[i]);
       }
       return `There are two files for each of ${parts.length} parts. Check each: glid-check MAP PROOF`;
     },
@@ -35,12 +36,24 @@ export function takenOf({ title, parts }) {
  * @param {PartsData["parts"]} parts
  */
 export function partsCode(pins, title, parts) {
+  const names = namesOf(title, parts);
   const blocks = parts.map((part, i) => {
     const own = pins.filter(({ handle }) => handle[2] === i);
     const flat = own.map((pin) => ({ ...pin, handle: plain(pin.handle) }));
     const name = JSON.stringify(part.name);
-    const code = pythonCode(flat, part, `${nameOf({ title: `${title} ${part.name}` })}.png`);
+    const code = pythonCode(flat, part, `${names[i]}.png`);
     return `${code}maps[${name}] = result.map\n`;
   });
   return ["maps = {}\n", ...blocks].join("\n");
+}
+
+/**
+ * @param {string} title
+ * @param {PartsData["parts"]} parts
+ */
+function namesOf(title, parts) {
+  return partNames(
+    title,
+    parts.map(({ name }) => name),
+  );
 }

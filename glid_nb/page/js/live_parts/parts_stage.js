@@ -1,5 +1,6 @@
 // Draws the certified maps of several shapes over each other, in one WebGL context.
 
+import { Bound } from "../exported/bound.js";
 import { Stage } from "../live_page/stage.js";
 
 /** @import { Mesh } from "../exported/renderer.js" */
@@ -8,44 +9,6 @@ import { Stage } from "../live_page/stage.js";
 /** @import { LiveData } from "../live_page/data.js" */
 /** @import { Seen } from "../live_page/stage.js" */
 /** @import { JointMap } from "./data.js" */
-
-const BLOCKS = [0, 1, 2]; // of uniforms, as the renderer binds them
-
-/** What the renderer of one shape has bound in the context. */
-class Bound {
-  #gl;
-  #array;
-  /** @type {WebGLProgram | null} */
-  #program = null;
-  /** @type {WebGLTexture | null} */
-  #texture = null;
-  /** @type {(WebGLBuffer | null)[]} */
-  #blocks = [];
-
-  /** @param {WebGL2RenderingContext} gl what is bound from now on is the shape's */
-  constructor(gl) {
-    this.#gl = gl;
-    this.#array = gl.createVertexArray();
-    gl.bindVertexArray(this.#array);
-  }
-
-  /** Notes what is bound now. */
-  note() {
-    const gl = this.#gl;
-    this.#program = gl.getParameter(gl.CURRENT_PROGRAM);
-    this.#texture = gl.getParameter(gl.TEXTURE_BINDING_2D);
-    this.#blocks = BLOCKS.map((i) => gl.getIndexedParameter(gl.UNIFORM_BUFFER_BINDING, i));
-  }
-
-  /** Binds it again. */
-  restore() {
-    const gl = this.#gl;
-    gl.bindVertexArray(this.#array);
-    gl.useProgram(this.#program);
-    gl.bindTexture(gl.TEXTURE_2D, this.#texture);
-    for (const i of BLOCKS) gl.bindBufferBase(gl.UNIFORM_BUFFER, i, this.#blocks[i]);
-  }
-}
 
 export class PartsStage {
   #layers;

@@ -23,7 +23,7 @@ export function help(sections) {
   const head = make(
     "div",
     { className: "glid-help-head" },
-    make("h3", {}, "Keys and gestures"),
+    make("h2", {}, "Keys and gestures"),
     make("button", { title: "Close", ariaLabel: "Close" }, "×"), // as a click anywhere here
   );
   // Columns of a box with a limited height would go on sideways.
@@ -41,7 +41,7 @@ export function help(sections) {
 
 /** @param {Section} section */
 function section([title, rows]) {
-  return make("section", {}, make("h4", {}, title), make("table", {}, ...rows.map(row)));
+  return make("section", {}, make("h3", {}, title), make("table", {}, ...rows.map(row)));
 }
 
 /** @param {Row} row */

@@ -1,11 +1,13 @@
-// The pins that a drag takes while a motion is seen: those of the keyframe before, where the shape
-// carries them. Between two knots they move on straight lines, as the coefficients do.
+// The pins that a drag takes while a motion is seen: those of the keyframe there, or of the one before,
+// where the shape carries them. Between two knots they move on straight lines, as the coefficients do.
 
 import { Motion } from "../motion/motion.js";
 import { toFloats } from "../pad/dom.js";
 
 /** @import { Point } from "../types.js" */
-/** @import { MovingPins, PinsThen } from "./traits.js" */
+/** @import { MovingPins, Pins, PinsThen } from "./traits.js" */
+
+const LEAST_GAP = 1e-3; // s, as in the kernel, which rounds times to hundredths
 
 /**
  * Where pins are at a time of the motion.
@@ -14,7 +16,10 @@ import { toFloats } from "../pad/dom.js";
  * @param {number} at
  * @returns {PinsThen}
  */
-export function pinsAt({ spans }, at) {
+export function pinsAt({ spans, poses, keyframes }, at) {
+  const time = Math.round(100 * at) / 100;
+  const index = keyframes.findIndex((key) => Math.abs(key - time) < LEAST_GAP);
+  if (index >= 0) return ofPose(poses[index % poses.length]);
   const span = spans.find(({ end }) => at <= end) ?? spans.at(-1);
   const floats = toFloats(span?.floats);
   if (!span || !floats.length) return { places: [], locked: [] };
@@ -28,8 +33,16 @@ export function pinsAt({ spans }, at) {
  * @param {MovingPins} pins
  * @returns {PinsThen}
  */
-export function pinsLater({ later }) {
-  return { places: pairs(toFloats(later?.floats)), locked: later?.locked ?? [] };
+export function pinsLater({ poses }) {
+  return ofPose(poses.at(-1));
+}
+
+/**
+ * @param {Pins} [pins]
+ * @returns {PinsThen}
+ */
+function ofPose(pins) {
+  return { places: pairs(toFloats(pins?.floats)), locked: pins?.locked ?? [] };
 }
 
 /**

@@ -59,10 +59,12 @@ export interface Pins {
   locked: number[];
 }
 
-/** The pins that a drag takes: at the knots of each span, and after the last keyframe. */
+/** The pins that a drag takes: at the knots of each span, and at the keyframes, by their times. */
 export interface MovingPins {
   spans: (Pins & { end: number; times: number[] })[];
-  later: Pins | null;
+  poses: Pins[];
+  /** Of a loop also the time of the return. */
+  keyframes: number[];
 }
 
 /** Those pins at a time. Places of hidden ones are not numbers. */
