@@ -20,6 +20,7 @@ from glid_nb._errors import InputError
 from glid_nb.certificate import Certificate
 from glid_nb.export.moving import MovingMesh, check_picture
 from glid_nb.export.page_proof import Proved, caption, color_ranges, list_of_parts
+from glid_nb.export.parts import named_parts
 from glid_nb.figures.style import COLORS, rgb
 from glid_nb.geometry import Domain
 from glid_nb.harmonic import FixedPoints, HarmonicMap
@@ -96,6 +97,7 @@ def parts_page_html(
     bounds that hold for all. The pictures have the same size. The shapes are all maps, or all
     motions, which have the same times.
     """
+    parts = named_parts(parts, PagePart)
     total = len(parts) + 2
     report(progress, 0, total)
     checked("loop", bool, loop)
@@ -135,10 +137,7 @@ def parts_page_html(
 
 
 def _check_parts(parts: Sequence[PagePart]) -> None:
-    if not parts:
-        raise InputError("there are no parts; a page needs at least one")
     for part in parts:
-        check_type("a part", part, PagePart, "make one of a picture and its map", InputError)
         check_type("map", part.map, HarmonicMap | Motion, "for example result.map", InputError)
     if len({as_rgba8(part.image).shape[:2] for part in parts}) > 1:
         raise InputError("the pictures of the parts have different sizes; they share one frame")

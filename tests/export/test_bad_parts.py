@@ -46,6 +46,7 @@ BAD: dict[str, tuple[Callable[[], Any], str]] = {
     "no moving part": (lambda: export.animate_parts("a.gif", []), "no parts; pass a list of Mov"),
     "no files": (lambda: export.parts_motion_files("a.gif", []), "no parts; pass a list of Mov"),
     "no moving mesh": (lambda: export.parts_motion_glb([]), "no parts; pass a list of Mov"),
+    "no page": (lambda: export.parts_page_html([]), "no parts; pass a list of PagePart"),
     "no still part": (lambda: export.parts_png([]), "no parts; pass a list of StillPart"),
     "no map": (
         lambda: export.parts_png([StillPart(picture(), None)]),  # type: ignore[arg-type]

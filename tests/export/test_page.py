@@ -214,5 +214,5 @@ def test_shapes_that_do_not_fit_together_are_refused() -> None:
     small = np.zeros((50, 300, 4), np.uint8)
     with pytest.raises(InputError, match="different sizes"):
         parts_page_html([PagePart(picture(), rest), PagePart(small, rest)])
-    with pytest.raises(InputError, match="at least one"):
+    with pytest.raises(InputError, match="no parts"):
         parts_page_html([])
