@@ -75,7 +75,14 @@ def run(chosen: argparse.Namespace) -> None:
         else:
             files = glid_nb.export.animate(out, parts[0].image, motion, parts[0].poses, **how)
     written = ", ".join(map(str, files)) if out.suffix else f"{out}: {len(files)} files"
-    print(f"{written}; {motion.duration:g} s. {motion.certificate.reason}")
+    print(f"{written}; {motion.duration:g} s. {_proofs(parts)}")
+
+
+def _proofs(parts: Sequence[MovingPart]) -> str:
+    """What is proved of each part, by its name if there are several."""
+    if len(parts) == 1:
+        return parts[0].motion.certificate.reason
+    return " ".join(f"{part.name}: {part.motion.certificate.reason}" for part in parts)
 
 
 def _check_places(chosen: argparse.Namespace, parts: Sequence[str]) -> None:
