@@ -173,7 +173,7 @@ def test_a_gltf_file_has_a_node_for_each_part(model: EditorModel, tmp_path: Path
 
 
 def test_a_session_with_parts_is_animated_from_the_command_line(
-    model: EditorModel, tmp_path: Path
+    model: EditorModel, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     document: Document = model.document
     save_document(document, tmp_path / "two.glid")
@@ -181,6 +181,8 @@ def test_a_session_with_parts_is_animated_from_the_command_line(
         0,
         None,
     )
+    said = capsys.readouterr().out
+    assert re.search(r"a\.gif; .* s\. red: .*prove.* blue: .*prove", said, re.IGNORECASE), said
     with Image.open(tmp_path / "a.gif") as gif:
         frame = np.asarray(gif.convert("RGB")).astype(int)
     assert ((frame[..., 0] - frame[..., 2]) > 100).any()
