@@ -39,6 +39,18 @@ RECORD = """(track) => {
 }"""
 WHOSE = "(said) => getComputedStyle(said, '::before').content"
 SHADOW = "(key) => getComputedStyle(key).boxShadow"
+# As on a page that draws slowly: frames wait, and can be given up.
+HOLD_FRAMES = """() => {
+  const { requestAnimationFrame: next, cancelAnimationFrame: giveUp } = window;
+  const waiting = new Map();
+  let last = -1;
+  window.requestAnimationFrame = (does) => { waiting.set(last, does); return last--; };
+  window.cancelAnimationFrame = (number) => waiting.delete(number) || giveUp(number);
+  window.runFrames = () => {
+    Object.assign(window, { requestAnimationFrame: next, cancelAnimationFrame: giveUp });
+    for (const does of waiting.values()) next(does);
+  };
+}"""
 # How many hollow pins were drawn last: theirs are the only strokes of this width.
 COUNT_HOLLOW = """() => {
   if (window.hollow !== undefined) return; // another test counts in this page
@@ -193,6 +205,28 @@ def test_what_is_selected_between_keyframes_is_seen(open_notebook: OpenNotebook,
     page.keyboard.up(key)
     book.wait_for("model.selection == (1,)")
     assert len(timeline.times) == 3  # no keyframe was made
+
+
+def test_what_the_kernel_says_before_the_first_frame_does_not_stop_the_playing(
+    open_notebook: OpenNotebook,
+) -> None:
+    book = open_notebook([SETUP, NEW_PICTURE + EDITOR])
+    hand, page = Hand(book), book.page
+    timeline = Timeline(hand)
+    book.value("None", setup=POSES + "model.set_repeat('ping-pong')")
+    timeline.settle()
+    hand.wait_until_drawn()
+    page.evaluate(HOLD_FRAMES)
+    timeline.button("Play, pause")
+    book.value("None", setup="model.rename_pose(0, 'rest')")
+    page.wait_for_function("document.querySelector('.glid-key').title.startsWith('rest at')")
+    page.evaluate("window.runFrames()")
+    page.wait_for_function("document.querySelector('.glid-track .glid-seen')")
+    there = timeline.time
+    page.wait_for_function(
+        "(there) => Number(document.querySelector('.glid-track').dataset.time) !== there", arg=there
+    )
+    timeline.button("Play, pause")
 
 
 def test_one_place_of_the_editor_gives_advice(open_notebook: OpenNotebook) -> None:
