@@ -185,7 +185,7 @@ def test_a_press_goes_to_the_visible_shape(open_notebook: OpenNotebook) -> None:
     eye = Eye(hand)
     eye.sees("before-a-press")
     at = "[models[k].state.map(p)[0].tolist() for k, p in " + (
-        "(('front', [[3, 1.5]]), ('behind', [[-4, 1]]), ('bar', [[-3, 0]]))]"
+        "(('front', [[3, 1.5]]), ('behind', [[-4, 1]]), ('bar', [[-1, 0]]))]"
     )
     on_front, on_behind, on_bar = book.value(at)
     hand.click(on_front)
