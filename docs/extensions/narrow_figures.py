@@ -10,13 +10,15 @@ from __future__ import annotations
 import json
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from docutils import nodes
 from PIL import Image
-from sphinx.application import Sphinx
 
 from glid_nb.figures.drawing import PARTS
+
+if TYPE_CHECKING:  # the functions need no Sphinx
+    from sphinx.application import Sphinx
 
 WIDTH = 346.0  # CSS pixels: a phone of 390 without its margins
 _HIGH = 700.0  # CSS pixels that are visible at once

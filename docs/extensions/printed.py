@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from docutils import nodes
-from sphinx.application import Sphinx
+
+if TYPE_CHECKING:  # the functions need no Sphinx
+    from sphinx.application import Sphinx
 
 
 def has_columns(text: str) -> bool:

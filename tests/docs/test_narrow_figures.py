@@ -6,10 +6,7 @@ import io
 import json
 
 import numpy as np
-import pytest
 from PIL import Image, ImageDraw
-
-pytest.importorskip("sphinx")
 
 from docs.extensions import narrow_figures as narrow
 from glid_nb.figures.drawing import PARTS

@@ -3,9 +3,6 @@
 from __future__ import annotations
 
 import pytest
-
-pytest.importorskip("sphinx")
-
 from docutils import nodes
 from docutils.utils import new_document
 
