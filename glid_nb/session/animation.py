@@ -175,9 +175,8 @@ class Animation(Observed):
         """(h, 2) places of the pins of the pose that `go_to` edits at a time, which `keep` puts
         where the shape is. NaN for those that the user has hidden."""
         with self.deformation.locked():
-            state, keyframe = self.deformation.state, self._keyframe_at(time)
-            later = len(state.poses) - 1 if self.is_later(time) else None
-            known = keyframe if later is None else later
+            state = self.deformation.state
+            known = len(state.poses) - 1 if self.is_later(time) else self._keyframe_at(time)
             if known is not None:
                 pose = state.poses[known].pose
                 places = pose.targets

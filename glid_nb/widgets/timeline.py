@@ -2,6 +2,7 @@
 
 import base64
 import io
+import operator
 import weakref
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
@@ -78,6 +79,7 @@ class TimelinePanel(Pad):
         self._latest: dict[str, tuple[str, str]] = {}  # by the poses' names
         self._texture: Texture | None = None
         self._stacked: tuple[Any, ...] = ()
+        self._pinned: tuple[Any, ...] = ()
         self._others: dict[
             str, Animation | PartAnimation
         ] = {}  # of the shapes around, by their keys
@@ -208,7 +210,7 @@ class TimelinePanel(Pad):
                 self.worker.submit(moment.state.poses)
             if not moment.dragged:
                 self._show_heights(moment.state)
-                self.pins = moving_pins(moment.state, self.animation.spans)
+                self._show_pins(moment.state)
 
     def _show_state(self) -> None:
         state = self.canvas.deformation.state
@@ -247,6 +249,14 @@ class TimelinePanel(Pad):
         if stacked != self._stacked:
             self._stacked = stacked
             self.heights = _heights(scene, state)
+
+    def _show_pins(self, state: EditState) -> None:
+        poses, spans = [named.pose for named in state.poses], self.animation.spans
+        pinned = (*poses, state.pins, state.timeline, *spans)
+        known = self._pinned
+        if len(pinned) != len(known) or not all(map(operator.is_, pinned, known)):
+            self._pinned = pinned
+            self.pins = moving_pins(state, spans)
 
     def _spans_of(self, scene: Scene, spans: Sequence[Span]) -> list[dict[str, Any]]:
         """The spans of a scene's shape. Those of a new cage are shown later, with its scene, whose

@@ -10,7 +10,7 @@ import pytest
 
 from glid_nb.geometry import Domain
 from glid_nb.imaging import trace
-from glid_nb.widgets import DeformCanvas, TimelinePanel
+from glid_nb.widgets import DeformCanvas, TimelinePanel, timeline
 
 from ..support import from_page
 
@@ -181,6 +181,25 @@ def test_pins_are_told_for_every_time_as_a_drag_there_takes_them(panel: Timeline
         canvas.handle([{**event, "type": kind, "x": x, "y": y, "at": 0.5}])
     assert model.state.timeline.times == (0.0, 0.5, 1.0)
     np.testing.assert_allclose(model.pose.targets[1], place + above)
+
+
+def test_pins_are_placed_again_only_when_they_move(
+    panel: TimelinePanel, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    model, placed = panel.canvas.deformation, []
+    model.add_handle((-6.0, 0.0))
+    act(panel, "keep", time=0)
+    model.drag(0, (-6, 1.5))
+    assert panel.animation.wait(TIMEOUT)
+    before = dict(panel.pins)  # type: ignore[call-overload]
+    place = timeline.moving_pins
+    monkeypatch.setattr(timeline, "moving_pins", lambda *a: placed.append(a) or place(*a))
+    for what in ("frame", "state", "selection", "status"):
+        model.tell(what)
+    assert placed == []
+    model.mark_pins([0], hidden=True)
+    assert len(placed) == 1
+    assert panel.pins != before
 
 
 def test_pins_of_a_shape_without_any_are_none(panel: TimelinePanel) -> None:

@@ -261,14 +261,14 @@ CORNER[0]-KNOB&&y<CORNER[1]+KNOB}function ringAt(view,marks,place,reach){const r
 if(!ring)return null;if(distance(place,ring.knob)<=Math.max(KNOB+KNOB_REACH,reach))return{part:"knob"};
 const far=Math.abs(distance(place,ring.centre)-ring.radius);return far<=reach?{part:"turn"}:null}function markAt(marks,point,reach){
 return pinAt(marks,false,point,reach)??pinAt(marks,true,point,reach)}function pinBetweenAt(places,point,reach){
-const pins=places.map((place,mark)=>({mark,d:distance(place,point),loss:0}));return nearest(pins,reach)}
-function pinAt(marks,reached,point,reach){const places=reached?marks.images:marks.targets;const pins=places.
-map((place,mark)=>{const loss=marks.hidden.includes(mark)?reach/3:0;return{mark,reached,d:distance(place,
-point),loss}});return nearest(pins,reach)}function arrowsTo(view,targets){return targets.filter(target=>!inSight(
-view,target)).map(target=>{const[x,y]=view.toScreen(target);const height=within2(y,view.height);const besideButtons=height<
-CORNER[1]?CORNER[0]:0;const width=within2(x,view.width-besideButtons);return{at:[width,height],target,
-angle:Math.atan2(y-height,x-width)}})}function arrowAt(view,marks,place){const arrow=arrowsTo(view,marks.
-targets).find(({at})=>distance(at,place)<ARROW_REACH);return arrow?.target??null}function inSight(view,point){
+const pins=places.map((place,mark)=>({mark,d:distance(place,point)}));return nearest(pins,reach)}function pinAt(marks,reached,point,reach){
+const places=reached?marks.images:marks.targets;const pins=places.map((place,mark)=>{const loss=marks.
+hidden.includes(mark)?reach/3:0;return{mark,reached,d:distance(place,point),loss}});return nearest(pins,
+reach)}function arrowsTo(view,targets){return targets.filter(target=>!inSight(view,target)).map(target=>{
+const[x,y]=view.toScreen(target);const height=within2(y,view.height);const besideButtons=height<CORNER[1]?
+CORNER[0]:0;const width=within2(x,view.width-besideButtons);return{at:[width,height],target,angle:Math.
+atan2(y-height,x-width)}})}function arrowAt(view,marks,place){const arrow=arrowsTo(view,marks.targets).
+find(({at})=>distance(at,place)<ARROW_REACH);return arrow?.target??null}function inSight(view,point){
 const[x,y]=view.toScreen(point);return x>=0&&y>=0&&x<=view.width&&y<=view.height}function within2(at,size){
 return Math.min(size-EDGE2,Math.max(EDGE2,at))}var TARGET=7.5;var IMAGE=3.5;var RING=12;var APART=2;var BORDER="rgba(255,255,255,0.85)";var PALE="r\
 gba(255,255,255,0.9)";var INK="#2b2b2b";var TARGET_FILL="#00d5e0";var TARGET_EDGE="#063f45";var HIDDEN="\

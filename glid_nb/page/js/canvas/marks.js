@@ -104,7 +104,7 @@ export function markAt(marks, point, reach) {
  * @param {number} reach world units
  */
 export function pinBetweenAt(places, point, reach) {
-  const pins = places.map((place, mark) => ({ mark, d: distance(place, point), loss: 0 }));
+  const pins = places.map((place, mark) => ({ mark, d: distance(place, point) }));
   return nearest(pins, reach);
 }
 
