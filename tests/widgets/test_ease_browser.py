@@ -6,6 +6,7 @@ import pytest
 from playwright.sync_api import Locator
 
 from ..support.axe import faults
+from ..support.browser import bring_into_view
 from .conftest import OpenNotebook
 from .editor_page import ROOMY_EDITOR, SETUP, Hand, center
 from .test_timeline_browser import Timeline
@@ -148,7 +149,7 @@ def test_a_finger_eases_where_segments_have_no_room_for_a_curve(
         session.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": at})
 
     button = root.get_by_role("button", name="Easing of the motion")
-    button.scroll_into_view_if_needed()
+    bring_into_view(button)
     button.tap()
     arriving = panel.get_by_role("slider", name="How it arrives")
     arriving.wait_for()
