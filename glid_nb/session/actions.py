@@ -107,8 +107,13 @@ def set_depths(state: EditState, indices: Iterable[int], depths: ArrayLike) -> E
 
 def name_pin(state: EditState, index: int, name: str) -> EditState:
     """Give a handle a name."""
-    [chosen], names = _checked_indices(state, [index]), state.pose.names.tolist()
-    names[chosen] = name
+    return name_pins(state, [index], name)
+
+
+def name_pins(state: EditState, indices: Iterable[int], name: str) -> EditState:
+    """Give some handles the same name."""
+    chosen, names = _checked_indices(state, indices), state.pose.names.tolist()
+    names = [name if i in chosen else old for i, old in enumerate(names)]
     return state.with_current(replace(state.current, pose=replace(state.pose, names=names)))
 
 

@@ -166,10 +166,12 @@ class Deformation(Undoable[EditState], AbstractContextManager["Deformation"]):
 
     clear_handles = _step(actions.clear_handles)
     move_target = _step(actions.move_target)
+    move_targets = _step(actions.move_targets)
     nudge = _step(actions.nudge)
     set_depths = _step(actions.set_depths)
     bring_forward = _step(actions.bring_forward)
     name_pin = _step(actions.name_pin)
+    name_pins = _step(actions.name_pins)
     set_pins = _step(actions.set_pins)
     mark_pins = _step(actions.mark_pins)
     group_pins = _step(actions.group_pins)
