@@ -91,10 +91,24 @@ def test_the_colour_bar_goes_where_it_hides_least() -> None:
     assert emptiest_corner([(10, 10)], *size, loops=[head, hole]) == "bottom right"
 
 
+def test_a_colour_bar_says_which_values_share_its_last_colours() -> None:
+    def ends(name: str, *range_: float) -> list[str]:
+        ticks = legend(name, glid.energies.ARAP(), range_)["ticks"]
+        return [ticks[0], ticks[-1]]
+
+    assert ends("sigma1", 1.0, 3.0) == ["≤ 1", "≥ 3"]
+    assert ends("sigma2", 1.0, 0.5) == ["≥ 1", "≤ 0.5"]
+    assert ends("sigma2", 1.0, 0.0) == ["≥ 1", "0"]  # a map without folds has no other values
+    assert ends("k", 0.0, 0.2) == ["0", "≥ 0.2"]
+    assert ends("k", 0.0, 1.0) == ["0", "1"]
+    assert ends("energy", *color_range("energy", glid.energies.ARAP())) == ["0", "≥ 0.1"]
+
+
 @pytest.mark.parametrize("top", [2.134, 54.6, 5510.3, 1.2345e7, 9.87e201])
 def test_the_labels_of_a_colour_bar_do_not_meet(top: float) -> None:
     ticks = legend("energy", glid.energies.SymmetricDirichlet(), (2.0, top))["ticks"]
-    assert (float(ticks[0]), float(ticks[-1])) == (2.0, pytest.approx(top, rel=5e-3))
+    sign, end = ticks[-1].split()
+    assert (float(ticks[0]), sign, float(end)) == (2.0, "≥", pytest.approx(top, rel=5e-3))
     assert len("".join(ticks)) <= 22  # of 6 pixels, on a bar of 190
     assert len(ticks) == 5 or top > 1e4
 
@@ -339,7 +353,7 @@ def test_the_canvas_shows_what_the_model_holds() -> None:
     assert stage.legend["colors"] != stage.panel_legend["colors"]
     # Even a bend is visible, and the bar shows the range.
     assert canvas.pane.scene.color_range[1] < 1
-    assert stage.legend["ticks"][-1] == f"{canvas.pane.scene.color_range[1]:g}"
+    assert stage.legend["ticks"][-1] == f"≥ {canvas.pane.scene.color_range[1]:g}"
     range_ = canvas.pane.scene.picture.material.uniforms["color_range"]["value"]
     assert range_ == list(canvas.pane.scene.color_range)
     model.drag(0, to=(4.5, 1.5))
@@ -347,7 +361,7 @@ def test_the_canvas_shows_what_the_model_holds() -> None:
     bar = stage.legend["ticks"]
     model.set_domain(domain("twin"))  # at rest there: another scene, with its own range
     assert canvas.pane.scene.color_range == (0.0, 0.1)
-    assert stage.legend["ticks"][-1] == "0.1" != bar[-1]
+    assert stage.legend["ticks"][-1] == "≥ 0.1" != bar[-1]
     model.undo()
     canvas.overlay = "texture"
     canvas.show_panels = False
