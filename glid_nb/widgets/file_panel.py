@@ -10,7 +10,7 @@ from typing import Any
 import ipywidgets
 import traitlets
 
-from glid_nb._errors import InputError
+from glid_nb._errors import InputError, plainly
 from glid_nb._files import zipped
 from glid_nb.export.formats import FORMATS, MOTION_FORMATS
 from glid_nb.imaging.read import MAX_SIDE, png
@@ -91,7 +91,7 @@ class Asking:
                 made.description, made.button_style = question, "warning"
                 self._say(error.plain, REFUSED)
             except (OSError, ValueError) as error:  # messages for the user; other errors are bugs
-                self._say(str(error), REFUSED)
+                self._say(plainly(error), REFUSED)
 
         made = button(label, icon, tooltip, click)
         return made

@@ -310,12 +310,15 @@ pen,[[corner(0,11),corner(2.4,9),corner(-2.4,9)]],TARGET_FILL);strokePath(pen,[[
 function drawCursor(pen,[x,y]){const arm=(dx,dy)=>[[x+4*dx,y+4*dy],[x+13*dx,y+13*dy]];lines(pen,[arm(
 1,0),arm(-1,0),arm(0,1),arm(0,-1)],[[4,PALE],[1.6,WANTED]])}function wordsOf([x,y],[angle=0,scale=1,turned,scaled]){return{x:rounded(x),y:rounded(y),angle:turned?
 significant(angle*180/Math.PI):"",scale:scaled?significant(scale):"",detail:`${short(x)}, ${short(y)}`}}
-function rounded(number2){return String(Number(number2.toFixed(3))||0)}function significant(number2){
-return String(Number(Number(number2.toFixed(4)).toPrecision(4))||0)}function short(number2){return(Number(
-number2.toFixed(2))||0).toFixed(2).replace("-","−")}function meansStill(said,wrote,now){if(now===wrote||
-said===wrote)return false;const apart=one=>Math.abs(numberIn(one)-numberIn(now));return now===said||
-apart(said)<apart(wrote)}function numberIn(text){const numbers=text.replaceAll("−","-").split(",").
-map(Number.parseFloat);return numbers[0]+Math.PI*(numbers[1]??0)}var Written=class{said="";wrote="";constructor(element){
+function fieldWords(places,ring,before){const words2=places.map(place=>wordsOf(place,ring));const[{x,
+y,angle,scale}]=words2;const follows=name=>ring.length&&(words2.length===1||before[name]);return{x:words2.
+every(one=>one.x===x)?x:"",y:words2.every(one=>one.y===y)?y:"",angle:follows("angle")?angle:before.angle,
+scale:follows("scale")?scale:before.scale}}function rounded(number2){return String(Number(number2.toFixed(
+3))||0)}function significant(number2){return String(Number(Number(number2.toFixed(4)).toPrecision(4))||
+0)}function short(number2){return(Number(number2.toFixed(2))||0).toFixed(2).replace("-","−")}function meansStill(said,wrote,now){
+if(now===wrote||said===wrote)return false;const apart=one=>Math.abs(numberIn(one)-numberIn(now));return now===
+said||apart(said)<apart(wrote)}function numberIn(text){const numbers=text.replaceAll("−","-").split(
+",").map(Number.parseFloat);return numbers[0]+Math.PI*(numbers[1]??0)}var Written=class{said="";wrote="";constructor(element){
 this.element=element;this.said=this.text;this.wrote=this.said}get text(){const{element}=this;return element instanceof
 HTMLInputElement?element.value:element.textContent??""}put(text){if(this.text!==this.wrote)this.said=
 this.text;this.wrote=text;if(this.text===text)return;if(this.element instanceof HTMLInputElement)this.
@@ -326,11 +329,12 @@ get(element)??new Written(element);this.#written.set(element,written);written.pu
 if(!this.#written.size)return;for(const[element,text]of this.#texts(marks,new Map)){this.#written.get(
 element)?.settle(text)}this.#written.clear()}#texts({targets,selected,ring},held){const side=this.pad.
 closest(".glid-editor")?.querySelector(".glid-side .glid-bars");const last=selected.at(-1);if(!side||
-last===void 0||!targets[last])return[];const{detail:_,...fields}=wordsOf(held.get(last)??targets[last],
-ring);const found=Object.entries(fields).map(([name,text])=>{return[side.querySelector(`.glid-number\
--${name} input`),text]});const cells=side.querySelectorAll(".glid-entry-detail");for(const[i,cell]of cells.
-entries()){const place=held.get(i)??targets[i];if(place)found.push([cell,wordsOf(place,[]).detail])}
-return found.filter(([element])=>element)}};var COUNT=3;var GRID=24;var USED="glid-nb-pinned";var RADIUS2=8;function ghostPins({cage,holes}){const loops=[
+last===void 0||!targets[last])return[];const field=name=>{return side.querySelector(`.glid-number-${name}\
+ input`)};const places=selected.map(i=>held.get(i)??targets[i]).filter(Boolean);const before={angle:field(
+"angle")?.value??"",scale:field("scale")?.value??""};const found=Object.entries(fieldWords(places,ring,
+before)).map(([name,text])=>[field(name),text]);const cells=side.querySelectorAll(".glid-entry-detai\
+l");for(const[i,cell]of cells.entries()){const place=held.get(i)??targets[i];if(place)found.push([cell,
+wordsOf(place,[]).detail])}return found.filter(([element])=>element)}};var COUNT=3;var GRID=24;var USED="glid-nb-pinned";var RADIUS2=8;function ghostPins({cage,holes}){const loops=[
 cage,...holes];const candidates=gridOver(cage).filter(point=>encloses(cage,point)&&!holes.some(hole=>encloses(
 hole,point))).map(point=>({point,clearance:nearestEdge(loops,point,Infinity)?.d??0}));if(!candidates.
 length)return[];const places=[best(candidates,[middleOf(candidates)])];while(places.length<COUNT)places.
