@@ -2,15 +2,15 @@
 # make test   all tests: of this checkout, of the distributions installed in empty environments, and all chapters, in
 #               an environment made as the course's page says; GLID_NB_REFERENCE=DIR adds the paper's shapes
 # make install-tests  the second and third of these alone; needs the package index
-# make unit   the fast tests only (under a minute)
+# make unit   the fast tests only
 # make pythons  the fast tests, the demo and a chapter on every other Python of this machine, and on
 #               the oldest one with the oldest libraries that pyproject.toml allows
 # make leaks  half an hour in a browser: memory in long sessions, cells that run again, a new user's walk
 # make lint   ruff, pyright, biome and tsc for JavaScript, and the linters of the workflows
 # make page   bundles the JavaScript of glid_nb/page anew; make page-tests tests it
 # make dev    the development environment with everything
-# make compare  the paper's comparisons measured anew (half an hour); ARGUMENTS=--help tells more
-# make bench  the solver's speed on this machine (2 to 15 minutes); ARGUMENTS=--help likewise
+# make compare  the paper's comparisons measured anew; ARGUMENTS=--help tells more
+# make bench  the solver's speed on this machine; ARGUMENTS=--help likewise
 # make gpu    the solver on this machine's GPU (at most 8 minutes), with the machine's own Python and JAX
 # make docs   the site in site/, checked: pages, links, and each page in Chromium
 # make notebooks  all chapters, run in place and saved; ARGUMENTS="03 07" runs these two

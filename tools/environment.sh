@@ -30,7 +30,7 @@ if ! [ -x "$venv/bin/python" ] || ! recent "$venv/bin/python"; then
     "$python" -m venv --clear "$venv"
 fi
 
-say "installing glid-nb${extra:+[$extra]} and what it needs into $venv (about a minute the first time)"
+say "installing glid-nb${extra:+[$extra]} and what it needs into $venv"
 what="${extra:+--editable ./checker} --editable .${extra:+[$extra]}"
 pip="$venv/bin/python -m pip install --quiet --disable-pip-version-check"
 # uv is several times faster than pip, and knows the oldest libraries. It trusts the certificates that

@@ -7,7 +7,6 @@ from datetime import datetime
 from pathlib import Path
 from typing import Any
 
-import anywidget
 import ipywidgets
 import traitlets
 
@@ -22,6 +21,7 @@ from glid_nb.session.editor_model import EditorModel, open_document
 from glid_nb.session.script import python_code
 from glid_nb.widgets import exporting
 from glid_nb.widgets.controls import REFUSED, button, heading, paragraph
+from glid_nb.widgets.page_widget import PageWidget
 
 _SUFFIX = ".glid"
 DOUBLE_CLICK = 0.5  # seconds
@@ -151,10 +151,10 @@ class OpenPanel(Asking, ipywidgets.VBox):
         super().__init__([row, self.message], layout={"padding": "0 0 2em 2em"})
 
 
-class Clipboard(anywidget.AnyWidget):
+class Clipboard(PageWidget):
     """An invisible widget through which the page copies text and downloads files."""
 
-    _esm = bundle("clipboard")
+    _script = traitlets.Unicode(bundle("clipboard")).tag(sync=True)
 
     def __init__(self) -> None:
         super().__init__(layout={"display": "none"})

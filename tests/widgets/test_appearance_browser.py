@@ -9,6 +9,7 @@ import pytest
 from playwright.sync_api import Locator
 from skimage.io import imread
 
+from ..support.browser import bring_into_view
 from .conftest import OpenNotebook
 from .editor_page import NEW_PICTURE, ROOMY_EDITOR, SETUP, Hand, choose_view, contrast
 
@@ -91,10 +92,10 @@ def test_on_a_phone_the_canvas_comes_first_and_the_tools_have_two_rows(
     for row in (".glid-tools", ".glid-timeline .glid-bar"):
         last = page.locator(f"{row} > :last-child")
         assert box(last)[0] > root[0] + root[2]
-        last.scroll_into_view_if_needed()
+        bring_into_view(last)
         assert sum(box(last)[::2]) <= root[0] + root[2] + 1
     depth = page.get_by_label("Depth")
-    depth.scroll_into_view_if_needed()
+    bring_into_view(depth)
     assert sum(box(depth)[::2]) <= root[0] + root[2] + 1
     # No label of the ruler lies over another one.
     labels = [box(label) for label in page.locator(".glid-ruler span").all()]

@@ -906,7 +906,7 @@ def test_the_monitor_draws_plots_and_words() -> None:
         assert model.solve(TIMEOUT)
         assert monitor.refresh(TIMEOUT)
         assert bytes(monitor.image.value).startswith(b"\x89PNG")
-        assert "Converged · certified σ₂ ≥" in monitor.line.value
+        assert "Converged · certified σ₂ ≥" in monitor.line.said.value
         before = bytes(monitor.image.value)
         model.drag(0, to=(3.0, 1.0))
         assert model.solve(TIMEOUT)

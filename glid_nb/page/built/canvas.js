@@ -1,8 +1,7 @@
 function make(tag,properties={},...children){const element=document.createElement(tag);if(element instanceof
 HTMLButtonElement)element.type="button";for(const[name,value]of Object.entries(properties)){if(name.
 startsWith("on"))element.addEventListener(name.slice(2),value);else if(name in element&&name!=="list")
-Reflect.set(element,name,value);else element.setAttribute(name,value)}element.append(...children);return element}
-function penOf(canvas){const pen=canvas.getContext("2d");if(!pen)throw new Error("this browser does \
+Reflect.set(element,name,value);else element.setAttribute(name,value)}element.append(...children);return element}function penOf(canvas){const pen=canvas.getContext("2d");if(!pen)throw new Error("this browser does \
 not draw on canvases");return pen}function save(model,changes){for(const[name,value]of Object.entries(
 changes))model.set(name,value);model.save_changes()}function toFloats(view){if(!view)return new Float32Array;
 return new Float32Array(view.buffer.slice(view.byteOffset,view.byteOffset+view.byteLength))}function follow(model,listeners){
