@@ -571,13 +571,13 @@ above/scaleOf(root).down-parts;const height=Math.max(narrow?NARROW_LEAST:LEAST,f
 all:Number(narrow&&full&&!section2)}}#partsOnPhone(shell,section2,full){const heightOf=name=>{const part=shell.
 querySelector(name);return part?.offsetHeight??0};const bars=shell.querySelector(".glid-legend:not([\
 hidden])")?NARROW_LEGEND:0;const layout=String([shell.clientWidth,section2,full,bars]);if(this.#foot.
-layout!==layout)this.#foot={layout,height:0};if(!this.pad.matches(":active")){this.#foot.height=Math.
-max(this.#foot.height,heightOf(".glid-foot"))}const inspector=section2?TABS+sectionHeight(window.innerHeight):
-0;const rows=heightOf(".glid-tools")+heightOf(".glid-timeline");return rows+inspector+bars+this.#foot.
-height+2}#showPlots(plots,beside){const seen=Boolean(plots?.offsetWidth);if(seen&&!beside&&!this.#plotted)
-plots?.scrollIntoView({block:"nearest"});this.#plotted=seen}};function sectionHeight(screen){return Math.
-min(Math.max(screen-730,120),300)}function around(root){return root.closest(".jp-MainAreaWidget")?NOTEBOOK:
-PAGE}var FRAME=16;var SHARE=.5;var REST=200;var Detail=class{#views;#less=new Map;#timer;constructor(views){
+layout!==layout)this.#foot={layout,height:0};const moving=this.pad.matches(":active")||shell.querySelector(
+".glid-foot .glid-working");if(!moving||!this.#foot.height){this.#foot.height=Math.max(this.#foot.height,
+heightOf(".glid-foot"))}const inspector=section2?TABS+sectionHeight(window.innerHeight):0;const rows=heightOf(
+".glid-tools")+heightOf(".glid-timeline");return rows+inspector+bars+this.#foot.height+2}#showPlots(plots,beside){
+const seen=Boolean(plots?.offsetWidth);if(seen&&!beside&&!this.#plotted)plots?.scrollIntoView({block:"\
+nearest"});this.#plotted=seen}};function sectionHeight(screen){return Math.min(Math.max(screen-730,120),
+300)}function around(root){return root.closest(".jp-MainAreaWidget")?NOTEBOOK:PAGE}var FRAME=16;var SHARE=.5;var REST=200;var Detail=class{#views;#less=new Map;#timer;constructor(views){
 this.#views=views}moved(drawingTime2){if(drawingTime2<=FRAME)return;clearTimeout(this.#timer);this.#timer=
 setTimeout(()=>this.restore(),REST);for(const one of this.#views())void one.then(view=>this.#reduce(
 view))}restore(){clearTimeout(this.#timer);for(const[renderer,ratio]of this.#less)renderer.setPixelRatio(

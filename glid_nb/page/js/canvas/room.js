@@ -219,8 +219,9 @@ export class Room {
   }
 
   /**
-   * The height of what a phone's screen has beside the canvas. Words that need more lines than
-   * before make the canvas smaller, but not below a drag, and fewer lines change nothing.
+   * The height of what a phone's screen has beside the canvas. Words at rest that need more lines
+   * than before make the canvas smaller. Fewer lines change nothing, nor do the words during a drag
+   * or a solve.
    *
    * @param {HTMLElement} shell
    * @param {boolean} section whether the inspector is seen
@@ -235,7 +236,8 @@ export class Room {
     const bars = shell.querySelector(".glid-legend:not([hidden])") ? NARROW_LEGEND : 0;
     const layout = String([shell.clientWidth, section, full, bars]);
     if (this.#foot.layout !== layout) this.#foot = { layout, height: 0 };
-    if (!this.pad.matches(":active")) {
+    const moving = this.pad.matches(":active") || shell.querySelector(".glid-foot .glid-working");
+    if (!moving || !this.#foot.height) {
       this.#foot.height = Math.max(this.#foot.height, heightOf(".glid-foot"));
     }
     const inspector = section ? TABS + sectionHeight(window.innerHeight) : 0;
