@@ -502,6 +502,8 @@ class Editor(ClosingWidget, ipywidgets.VBox):
         )
         ipywidgets.link((monitor, "shown"), (plots_shown, "value"))
         proof = ipywidgets.VBox([monitor.verdict, plots_shown, self._boxes["solver"]])
+        for section in (self._boxes["files"], proof):
+            section.add_class("glid-whole")
         pins = ipywidgets.VBox([self.parts, self._boxes["pins"]])
         sections = [pins, *(self._boxes[name] for name in names[1:-1]), proof]
         titles = "Pin", "Motion", "Files", "Proof"

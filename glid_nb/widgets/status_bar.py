@@ -39,8 +39,8 @@ def _said(status: StatusLine) -> str:
     else:
         sentence = f"<span>{text}</span>"
     dot = (
-        '<span class="glid-state" style="display:inline-block;flex:none;width:10px;height:10px;'
-        f'border-radius:5px;background:{_TONES[status.level]}"></span>'
+        f'<span class="glid-state glid-{status.level}" style="display:inline-block;flex:none;'
+        f'width:10px;height:10px;border-radius:5px;background:{_TONES[status.level]}"></span>'
     )
     return f'{dot} <span class="glid-said" title="{text}">{sentence}</span>'
 
