@@ -35,6 +35,7 @@ extensions = [
     "printed",
     "proof_checker",
     "reference",
+    "scrolled_figures",
     "source_pages",
 ]
 

@@ -70,12 +70,23 @@ def _is_whole(latex: str) -> bool:
     return bool(latex.strip()) and braces and all(first == last for first, last in counts)
 
 
+def _moved_right(upper: ElementTree.Element) -> ElementTree.Element:
+    """An upper limit beside the top of an integral, which leans there."""
+    moved = ElementTree.Element(f"{{{MATHML}}}mrow")
+    moved.append(ElementTree.Element(f"{{{MATHML}}}mspace", width="0.35em"))
+    moved.append(upper)
+    return moved
+
+
 def arrange(tree: ElementTree.Element) -> None:
     """Draw the line over a conjugate as a border, which is as wide as what is below it, and leave
-    room after integrals."""
+    room after integrals and before their upper limits."""
     for operator in tree.iter(f"{{{MATHML}}}mo"):
         if operator.text in _INTEGRALS:
             operator.set("rspace", "0.25em")
+    for limits in tree.iter(f"{{{MATHML}}}msubsup"):
+        if limits[0].text in _INTEGRALS:
+            limits[2] = _moved_right(limits[2])
     for over in list(tree.iter(f"{{{MATHML}}}mover")):
         if over[1].text in _LINES:
             over.tag, over.attrib = f"{{{MATHML}}}mrow", {"class": "conjugate"}

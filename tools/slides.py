@@ -22,6 +22,7 @@ from nbformat import NotebookNode
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 
+from docs.extensions.printed import has_columns
 from tools.equations import displayed, mathml, pieces
 
 REPOSITORY = Path(__file__).resolve().parent.parent
@@ -41,9 +42,14 @@ _LEFT_OUT = re.compile(r"\*\*(?:Further|Next|Before this|Minutes)")
 _MOST = 5  # points of a slide
 _AFTER = 2  # points that stay on a slide after its figure: what to see in it
 _PRINTED = 2  # printed outputs of a slide
+_ROWS = 6  # of a table with printed outputs on its slide
 _WHOLE = ("Exercise", "Summary")  # headings of which all is shown
 _SHORT = 40  # letters of a sentence that says too little alone, such as "Drag the ring."
+_LONG = 20  # letters of code that may take two lines
 _MATH = re.compile(r"\$\$(.+?)\$\$|(?<![\\$])\$(?!\s)(.+?)(?<!\s)\$", re.DOTALL)
+_CODE = re.compile(r"(?<!<pre>)<code>([^<]*)</code>")
+# After a dot, a slash and the like, and between the words of `LikeThis`.
+_WORD_ENDS = re.compile(r"(?<=[\w)][./_(=])(?=\w)|(?<=[a-z])(?=[A-Z][a-z])")
 _NUMBER = re.compile(r"\\tag\*?\{([^{}]*)\}")
 # A sentence ends before a capital letter, a formula or bold text.
 _SENTENCE = re.compile(r"(?<=[^\d][.!?])[)\"]?\s+(?=[A-Z$*`(])")
@@ -69,7 +75,8 @@ class Slide:
     def takes(self, output: str) -> bool:
         """Whether there is room for another output of a cell."""
         if _is_printed(output):
-            return len(self.printed) < _PRINTED
+            rows = sum(one.count("<tr") for one in self.points)
+            return len(self.printed) < _PRINTED and rows <= _ROWS
         return not self.figure
 
     def add(self, output: str) -> None:
@@ -99,7 +106,20 @@ def rendered(markdown: str) -> str:
     text = re.sub(r"\]\([^)]*\.ipynb[^)]*\)|\]\(\.\./[^)]*\)", "]()", text)
     text = markdown2html(text)
     text = re.sub(r'<a href="">(.*?)</a>', r"\1", text)
-    return re.sub(r"QMATH(\d+)Q", lambda found: made[int(found[1])], text)
+    text = _CODE.sub(lambda found: f"<code>{breakable(found[1])}</code>", text)
+    return re.sub(
+        r"QMATH(\d+)Q([.,;:?!)]*)", lambda found: with_marks(made[int(found[1])], found[2]), text
+    )
+
+
+def with_marks(formula: str, marks: str) -> str:
+    """A formula and the punctuation after it, which stays on its line."""
+    return f'<span class="formula">{formula}{marks}</span>' if marks else formula
+
+
+def breakable(code: str) -> str:
+    """Code that goes on in a new line only between its words, and only if it is long."""
+    return _WORD_ENDS.sub("<wbr>", code) if len(code) > _LONG else code
 
 
 def blocks(markdown: str) -> Iterator[str]:
@@ -197,11 +217,13 @@ def shown(cell: NotebookNode) -> Iterator[str]:
             picture = data["image/png"].replace("\n", "")
             yield f'<img src="data:image/png;base64,{picture}"{width} alt="figure">'
         elif output.output_type == "stream":
-            yield f"<pre>{html.escape(output.text.strip())}</pre>"
+            columns = ' class="columns"' if has_columns(output.text) else ""
+            text = output.text.rstrip().lstrip("\n")  # spaces before the first word align it
+            yield f"<pre{columns}>{html.escape(text)}</pre>"
 
 
 def _is_printed(output: str) -> bool:
-    return output.startswith("<pre>")
+    return output.startswith("<pre")
 
 
 def page(title: str, chapters: list[NotebookNode]) -> str:

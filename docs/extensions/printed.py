@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from textwrap import dedent
 from typing import TYPE_CHECKING, Any
 
 from docutils import nodes
@@ -12,7 +13,7 @@ if TYPE_CHECKING:  # the functions need no Sphinx
 
 def has_columns(text: str) -> bool:
     """Whether spaces align something in a printed text; in sentences there is one at a time."""
-    return "  " in text.strip()
+    return "  " in dedent(text).rstrip()
 
 
 def mark(_app: Sphinx, document: nodes.document) -> None:

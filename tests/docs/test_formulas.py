@@ -3,13 +3,17 @@
 from __future__ import annotations
 
 import re
+from pathlib import Path
 from xml.etree import ElementTree
 
 import pytest
 from docutils import nodes
 from docutils.utils import new_document
+from fontTools.ttLib import TTFont
 
 from tools import equations
+
+DOCS = Path(__file__).resolve().parents[2] / "docs"
 
 
 def test_formulas_between_wide_spaces_are_pieces() -> None:
@@ -39,6 +43,25 @@ def test_there_is_room_after_an_integral() -> None:
     made = equations.mathml(r"\oint \frac{g(w)}{w - z} dw", "block")
     assert 'rspace="0.25em"' in made
     assert 'rspace="0.25em"' not in equations.mathml("a + b", "block")
+
+
+def test_an_upper_limit_keeps_away_from_its_integral() -> None:
+    made = equations.mathml(r"\int_a^b f", "block")
+    assert re.search(
+        r'<mrow><mspace width="0.35em" /><mrow><mi>b</mi></mrow></mrow></msubsup>', made
+    )
+    assert "0.35em" not in equations.mathml(r"x_a^b", "block")
+
+
+def test_every_stretched_character_of_the_font_can_be_stretched() -> None:
+    """Browsers leave a character as it is if its repeated part connects to nothing."""
+    math = TTFont(DOCS / "static" / "math.woff")["MATH"].table.MathVariants
+    made = [one.GlyphAssembly for one in math.VertGlyphConstruction if one.GlyphAssembly]
+    repeated = [part for one in made for part in one.PartRecords if part.PartFlags & 1]
+    assert repeated
+    for part in repeated:
+        ends = part.StartConnectorLength, part.EndConnectorLength
+        assert min(ends) >= math.MinConnectorOverlap, part.glyph
 
 
 def operators(latex: str) -> list[tuple[str | None, str | None, str | None]]:

@@ -15,6 +15,7 @@ from docs.extensions import printed
         ("The solver converged: the Newton decrement is small.\ncertified: True\n", False),
         ("  indented, and nothing below it\n", False),
         ("Newton       7 iterations\nL-BFGS     150 iterations\n", True),
+        ("  BDHM: k <= 0.18\nNewton: k <= 0.16\n", True),
         ("[-28.65  84.6   35.55 182.97]", True),
     ],
 )

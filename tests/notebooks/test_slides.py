@@ -156,9 +156,9 @@ _TOO_LARGE = """() => [...document.querySelectorAll('section')].flatMap((slide, 
 
 _CLIPPED = """() => [...document.querySelectorAll('section')].flatMap((slide, i) => {
   go(i);
-  return [...slide.querySelectorAll('math[display=block]')]
-    .filter((formula) => formula.scrollWidth > formula.clientWidth + 1)
-    .map((formula) => `slide ${i + 1}: ${formula.textContent}`);
+  return [...slide.querySelectorAll('math[display=block], pre')]
+    .filter((shown) => shown.scrollWidth > shown.clientWidth + 1)
+    .map((shown) => `slide ${i + 1}: ${shown.textContent}`);
 })"""
 _LIVE = """() => [...document.querySelectorAll('.glid-frames')]
   .every((figure) => figure.querySelector('input'))"""
@@ -190,9 +190,12 @@ def moved_by_ring(figure: Locator) -> bool:
 
 @pytest.mark.browser
 @pytest.mark.slow
-def test_every_slide_fits_a_projector_and_rings_are_dragged_on_slides(lectures: Path) -> None:
+@pytest.mark.parametrize("width", [1366, 1024])
+def test_every_slide_fits_a_projector_and_rings_are_dragged_on_slides(
+    lectures: Path, width: int
+) -> None:
     with launched_chromium() as browser:
-        page = browser.new_page(viewport={"width": 1366, "height": 768})
+        page = browser.new_page(viewport={"width": width, "height": 768})
         for name in slides.LECTURES:
             page.goto((lectures / f"{name}.html").as_uri())
             page.wait_for_function(_LIVE)
@@ -227,3 +230,21 @@ def test_slides_on_small_screens_have_legible_letters_and_scroll_only_downwards(
         page.wait_for_function(_LIVE)
         assert page.evaluate(_WIDE) == []
         assert page.evaluate(_SMALLEST) >= 13
+
+
+def test_long_code_breaks_only_between_its_words() -> None:
+    made = slides.rendered("in `energies.ExponentialSymmetricDirichlet(s)`, `np.roll`")
+    assert "<code>energies.<wbr>Exponential<wbr>Symmetric<wbr>Dirichlet(<wbr>s)</code>" in made
+    assert "<code>np.roll</code>" in made
+
+
+def test_punctuation_stays_with_its_formula() -> None:
+    assert re.search(
+        r'<span class="formula"><math.*?</math>,</span> so', slides.rendered("$v$, so")
+    )
+
+
+def test_a_printed_table_keeps_its_columns() -> None:
+    cell = nbformat.v4.new_code_cell()
+    cell.outputs = [nbformat.v4.new_output("stream", text="  BDHM: 0.5\nNewton: 0.6\n")]
+    assert list(slides.shown(cell)) == ['<pre class="columns">  BDHM: 0.5\nNewton: 0.6</pre>']
