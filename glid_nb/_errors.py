@@ -55,8 +55,9 @@ def about(where: str | Path, kind: type[InputError] = InputFileError) -> Iterato
     try:
         yield
     except InputError as error:
-        texts = (_placed(where, text) for text in (str(error), error.plain))
-        raise kind(*texts).with_traceback(error.__traceback__) from None
+        placed = kind(_placed(where, str(error)))
+        placed.plain = _placed(where, error.plain)
+        raise placed.with_traceback(error.__traceback__) from None
     except RecursionError:  # the checks recurse into nested lists
         raise kind(f"{where}: its values are nested too deep") from None
 

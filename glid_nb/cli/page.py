@@ -11,6 +11,7 @@ motion if it has several poses. A session has its own energy and outlines.
 """
 
 import argparse
+from collections.abc import Sequence
 from pathlib import Path
 
 import glid_nb
@@ -46,13 +47,16 @@ def run(chosen: argparse.Namespace) -> None:
     out = chosen.out.path
     check_files([out], [chosen.image, chosen.pose, chosen.scribbles])
     with_session = chosen.image.suffix.lower() == ".glid"
-    page = _page_of_session(chosen) if with_session else _page_of_picture(chosen)
+    page, notes = (_page_of_session if with_session else _page_of_picture)(chosen)
     write(out, page)
     size = "" if out is STANDARD_OUTPUT else f", {len(page.encode()) / 1000:.0f} kB"
     tell(f"{out}: a live page{size}; open it in a browser", out)
+    for note in notes:
+        tell(f"  {note}", out)
 
 
-def _page_of_picture(chosen: argparse.Namespace) -> str:
+def _page_of_picture(chosen: argparse.Namespace) -> tuple[str, Sequence[str]]:
+    """The page, and what tracing noticed."""
     energy, options = energy_of(chosen), trace_options_of(chosen)
     path: Path | None = chosen.pose
     pose = None if path is None else glid_nb.io.load_pose(path)
@@ -68,10 +72,11 @@ def _page_of_picture(chosen: argparse.Namespace) -> str:
         with about(path):
             pose.check_inside(domain)
     with step("making the page"):
-        return glid_nb.export.live_page_html(image, domain, pose, energy, title=_title(chosen))
+        page = glid_nb.export.live_page_html(image, domain, pose, energy, title=_title(chosen))
+    return page, tracing.notes
 
 
-def _page_of_session(chosen: argparse.Namespace) -> str:
+def _page_of_session(chosen: argparse.Namespace) -> tuple[str, Sequence[str]]:
     _refuse_settings(chosen)
     document = glid_nb.io.load_document(chosen.image)
     with about(chosen.image):
@@ -80,7 +85,7 @@ def _page_of_session(chosen: argparse.Namespace) -> str:
                 document = solved_document(document, detail)
         shapes, behind = shapes_of(document)
         with step("making the page"):
-            return glid_nb.export.parts_live_html(live_parts(shapes), _title(chosen), behind)
+            return glid_nb.export.parts_live_html(live_parts(shapes), _title(chosen), behind), ()
 
 
 def _refuse_settings(chosen: argparse.Namespace) -> None:

@@ -9,6 +9,8 @@ from glid_nb._arrays import Array, first_masked, number_pairs
 from glid_nb._errors import InputError
 from glid_nb._features import is_traced
 
+FARTHEST = 1e100  # squares of larger coordinates, times those of the basis, overflow
+
 
 class MapError(InputError):
     """A harmonic map's coefficients, its file, or points to evaluate it at are not valid."""
@@ -29,6 +31,10 @@ def as_complex(points: Any) -> Array:
     if bad.size:
         x, y = np.real(z[bad[0]]), np.imag(z[bad[0]])
         raise MapError(f"point {bad[0]} is ({x:g}, {y:g}); coordinates must be finite")
+    far = np.flatnonzero(abs(z) > FARTHEST)
+    if far.size:
+        x, y = np.real(z[far[0]]), np.imag(z[far[0]])
+        raise MapError(f"point {far[0]} is ({x:g}, {y:g}); the largest distance is {FARTHEST:g}")
     return z
 
 

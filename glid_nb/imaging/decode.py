@@ -55,7 +55,9 @@ def opened(data: bytes, name: str) -> Image.Image | None:
     if not data:
         raise TraceError(f"{name} is empty")
     try:
-        return Image.open(io.BytesIO(data), formats=formats())
+        with warnings.catch_warnings():  # what Pillow finds too large, `check_size` refuses
+            warnings.simplefilter("ignore", Image.DecompressionBombWarning)
+            return Image.open(io.BytesIO(data), formats=formats())
     except UnidentifiedImageError:
         if data.startswith(_TIFF_STARTS):
             return None

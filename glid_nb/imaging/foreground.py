@@ -167,6 +167,9 @@ def smoothed(foreground: Foreground, sigma: float | None) -> Foreground:
         sigma = own if own >= _LEAST_SMOOTHING else 0.0
     if sigma == 0:
         return foreground
+    if sigma > (most := max(score.shape)):
+        what = f"smoothing is {sigma:g} pixels, but the picture's longer side has {most}"
+        raise TraceError(f"{what}; give a few pixels, or 0 for none")
     score = np.asarray(gaussian_filter(score, sigma, mode="nearest", truncate=3.0), np.float32)
     if automatic and not (score > foreground.level()).any():
         return foreground  # smoothing would erase a thin shape

@@ -67,8 +67,9 @@ def read_image(source: ImageSource, name: str | None = None) -> RGBA:
             return _decode(bytes(source), name)
     except TraceError:
         raise
-    except (Image.DecompressionBombError, Image.DecompressionBombWarning) as error:
-        raise TraceError(f"{name} is too large ({error}); scale it down first") from None
+    except (Image.DecompressionBombError, Image.DecompressionBombWarning):
+        most = f"a side may have at most {MAX_SIDE} pixels"
+        raise TraceError(f"{name} is too large: {most}; scale it down first") from None
     except Exception as error:  # decoders raise errors of any type
         raise TraceError(f"{name} is damaged or cut short: {error}") from None
     return as_rgba(source)

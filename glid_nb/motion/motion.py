@@ -5,6 +5,7 @@ import functools
 import itertools
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from numbers import Integral
 from pathlib import Path
 from typing import Any, Self
 
@@ -258,6 +259,9 @@ class Motion(Rebuilt):
     @single_blas_thread()
     def interval(self, index: int) -> tuple[tuple[Piece, ...], tuple[PieceCertificate, ...]]:
         """The pieces from a keyframe to the next, and their proofs; computed on first use."""
+        last = len(self.times) - 2
+        if not isinstance(index, Integral) or not 0 <= index <= last:
+            raise MotionError(f"there is no interval {index!r:.40}; give a number from 0 to {last}")
         if index not in self._intervals:
             self._intervals[index] = self._made(index)
         return self._intervals[index]

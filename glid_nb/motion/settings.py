@@ -38,7 +38,12 @@ def checked_each(name: str, kind: Any, given: Any, count: int, **limits: float) 
 def checked_keyframes(keyframes: Any) -> tuple[HarmonicMap, ...]:
     """Certified maps of one domain whose ``f_z`` turn alike, all with the first one's domain."""
     if not isinstance(keyframes, list | tuple) or len(keyframes) < 2:
-        raise MotionError(f"a motion needs a list of at least 2 keyframes, not {keyframes!r:.60}")
+        listed = isinstance(keyframes, list | tuple)
+        given = f"{len(keyframes)}" if listed else f"{keyframes!r:.60}"
+        least = "at least 2 keyframes"
+        raise MotionError(
+            f"a motion needs a list of {least}, not {given}", f"a motion needs {least}; keep a pose"
+        )
     maps: list[HarmonicMap] = []
     for i, given in enumerate(keyframes):
         map = given if isinstance(given, HarmonicMap) else getattr(given, "map", None)

@@ -384,7 +384,9 @@ class TracingModel(Undoable[TracingState]):
                 fallback = before.fallback  # valid cages within a gesture do not count
             else:
                 fallback = self.outcome.domain if state.image is before.image else None
-            self._go_to(history.step(replace(state, fallback=fallback), gesture))
+            new = replace(state, fallback=fallback)
+            self.outcome_of(new)  # kept; if tracing raises, as without memory, nothing has changed
+            self._go_to(history.step(new, gesture))
 
     def _edit(self, change: Callable[[AnyLoops], AnyLoops], gesture: Any = None) -> None:
         with self.locked():

@@ -56,6 +56,7 @@ def test_page_makes_a_live_page(run, picture: Path, tmp_path: Path) -> None:
     assert outcome.out.startswith(f"{out}: a live page, ")
     text = out.read_text(encoding="utf-8")
     assert "<title>A &lt;ring&gt;</title>" in text
+    assert "foreground by alpha" in outcome.err + outcome.out  # what the tracing noticed
     assert run("page", picture, "--out", picture).code == 1  # it would overwrite the picture
 
 

@@ -28,6 +28,10 @@ def test_every_refusal_of_the_package_is_an_input_error() -> None:
     assert strangers == ["_errors.py: InputError"]
 
 
+def _kinds(kind: type[InputError]) -> set[type[InputError]]:
+    return {kind}.union(*map(_kinds, kind.__subclasses__()))
+
+
 @pytest.mark.parametrize(
     ("text", "named"),
     [
@@ -41,6 +45,14 @@ def test_the_place_stands_in_front_once(text: str, named: str) -> None:
     with pytest.raises(InputFileError) as refusal, about(Path("a.json")):
         raise InputError(text)
     assert str(refusal.value) == named
+
+
+@pytest.mark.parametrize("kind", sorted(_kinds(InputError), key=lambda one: one.__name__))
+def test_the_place_stands_in_front_of_an_error_of_any_kind(kind: type[InputError]) -> None:
+    with pytest.raises(kind) as refusal, about("the cage", kind):
+        raise InputError("hole 1 is open", "the hole is open")
+    assert str(refusal.value) == "the cage: hole 1 is open"
+    assert refusal.value.plain == "the cage: the hole is open"
 
 
 def test_a_bug_is_left_alone() -> None:

@@ -211,6 +211,17 @@ def test_a_point_that_is_not_finite_is_refused() -> None:
         identity([[0.0, 0.0], [np.nan, 1.0]])
 
 
+@pytest.mark.parametrize("name", ["ell", "ring"])
+def test_no_point_however_far_gives_nan(name: str) -> None:
+    map = random_map(name, 0.05, 1)
+    far = np.array([[1e50, -1.0], [7e99, 7e99]])
+    values = (map(far), map.sigma1(far), map.sigma2(far), *map.wirtinger(far))
+    assert all(np.isfinite(value).all() for value in values)
+    for x, y in ([1e101, 0.0], [1e308, 1e308]):
+        with pytest.raises(MapError, match=r"point 1 is .*; the largest distance is 1e\+100"):
+            map.sigma1([[0.0, 0.0], [x, y]])
+
+
 def test_logarithms_that_are_not_exactly_tied_are_tied_without_changing_the_map() -> None:
     """Otherwise the proof would belong to other coefficients than the map's values."""
     exact = random_map("twin", 0.1, 1)

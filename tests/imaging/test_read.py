@@ -340,6 +340,10 @@ class TestWrongFiles:
         data[29:33] = zlib.crc32(data[12:29]).to_bytes(4)
         with pytest.raises(TraceError, match="too large, 9000 x 20"):
             read_image(bytes(data))
+        data[16:24] = (12000).to_bytes(4) + (8000).to_bytes(4)
+        data[29:33] = zlib.crc32(data[12:29]).to_bytes(4)
+        with pytest.raises(TraceError, match="too large, 12000 x 8000"):  # without Pillow's warning
+            read_image(bytes(data))
         data[16:24] = (60000).to_bytes(4) + (60000).to_bytes(4)
         data[29:33] = zlib.crc32(data[12:29]).to_bytes(4)
         with pytest.raises(TraceError, match="too large"):

@@ -325,6 +325,18 @@ def test_what_needs_too_many_pieces_is_refused() -> None:
         Motion(motion.keyframes, [0, 1e8]).resample(10)
 
 
+@pytest.mark.parametrize("index", [-1, 1, 5, 0.0, "x", None])
+def test_an_interval_that_is_not_there_is_named(index: Any) -> None:
+    with pytest.raises(MotionError, match=rf"no interval {index!r}; give a number from 0 to 0"):
+        Motion(poses("ell", 0, 1.0)).interval(index)
+
+
+def test_one_keyframe_is_no_motion() -> None:
+    with pytest.raises(MotionError, match="a list of at least 2 keyframes, not 1") as refusal:
+        Motion(poses("ell", 0, 1.0)[:1])
+    assert refusal.value.plain == "a motion needs at least 2 keyframes; keep a pose"
+
+
 def test_easing_changes_when_and_not_what() -> None:
     maps = poses("ell", 0, 1.0)
     plain = Motion(maps)

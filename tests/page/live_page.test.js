@@ -21,7 +21,7 @@ import { hexText, proofFiles } from "../../glid_nb/page/js/live_page/proof_file.
 import { pythonCode } from "../../glid_nb/page/js/live_page/python.js";
 import { spokenOf } from "../../glid_nb/page/js/live_page/report.js";
 
-/** @import { LiveAnswer, LiveMap, LiveRequest } from "../../glid_nb/page/js/live/types.js" */
+/** @import { LiveAnswer, LiveMap, LiveRequest, Outline } from "../../glid_nb/page/js/live/types.js" */
 /** @import { Handle } from "../../glid_nb/page/js/live_page/data.js" */
 /** @import { Point } from "../../glid_nb/page/js/types.js" */
 /** @import { Mesh } from "../../glid_nb/page/js/exported/renderer.js" */
@@ -122,9 +122,21 @@ test("the two files have the same numbers, and no -0", () => {
   assert.deepEqual([proof.panels, proof.windings], [[[[0, 0]]], [0]]);
 });
 
+const OUTLINE = /** @type {Outline} */ (
+  /** @type {unknown} */ ({
+    cage: [
+      [0, 0],
+      [0.1, 0],
+      [0, 1e-7],
+    ],
+    holes: [],
+  })
+);
+
 test("a pose in Python names only what was asked for", () => {
   const pins = [pinAt([0, 0], [1, 2.5]), { ...pinAt([3, 0], [3, 0]), angle: 0.5 }];
-  const code = pythonCode(pins, { options: { energy: "amips", s: 0.5 } }, "cat.png");
+  const code = pythonCode(pins, { options: { energy: "amips", s: 0.5 }, outline: OUTLINE });
+  assert.match(code, /^cage = glid\.Cage\(\[\[0,0\],\[0\.1,0\],\[0,1e-7\]\], \[\]\)$/m);
   assert.match(code, /handles=\[\[0, 0\], \[3, 0\]\]/);
   assert.match(code, /angles=\[None, 0.5\]/);
   assert.doesNotMatch(code, /scales|weights|depths|names|p2p_weight/);
@@ -284,13 +296,13 @@ test("the lines of Python have the stiff areas", () => {
       strength: 1,
     },
   ];
-  const code = pythonCode([], { options: {}, stiffness }, "cat.png");
+  const code = pythonCode([], { options: {}, stiffness, outline: OUTLINE });
   assert.match(code, /stiffness=\[\{"points":\[\[0,1\],\[2,3\]\],"radius":0\.5,"strength":1\}\],/);
 });
 
 test("a pose in Python has the pins' depths and names, quoted", () => {
   const named = { ...pinAt([3, 0], [3, 0]), weight: 2, depth: -1, name: 'the "tail"' };
-  const code = pythonCode([pinAt([0, 0], [0, 0]), named], { options: {} }, "cat.png");
+  const code = pythonCode([pinAt([0, 0], [0, 0]), named], { options: {}, outline: OUTLINE });
   assert.match(code, /depths=\[0, -1\],\n/);
   assert.match(code, /weights=\[1, 2\],\n/);
   assert.match(code, /names=\["", "the \\"tail\\""\],\n/);

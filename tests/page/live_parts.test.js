@@ -252,11 +252,20 @@ test("the motion of all parts has the knots of each, and the worst bound", () =>
 
 test("the lines of Python make the map of each part", () => {
   const parts = /** @type {PartData[]} */ (
-    /** @type {unknown} */ (["red", "blue"].map((name) => ({ name, options: {} })))
+    /** @type {unknown} */ (
+      ["red", "blue"].map((name, i) => ({
+        name,
+        options: {},
+        outline: { cage: [[i, 0.1]], holes: [] },
+      }))
+    )
   );
-  const code = partsCode([pinOf(1, [2, 3])], "Two", parts);
-  assert.match(code, /read_image\("Two-red\.png"\).*handles=\[\],.*maps\["red"\] = result\.map/s);
-  assert.match(code, /"Two-blue\.png"\).*handles=\[\[0\.5, 0\.25\]\],\n {4}targets=\[\[2, 3\]\]/s);
+  const code = partsCode([pinOf(1, [2, 3])], parts);
+  assert.match(code, /Cage\(\[\[0,0\.1\]\], \[\]\)\n.*handles=\[\],.*maps\["red"\] = result\.map/s);
+  assert.match(
+    code,
+    /Cage\(\[\[1,0\.1\]\], \[\]\)\n.*handles=\[\[0\.5, 0\.25\]\],\n {4}targets=\[\[2, 3\]\]/s,
+  );
 });
 
 test("parts that no file system tells apart have files of their own", () => {

@@ -111,6 +111,31 @@ def test_an_unreadable_picture_changes_nothing(model: TracingModel, tmp_path: Pa
     assert model.state is before
 
 
+def test_options_with_which_tracing_fails_change_nothing(
+    model: TracingModel, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    before, cage = model.state, cage_of(model)
+
+    def fail(*_: object) -> None:
+        raise MemoryError
+
+    with monkeypatch.context() as broken:
+        broken.setattr("glid_nb.session.tracing.Tracer.trace", fail)
+        with pytest.raises(MemoryError):
+            model.set_options(smoothing=2.0)
+    assert model.state is before
+    assert cage_of(model).equals(cage)
+
+
+def test_a_blur_wider_than_the_picture_is_a_problem_and_undone(model: TracingModel) -> None:
+    cage = cage_of(model)
+    model.set_options(smoothing=1e9)
+    [problem] = model.outcome.problems
+    assert "smoothing is 1e+09 pixels" in str(problem)
+    model.undo()
+    assert cage_of(model).equals(cage)
+
+
 def test_the_picture_is_the_models_own() -> None:
     pixels = DRAWING.copy()
     model = TracingModel(pixels)

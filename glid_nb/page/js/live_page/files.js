@@ -31,8 +31,7 @@ export function nameOf({ title }) {
 
 /** @type {Taken} of a page with one shape */
 export const TAKEN = {
-  "Copy the pose as Python": ({ data, editing: { pins } }) =>
-    copy(pythonCode(pins, data, `${nameOf(data)}.png`)),
+  "Copy the pose as Python": ({ data, editing: { pins } }) => copy(pythonCode(pins, data)),
   "Download the picture": downloadPicture,
   "Download the map and its proof": async (page) =>
     downloadProof(page.data, /** @type {Solving} */ (await page.solverOfShown())),

@@ -14,17 +14,18 @@ const WITH_S = ["exp", "amips"];
 const WEIGHT = 1e5; // the package's default
 
 /**
+ * The lines have the page's own cage: its picture may have been traced with any options.
+ *
  * @param {readonly Pin[]} pins
- * @param {Pick<LiveData, "options" | "stiffness">} data
- * @param {string} picture the name of its file
+ * @param {Pick<LiveData, "options" | "stiffness" | "outline">} data
  */
-export function pythonCode(pins, { options, stiffness }, picture) {
+export function pythonCode(pins, { options, stiffness, outline }) {
   const { energy = "iso", s = 1, weight = WEIGHT } = options;
   const lines = [
     "import glid_nb as glid",
     "",
-    `image = glid.read_image(${JSON.stringify(picture)})  # the picture of the page`,
-    "domain = glid.Domain.from_cage(glid.trace(image).cage)",
+    `cage = glid.Cage(${JSON.stringify(outline.cage)}, ${JSON.stringify(outline.holes)})`,
+    "domain = glid.Domain.from_cage(cage)",
     "pose = glid.Pose(",
     `    handles=${listOf(pins.map(({ handle }) => listOf(handle.map(numberText))))},`,
     `    targets=${listOf(pins.map(({ target }) => listOf(target.map(numberText))))},`,

@@ -17,7 +17,7 @@ import { partNames } from "./part_names.js";
 export function takenOf({ title, parts }) {
   const names = namesOf(title, parts);
   return {
-    "Copy the pose as Python": ({ editing }) => copy(partsCode(editing.pins, title, parts)),
+    "Copy the pose as Python": ({ editing }) => copy(partsCode(editing.pins, parts)),
     "Download the picture": downloadPicture,
     "Download the maps and their proofs": async (page) => {
       const { solvers } = /** @type {JointSolving} */ (await page.solverOfShown());
@@ -32,16 +32,14 @@ export function takenOf({ title, parts }) {
 /**
  * The lines of each part; its map is in the dictionary `maps`.
  * @param {readonly Pin[]} pins
- * @param {string} title
  * @param {PartsData["parts"]} parts
  */
-export function partsCode(pins, title, parts) {
-  const names = namesOf(title, parts);
+export function partsCode(pins, parts) {
   const blocks = parts.map((part, i) => {
     const own = pins.filter(({ handle }) => handle[2] === i);
     const flat = own.map((pin) => ({ ...pin, handle: plain(pin.handle) }));
     const name = JSON.stringify(part.name);
-    const code = pythonCode(flat, part, `${names[i]}.png`);
+    const code = pythonCode(flat, part);
     return `${code}maps[${name}] = result.map\n`;
   });
   return ["maps = {}\n", ...blocks].join("\n");
