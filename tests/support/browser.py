@@ -24,7 +24,7 @@ import sys
 import threading
 import time
 import uuid
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from typing import Any, Literal
 
@@ -186,6 +186,14 @@ def bring_into_view(part: Locator) -> None:
     """
     while not part.evaluate(_SCROLL):
         pass
+
+
+def wait_until(page: Page, holds: Callable[[], bool], what: str, seconds: float = 30.0) -> None:
+    """Wait until something holds of which the page has no event, such as a picture's pixels."""
+    end = time.monotonic() + seconds
+    while not holds():
+        assert time.monotonic() < end, f"not in {seconds:g} s: {what}"
+        page.wait_for_timeout(50)
 
 
 def still_sliders(figure: Locator) -> list[str]:

@@ -170,7 +170,7 @@ def test_controls_and_overlays(open_notebook: OpenNotebook) -> None:
     for label in ("Cage", "Offset", "Certificate"):
         choose_view(page, label)
     book.wait_for("canvas.show_panels and canvas.show_cage and 'panels' in canvas.pane.scene.lines")
-    page.wait_for_timeout(500)
+    hand.wait_until_drawn()
     book.screenshot("editor-overlays")
     choose_view(page, "Picture")
     page.locator(".glid-legend-title", has_text="Certified σ₂").wait_for()

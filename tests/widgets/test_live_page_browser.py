@@ -18,7 +18,7 @@ from glid_nb import HarmonicMap, Motion
 from glid_nb.export import live_page_html
 
 from ..support import shapes
-from ..support.browser import ARTEFACTS, watched_page
+from ..support.browser import ARTEFACTS, wait_until, watched_page
 
 pytestmark = [pytest.mark.browser, pytest.mark.slow]
 
@@ -100,6 +100,14 @@ def downloads(page: Page, label: str, count: int) -> list[Download]:
 
 def shown(page: Page) -> np.ndarray:
     return imread(io.BytesIO(page.locator("#pad").screenshot()))[..., :3].astype(float)
+
+
+def still(page: Page) -> np.ndarray:
+    """What is shown, once nothing moves any more."""
+    before = shown(page)
+    while (now := shown(page)).tobytes() != before.tobytes():
+        before = now
+    return now
 
 
 def test_pins_are_dragged_and_the_shape_follows_certified(browser: Browser, tmp_path: Path) -> None:
@@ -208,8 +216,8 @@ def test_kept_poses_play_and_every_frame_is_certified(browser: Browser, tmp_path
         place(page, 0, 6.6)
         page.mouse.down()  # the first touch goes back to the pose that is edited
         page.mouse.up()
-        page.wait_for_timeout(200)
-        assert np.abs(shown(page) - moving).max() > 30
+        gone_back = lambda: np.abs(shown(page) - moving).max() > 30  # noqa: E731
+        wait_until(page, gone_back, "the edited pose is shown")
         page.get_by_role("button", name="Pose 1").click()
         page.wait_for_function(_SETTLED)
         page.get_by_role("button", name="Remove this pose").click()
@@ -264,8 +272,7 @@ def test_both_ways_to_draw_show_the_same(browser: Browser, tmp_path: Path) -> No
             movers.append(page.evaluate("document.documentElement.dataset.mover"))
             page.get_by_label("What is shown").select_option("Grid")
             page.mouse.move(5, 760)
-            page.wait_for_timeout(200)
-            pictures.append(shown(page)[100:650, 50:1100])
+            pictures.append(still(page)[100:650, 50:1100])
     assert movers[1] == "shader"
     difference = np.abs(pictures[0] - pictures[1]).max(axis=2)
     assert np.percentile(difference, 99) < 40

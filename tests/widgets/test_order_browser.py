@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from playwright.sync_api import Locator
 
-from ..support.browser import bring_into_view
+from ..support.browser import bring_into_view, wait_until
 from .conftest import OpenNotebook
 from .editor_page import Hand
 from .test_timeline_browser import Timeline
@@ -159,17 +159,18 @@ def test_in_a_motion_the_order_and_the_boundary_are_those_of_its_time(
         shares = (np.array(places) - [x, y]) / unit * [1, -1] / [500, 400] + 0.5
         return in_front(drawn, shares.tolist())
 
+    def wait_until_seen(right: bool) -> None:
+        wait_until(hand.page, lambda: seen() == [right] * 60, f"the right one in front: {right}")
+
     assert seen() == [False] * 60
     assert legend.inner_text() == "Certified σ₂ on the boundary"
     for time, right_in_front in ((0.1, True), (0.9, False), (0.2, True)):
         bring_into_view(timeline.root)
         timeline.scrub([time])
         assert timeline.time == pytest.approx(time, abs=0.02)
-        hand.page.wait_for_timeout(300)
-        assert seen() == [right_in_front] * 60
-        assert legend.inner_text() == "σ₂ on the boundary now"
+        wait_until_seen(right_in_front)
+        legend.get_by_text("σ₂ on the boundary now").wait_for()
         book.screenshot(f"order-at-{time}")
     hand.page.keyboard.press("Escape")
-    hand.page.wait_for_timeout(300)
-    assert seen() == [False] * 60
-    assert legend.inner_text() == "Certified σ₂ on the boundary"
+    wait_until_seen(False)
+    legend.get_by_text("Certified σ₂ on the boundary").wait_for()
