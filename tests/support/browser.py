@@ -141,6 +141,16 @@ _RUN_ONE = """(index) => {
   return window.jupyterapp.commands.execute('notebook:run-cell');
 }"""
 
+_SCROLL = """async (part) => {
+  const place = () => JSON.stringify(part.getBoundingClientRect());
+  for (let before = ''; before !== place(); ) {
+    before = place();
+    await new Promise(requestAnimationFrame);
+  }
+  part.scrollIntoViewIfNeeded();
+  return part.isConnected;
+}"""
+
 _RUN_ALL = "() => window.jupyterapp.commands.execute('notebook:run-all-cells')"
 
 
@@ -170,11 +180,12 @@ def launched_chromium() -> Iterator[Browser]:
 
 
 def bring_into_view(part: Locator) -> None:
-    """Scroll a part of a page into view, also if the page makes it anew meanwhile.
+    """Scroll a part of a page into view when it stands still, even if the page makes it anew.
 
-    Playwright's ``scroll_into_view_if_needed`` fails then.
+    Playwright's ``scroll_into_view_if_needed`` fails if that happens meanwhile.
     """
-    part.hover(trial=True, force=True)
+    while not part.evaluate(_SCROLL):
+        pass
 
 
 def still_sliders(figure: Locator) -> list[str]:

@@ -12,8 +12,9 @@ const modules = page.glidModules;
  *
  * @param {Model} proxy what anywidget hands out instead of the model
  */
-async function heard({ widget_manager: manager, get }) {
-  const id = get("_own_id");
+async function heard(proxy) {
+  const manager = proxy.widget_manager;
+  const id = proxy.get("_own_id");
   if (!manager?.has_model?.(id)) return; // another host than Jupyter
   const model = await manager.get_model(id);
   if (!model.comm_live) return; // there is no kernel
