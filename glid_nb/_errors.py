@@ -11,7 +11,8 @@ from pathlib import Path
 class InputError(ValueError):
     """Bad input, the only kind of error that is not a bug. The message says what to do.
 
-    ``plain`` is the message for users of the editor. It names controls, not options.
+    ``plain`` is the message for users of the editor. It names controls and pins, not options and
+    handles.
     """
 
     def __init__(self, message: str, plain: str | None = None) -> None:
@@ -33,6 +34,11 @@ class InputError(ValueError):
         return [*lines, f"{type(self).__name__}: {self}"]
 
 
+def plainly(error: Exception) -> str:
+    """What an error says to users of the editor."""
+    return error.plain if isinstance(error, InputError) else str(error)
+
+
 class IncompatibleVersionsError(InputError, AttributeError):
     """Installed libraries lack a required feature or do not fit together."""
 
@@ -49,12 +55,16 @@ def about(where: str | Path, kind: type[InputError] = InputFileError) -> Iterato
     try:
         yield
     except InputError as error:
-        text = str(error)
-        if not re.match(rf"{re.escape(str(where))}(: | (is|has|holds|must) )", text):
-            text = f"{where}: {text}"
-        raise kind(text).with_traceback(error.__traceback__) from None
+        texts = (_placed(where, text) for text in (str(error), error.plain))
+        raise kind(*texts).with_traceback(error.__traceback__) from None
     except RecursionError:  # the checks recurse into nested lists
         raise kind(f"{where}: its values are nested too deep") from None
+
+
+def _placed(where: str | Path, text: str) -> str:
+    """A message with ``where`` in front, unless it begins so."""
+    begins = re.match(rf"{re.escape(str(where))}(: | (is|has|holds|must) )", text)
+    return text if begins else f"{where}: {text}"
 
 
 def did_you_mean(name: str, known: Iterable[str]) -> str:

@@ -12,7 +12,7 @@ from glid_nb._runtime import double_precision
 from glid_nb.geometry import Domain, Triangulation, graded_panels, signed_area
 from glid_nb.harmonic import HarmonicMap, as_complex, basis_of, cauchy
 from glid_nb.methods.mesh.operators import MeshMethod, MeshProblem, flips
-from glid_nb.pose import Pose
+from glid_nb.pose import Pose, in_both
 from glid_nb.solvers import Inputs, MethodError, Status
 from glid_nb.solvers.discretisation import complex_basis
 from glid_nb.solvers.loop import Ending, Steps
@@ -21,7 +21,7 @@ Kind = Literal["rigid", "similarity"]
 
 # A point counts as on an edge if it is this close, relative to its distances from the edge's ends.
 _ON_EDGE = 1e-12
-_TAKEN = "mean value coordinates use the handles as their cage"
+_TAKEN = "mean value coordinates use the {}s as their cage"
 _FLAT = 1e-12  # smaller areas, relative to the square of the shape's longer side, count as 0
 
 
@@ -47,7 +47,7 @@ class LinearMethod(MeshMethod):
 
 @dataclass(frozen=True)
 class MovingLeastSquares(LinearMethod):
-    """The rigid motion that fits the handles best; it may fold (Schaefer et al. 2006)."""
+    """The rigid motion that fits the targets best; it may fold (Schaefer et al. 2006)."""
 
     name = "mls"
     label = "Moving least squares"
@@ -94,18 +94,21 @@ class HarmonicWeights(LinearMethod):
 
 @dataclass(frozen=True)
 class MeanValueCoordinates(LinearMethod):
-    """Mean value coordinates with the handles as cage; it may fold (Floater 2003)."""
+    """Mean value coordinates with the pinned points as cage; it may fold (Floater 2003)."""
 
     name = "mean-value"
     label = "Mean value coordinates"
 
     def check_handles(self, inputs: Inputs) -> None:
         points = inputs.pose.handles
+        taken = in_both(lambda named: _TAKEN.format(named.word))
         if len(points) < 3:
-            raise MethodError(f"{_TAKEN} and need at least 3 of them; there are {len(points)}")
+            few = f"and need at least 3 of them; there are {len(points)}"
+            raise MethodError(*(f"{text} {few}" for text in taken))
         polygon = points[_around(as_complex(points))]
         if abs(signed_area(polygon)) <= _FLAT * inputs.domain.cage.longer_side**2:
-            raise MethodError(f"{_TAKEN}, and these lie on one line; add a handle beside it")
+            line = ", and these lie on one line; add another beside it"
+            raise MethodError(*(text + line for text in taken))
 
     def images(self, problem: MeshProblem) -> Array:
         rest, order = problem.operators.rest, _around(as_complex(problem.inputs.pose.handles))
@@ -115,7 +118,7 @@ class MeanValueCoordinates(LinearMethod):
 
 @dataclass(frozen=True)
 class CauchyCoordinates(LinearMethod):
-    """The smoothest conformal map through the handles; it may fold (Weber et al. 2009)."""
+    """The smoothest conformal map through the targets; it may fold (Weber et al. 2009)."""
 
     name = "cauchy"
     label = "Cauchy coordinates"

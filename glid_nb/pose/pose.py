@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike
 from glid_nb._arrays import Array, Rebuilt, frozen, number_pairs, real_array
 from glid_nb._errors import InputError
 from glid_nb.geometry import Domain, place
+from glid_nb.pose.naming import in_both
 from glid_nb.pose.placement import beside, misplaced
 from glid_nb.pose.stiffness import FARTHEST, Stiffness
 
@@ -79,9 +80,7 @@ class Pose(Rebuilt):
         vars(self).update({name: _checked_points(xy, name) for name, xy in points.items()})
         n_handles, n_targets = len(self.handles), len(self.targets)
         if n_handles != n_targets:
-            are = "is 1 handle" if n_handles == 1 else f"are {n_handles} handles"
-            targets = f"{n_targets} target{'' if n_targets == 1 else 's'}"
-            raise PoseError(f"there {are} but {targets}; give one target per handle")
+            raise PoseError(*in_both(lambda named: _miscounted(n_handles, n_targets, named.word)))
         more = {"depths": depths, "angles": angles, "scales": scales, "weights": weights}
         vars(self).update({name: _checked_numbers(name, v, n_handles) for name, v in more.items()})
         vars(self)["names"] = _checked_names(names, n_handles)
@@ -89,8 +88,7 @@ class Pose(Rebuilt):
         known: dict[tuple[float, ...], int] = {}
         for j, handle in enumerate(map(tuple, self.handles.tolist())):
             if (i := known.setdefault(handle, j)) != j:
-                both = f"handles {i} and {j} are the same point {place(handle)}"
-                raise PoseError(f"{both}; remove one")
+                raise _coincident(i, j, handle)
 
     def __len__(self) -> int:
         return len(self.handles)
@@ -100,10 +98,11 @@ class Pose(Rebuilt):
         i = _first_outside(domain, self.handles.tobytes())
         if i is not None:
             where, apart = beside(domain.cage, self.handles[i])
-            what = f"handle {i} at {where} lies outside the domain, by {apart:.2g} units"
-            why = misplaced(domain.cage, self.handles)
+            what = f"at {where} lies outside the domain, by {apart:.2g} units"
             remedy = "move it inside and out of its holes, or remove it"
-            raise PoseError(f"{what}; {remedy}{'. ' * bool(why)}{why}")
+            message, plain = in_both(lambda named: f"{named(i)} {what}; {remedy}")
+            why = misplaced(domain.cage, self.handles)  # converts arrays, which an editor has not
+            raise PoseError(f"{message}{'. ' * bool(why)}{why}", plain)
 
     def with_targets(self, targets: ArrayLike) -> Pose:
         """The same handles with other targets."""
@@ -148,6 +147,17 @@ class Pose(Rebuilt):
                 raise PoseError(f'the pose lacks the key "{key}"')
         more = {name: data.get(name) for name in (*_MORE, "names", "stiffness")}
         return cls(data["handles"], data["targets"], **more)
+
+
+def _miscounted(n_handles: int, n_targets: int, word: str) -> str:
+    are = f"is 1 {word}" if n_handles == 1 else f"are {n_handles} {word}s"
+    targets = f"{n_targets} target{'' if n_targets == 1 else 's'}"
+    return f"there {are} but {targets}; give one target per {word}"
+
+
+def _coincident(i: int, j: int, at: Any) -> PoseError:
+    same = f"are the same point {place(at)}; remove one"
+    return PoseError(*in_both(lambda named: f"{named(i, j)} {same}"))
 
 
 @functools.lru_cache(maxsize=32)

@@ -21,7 +21,7 @@ from glid_nb.geometry import Cage, Domain, place
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.motion.easing import Easing
 from glid_nb.motion.settings import Repeat
-from glid_nb.pose import DEEPEST, PER_HANDLE, Pose, Stiffness, misplaced
+from glid_nb.pose import DEEPEST, PER_HANDLE, Pose, Stiffness, in_both, misplaced
 from glid_nb.session.document import NamedPose, check_room
 from glid_nb.session.edit_state import EditError, EditState
 from glid_nb.session.parts import everywhere, over_parts
@@ -46,7 +46,7 @@ def add_handles(state: EditState, points: ArrayLike, targets: ArrayLike | None =
         if not inside:
             why = misplaced(cage, points)
             what = f"{where} lies outside the shape; choose a place on it"
-            raise EditError(f"{what}{'. ' * bool(why)}{why}")
+            raise EditError(f"{what}{'. ' * bool(why)}{why}", what)
         gaps = np.linalg.norm(np.concatenate([pose.handles, points[:i]]) - point, axis=1)
         if (gaps < _LEAST_DISTANCE * cage.longer_side).any():
             raise EditError(f"{where} is pinned already")
@@ -107,8 +107,13 @@ def set_depths(state: EditState, indices: Iterable[int], depths: ArrayLike) -> E
 
 def name_pin(state: EditState, index: int, name: str) -> EditState:
     """Give a handle a name."""
-    [chosen], names = _checked_indices(state, [index]), state.pose.names.tolist()
-    names[chosen] = name
+    return name_pins(state, [index], name)
+
+
+def name_pins(state: EditState, indices: Iterable[int], name: str) -> EditState:
+    """Give some handles the same name."""
+    chosen, names = _checked_indices(state, indices), state.pose.names.tolist()
+    names = [name if i in chosen else old for i, old in enumerate(names)]
     return state.with_current(replace(state.current, pose=replace(state.pose, names=names)))
 
 
@@ -431,9 +436,10 @@ def _checked_indices(state: EditState, indices: Iterable[int]) -> Array:
         chosen = np.array([operator.index(i) for i in indices], dtype=int)
     except TypeError as error:
         raise EditError(f"handles are named by whole numbers, not by {indices!r:.60}") from error
-    for i in chosen:
-        if not 0 <= i < len(state.pose):
-            raise EditError(f"there is no handle {i}; the pose has {len(state.pose)}")
+    missing = chosen[(chosen < 0) | (chosen >= len(state.pose))]
+    if missing.size:
+        has = f"the pose has {len(state.pose)}"
+        raise EditError(*in_both(lambda named: f"there is no {named(missing[0])}; {has}"))
     return chosen
 
 

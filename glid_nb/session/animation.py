@@ -271,7 +271,8 @@ class Animation(Observed):
     def _prove(self, task: EditState, worker: LatestWins[EditState]) -> None:
         spans, told = _all_spans(task), time.monotonic()
         for key, shape in zip(task.keys, task.shapes, strict=True):
-            reasons = [self.deformation.why_unsolved(pose) for pose in shape.poses]
+            why = map(self.deformation.why_unsolved, shape.poses)
+            reasons = [None if error is None else error.plain for error in why]
             for i, span in proved_spans(shape, reasons, worker):
                 spans[key] = (*spans[key][:i], span, *spans[key][i + 1 :])
                 if time.monotonic() - told > _INTERVAL:
@@ -418,7 +419,7 @@ def _span(motion: Motion, index: int, span: Span) -> Span:
     try:
         pieces, proofs = motion.interval(index)
     except MotionError as error:
-        return span._replace(status="refused", reason=str(error))
+        return span._replace(status="refused", reason=error.plain)
     sigma2 = tuple(proof.sigma2_lower for proof in proofs)
     failing = next((i for i, proof in enumerate(proofs) if not proof.certified), None)
     if failing is None:

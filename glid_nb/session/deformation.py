@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike
 
 from glid_nb._arguments import check_type
 from glid_nb._arrays import Array
+from glid_nb._errors import plainly
 from glid_nb.certificate import Certificate, certificate_of
 from glid_nb.energies import Energy
 from glid_nb.geometry import Domain
@@ -166,10 +167,12 @@ class Deformation(Undoable[EditState], AbstractContextManager["Deformation"]):
 
     clear_handles = _step(actions.clear_handles)
     move_target = _step(actions.move_target)
+    move_targets = _step(actions.move_targets)
     nudge = _step(actions.nudge)
     set_depths = _step(actions.set_depths)
     bring_forward = _step(actions.bring_forward)
     name_pin = _step(actions.name_pin)
+    name_pins = _step(actions.name_pins)
     set_pins = _step(actions.set_pins)
     mark_pins = _step(actions.mark_pins)
     group_pins = _step(actions.group_pins)
@@ -406,11 +409,11 @@ class Deformation(Undoable[EditState], AbstractContextManager["Deformation"]):
             wanted = [shape.current for shape in state.shapes] if only_current else poses
             reasons = [reason for pose in wanted if (reason := self.why_unsolved(pose)) is not None]
         if reasons:
-            raise EditError("; ".join(reasons))
+            raise EditError("; ".join(map(str, reasons)), "; ".join(one.plain for one in reasons))
         return state
 
-    def why_unsolved(self, pose: NamedPose) -> str | None:
-        """Why a pose is not solved, in words; None if it is solved."""
+    def why_unsolved(self, pose: NamedPose) -> EditError | None:
+        """Why a pose is not solved; None if it is solved."""
         with self.locked():
             name, error = f"the pose {pose.name!r}", self._failures.get(pose)
             if part := next((part for part in self.state.parts if pose in part.poses), None):
@@ -419,16 +422,19 @@ class Deformation(Undoable[EditState], AbstractContextManager["Deformation"]):
                 return None
             if not pose.method.certified:
                 what = f"is deformed by {pose.method.label}, which gives no certified map"
-                return f"{name} {what}; choose another method for it"
+                return EditError(f"{name} {what}; choose another method for it")
             if error is None and pose is self.state.current:
                 error = self._error
             if error is not None:
-                return f"{name} could not be solved: {error}"
+                what = f"{name} could not be solved"
+                return EditError(f"{what}: {error}", f"{what}: {plainly(error)}")
             if self._paused:
-                return f"{name} is not solved, because the solver is paused; resume it"
-            if self._closed:
-                return f"{name} was not solved before it was closed; open it again"
-            return f"{name} is not solved yet; solve it first"
+                what = "is not solved, because the solver is paused; resume it"
+            elif self._closed:
+                what = "was not solved before it was closed; open it again"
+            else:
+                what = "is not solved yet; solve it first"
+            return EditError(f"{name} {what}")
 
     def settled(self) -> bool:
         """Whether no solve is running or waiting."""

@@ -30,7 +30,7 @@ def paste_pose(state: EditState, text: str) -> EditState:
         pose = Pose.from_dict(data)
         box = np.array(data.get(_BOX, _box(state.domain.cage)), dtype=float)
     except (ValueError, TypeError, RecursionError) as error:
-        why = f" ({error})" if isinstance(error, PoseError) else ""
+        why = f" ({error.plain})" if isinstance(error, PoseError) else ""
         raise EditError(_NO_POSE + why) from error
     if box.shape != (2, 2) or not (box[1] > box[0]).all() or not np.isfinite(box).all():
         raise EditError(f"{_BOX} must be the lower and the upper corner of a box, not {box}")

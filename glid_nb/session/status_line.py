@@ -3,15 +3,15 @@
 from dataclasses import dataclass
 from typing import Literal
 
+from glid_nb._errors import plainly
 from glid_nb.certificate import Certificate, certificate_of
 from glid_nb.certificate.rounding import rounded_down, rounded_up
 from glid_nb.geometry import MeshMap
 from glid_nb.harmonic import HarmonicMap
-from glid_nb.pose import Pose
+from glid_nb.pose import PINS, Pose
 from glid_nb.session.edit_state import Frame, Moment
 from glid_nb.solvers import MethodError, Status, misses
 
-PINS = misses.Naming("pin", 1)  # as the editor's list of pins names them
 Level = Literal["idle", "working", "good", "blocked", "error"]
 
 
@@ -31,8 +31,8 @@ def describe(moment: Moment) -> StatusLine:
     state, frame = moment.state, moment.frame
     if (error := moment.error) is not None:
         if isinstance(error, MethodError):
-            return StatusLine("blocked", str(error))
-        text = str(error) or type(error).__name__
+            return StatusLine("blocked", error.plain)
+        text = plainly(error) or type(error).__name__
         return StatusLine("error", f"The solver failed: {text} The last certified map is shown.")
     if moment.busy and moment.paused:
         return StatusLine("idle", f"Paused{_bound(frame)}")

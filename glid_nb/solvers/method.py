@@ -12,7 +12,7 @@ from glid_nb.certificate import Certificate, certificate_of
 from glid_nb.energies import Energy
 from glid_nb.geometry import Domain
 from glid_nb.harmonic import HarmonicMap
-from glid_nb.pose import DeformationMap, Pose
+from glid_nb.pose import DeformationMap, Pose, in_both
 from glid_nb.solvers.options import Options
 from glid_nb.solvers.result import Callback, Result
 
@@ -119,10 +119,10 @@ class Method:
         if pose.stiffness and not (self.stiffens and self.certified):
             raise MethodError(f"{method} does not support stiff areas; clear them, or {other}")
         if pose.oriented.any() and not self.certified:
-            cannot = f"{method} cannot hold the angle or the scale of handle"
-            raise MethodError(
-                f"{cannot} {int(pose.oriented.argmax())}; leave them free, or {other}"
-            )
+            first = int(pose.oriented.argmax())
+            cannot = f"{method} cannot hold the angle or the scale of"
+            what = in_both(lambda named: f"{cannot} {named(first)}; leave them free, or {other}")
+            raise MethodError(*what)
 
     def _import(self, package: str) -> None:
         distribution = _DISTRIBUTIONS.get(package, package)

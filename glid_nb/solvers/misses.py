@@ -1,7 +1,6 @@
 """How far handles are from their targets, and which conflict between targets may be the cause."""
 
 import itertools
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -10,7 +9,7 @@ from scipy.spatial import Delaunay, QhullError
 from glid_nb._arrays import Array, frozen
 from glid_nb.geometry import MeshMap
 from glid_nb.harmonic import HarmonicMap, as_complex
-from glid_nb.pose import Pose
+from glid_nb.pose import HANDLES, Naming, Pose
 
 NOTABLE = 0.01  # in twentieths of the cage's longer side; a smaller distance is not visible
 # A similarity explains the targets if its residual is below two limits.
@@ -21,22 +20,6 @@ _FITS, _BETTER = 0.1, 0.1
 # The same holds with handles and targets exchanged.
 _TOGETHER = 1e-3
 _MOST = 12  # handles that are compared in pairs: the worst one and others that miss
-
-
-@dataclass(frozen=True)
-class Naming:
-    """How sentences name handles: by a word, and by numbers from ``first`` on."""
-
-    word: str
-    first: int
-
-    def __call__(self, *indices: int) -> str:
-        """For example "handle 3", "handles 0 and 3" or "handles 0, 2 and 3"."""
-        *others, last = (str(self.first + index) for index in indices)
-        return f"{self.word}s {', '.join(others)} and {last}" if others else f"{self.word} {last}"
-
-
-HANDLES = Naming("handle", 0)
 
 
 def misses_of(map: HarmonicMap | MeshMap, pose: Pose) -> Array:

@@ -47,7 +47,7 @@ class Options:
     """The matrix of Newton's method. "adaptive" uses the exact Hessian where it is positive
     definite, else the projected one (Section 7). "projected" always uses the projected one, as in
     the paper. "exact" never projects and stops at an indefinite Hessian."""
-    p2p_weight: float = option(1e5, "How strongly handles are held at targets", "Weight λ", above=0)
+    p2p_weight: float = option(1e5, "How strongly targets attract the shape", "Weight λ", above=0)
     """``lambda`` of (20), positive, for lengths in twentieths of the cage's longer side. So a shape
     deforms the same way in every unit of length. :meth:`lambda_on` gives ``lambda`` in the cage's
     own units. Methods with certified maps use at most 2.5e10, because rounding would hide the

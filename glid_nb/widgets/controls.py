@@ -119,5 +119,5 @@ class EditControls(ClosingWidget, ipywidgets.VBox):
             act()
             self.refusal.value = ""
         except InputError as error:
-            self.refusal.value = paragraph(str(error), REFUSED)
+            self.refusal.value = paragraph(error.plain, REFUSED)
             self._follow()

@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from PIL import Image
 
 from glid_nb import export
+from glid_nb._errors import plainly
 from glid_nb._jax import once_loaded
 from glid_nb._runtime import enable_compilation_cache
 from glid_nb.certificate import Certificate
@@ -501,6 +502,8 @@ class Editor(ClosingWidget, ipywidgets.VBox):
         )
         ipywidgets.link((monitor, "shown"), (plots_shown, "value"))
         proof = ipywidgets.VBox([monitor.verdict, plots_shown, self._boxes["solver"]])
+        for section in (self._boxes["files"], proof):
+            section.add_class("glid-whole")
         pins = ipywidgets.VBox([self.parts, self._boxes["pins"]])
         sections = [pins, *(self._boxes[name] for name in names[1:-1]), proof]
         titles = "Pin", "Motion", "Files", "Proof"
@@ -541,7 +544,7 @@ class Editor(ClosingWidget, ipywidgets.VBox):
         error, left, path = self.model.save_error, self.model.left_path, self.model.autosave_path
         if error is not None:
             kept = isinstance(error, KeptWorkError)
-            text = html.escape(str(error) if kept else _NOT_SAVED.format(error=error))
+            text = html.escape(str(error) if kept else _NOT_SAVED.format(error=plainly(error)))
             self.unsaved.value = f'<p class="glid-unsaved">{text}</p>'
         self.unsaved.layout.display = "none" if error is None else "block"
         if left is None or path is None or path == self._told_path:

@@ -8,7 +8,7 @@ from typing import Any
 import ipywidgets
 
 from glid_nb import export as to
-from glid_nb._errors import InputError
+from glid_nb._errors import InputError, plainly
 from glid_nb._files import read_file, write_atomically
 from glid_nb._json import json_text, parse_json
 from glid_nb._runtime import data_directory
@@ -368,7 +368,7 @@ class MotionExport(ClosingWidget, ipywidgets.HBox):
             stopped = worker.cancelled or not files
             self._say("Stopped; nothing was written." if stopped else deliver(files), "")
         except (OSError, ValueError) as error:  # messages for the user; other errors are bugs
-            self._say(str(error), REFUSED)
+            self._say(plainly(error), REFUSED)
         finally:
             self._show(False)
 

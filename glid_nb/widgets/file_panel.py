@@ -7,11 +7,10 @@ from datetime import datetime
 from pathlib import Path
 from typing import Any
 
-import anywidget
 import ipywidgets
 import traitlets
 
-from glid_nb._errors import InputError
+from glid_nb._errors import InputError, plainly
 from glid_nb._files import zipped
 from glid_nb.export.formats import FORMATS, MOTION_FORMATS
 from glid_nb.imaging.read import MAX_SIDE, png
@@ -22,6 +21,7 @@ from glid_nb.session.editor_model import EditorModel, open_document
 from glid_nb.session.script import python_code
 from glid_nb.widgets import exporting
 from glid_nb.widgets.controls import REFUSED, button, heading, paragraph
+from glid_nb.widgets.page_widget import PageWidget
 
 _SUFFIX = ".glid"
 DOUBLE_CLICK = 0.5  # seconds
@@ -91,7 +91,7 @@ class Asking:
                 made.description, made.button_style = question, "warning"
                 self._say(error.plain, REFUSED)
             except (OSError, ValueError) as error:  # messages for the user; other errors are bugs
-                self._say(str(error), REFUSED)
+                self._say(plainly(error), REFUSED)
 
         made = button(label, icon, tooltip, click)
         return made
@@ -151,10 +151,10 @@ class OpenPanel(Asking, ipywidgets.VBox):
         super().__init__([row, self.message], layout={"padding": "0 0 2em 2em"})
 
 
-class Clipboard(anywidget.AnyWidget):
+class Clipboard(PageWidget):
     """An invisible widget through which the page copies text and downloads files."""
 
-    _esm = bundle("clipboard")
+    _script = traitlets.Unicode(bundle("clipboard")).tag(sync=True)
 
     def __init__(self) -> None:
         super().__init__(layout={"display": "none"})

@@ -62,7 +62,7 @@ class Gestures:
                     if kind not in ("move", "up", "cancel"):
                         refusal = None
                 except InputError as error:
-                    refusal = getattr(error, "plain", str(error))
+                    refusal = error.plain
                     self._press = None
         return refusal
 

@@ -2,7 +2,6 @@
 
 from typing import Any
 
-import anywidget
 import numpy as np
 import traitlets
 
@@ -18,11 +17,12 @@ from glid_nb.page import bundle, coefficients_of, pins_of
 from glid_nb.pose import Pose
 from glid_nb.widgets.closing import ClosingWidget, one_a_cell
 from glid_nb.widgets.pad import answer_during_cells
+from glid_nb.widgets.page_widget import PageWidget
 
 _KERNEL = "kernel"  # who has changed the pose, if no view has; live_editor/main.js knows it too
 
 
-class LiveEditor(ClosingWidget, anywidget.AnyWidget):
+class LiveEditor(ClosingWidget, PageWidget):
     """A picture whose pins are dragged, solved and proved by the page itself.
 
     A drag never waits for the kernel or the network, and it goes on while a cell runs. It is one
@@ -43,7 +43,6 @@ class LiveEditor(ClosingWidget, anywidget.AnyWidget):
     >>> live.close()
     """
 
-    _esm = bundle("loader")
     _script = traitlets.Unicode(bundle("live_editor")).tag(sync=True)
 
     page = traitlets.Unicode("", read_only=True).tag(sync=True)

@@ -10,17 +10,17 @@ import traitlets
 
 from glid_nb.certificate import certificate_of
 from glid_nb.energies import isometry_energy
-from glid_nb.figures.style import BLUE, FAINT, GREEN, GREY, ORANGE, VERMILION
+from glid_nb.figures.style import FAINT, GREY
 from glid_nb.session.deformation import Deformation
 from glid_nb.session.edit_state import Moment
 from glid_nb.session.first_minute import FirstMinute
 from glid_nb.session.status_line import StatusLine, describe
 from glid_nb.session.worker import LatestWins, weakly
 from glid_nb.widgets.closing import ClosingWidget
+from glid_nb.widgets.status_bar import StatusBar
 
 INTERVAL = 0.1  # least number of seconds between two drawings of the plots
 REST = 1.0  # seconds without a change before work of low priority is done
-_TONES = {"idle": GREY, "working": BLUE, "good": GREEN, "blocked": ORANGE, "error": VERMILION}
 _RATE_WINDOW = 1.0  # seconds over which frames are counted
 PLOTS = {  # for each plot: what it shows, and the section of the paper
     "Energy": (
@@ -86,7 +86,7 @@ class SolverMonitor(ClosingWidget, ipywidgets.VBox):
     ) -> None:
         self.deformation = deformation  # the model of this view
         self._first_minute = first_minute
-        self.line = ipywidgets.HTML().add_class("glid-foot")  # the status line
+        self.line = StatusBar()
         self.verdict = ipywidgets.HTML().add_class("glid-verdict")
         """What is proved, in plain words, then the status line."""
         empty, size = _placeholder(width, height), {"width": width, "height": height}
@@ -133,7 +133,7 @@ class SolverMonitor(ClosingWidget, ipywidgets.VBox):
                 return
             moment = self.deformation.moment
             status = self._status(moment)
-            self.line.value = _line(status, self._hint(moment, status))
+            self.line.show(status, self._hint(moment, status))
             self.verdict.value = _verdict(status)
         begun, moves = self.deformation.begun, moment.busy or moment.dragged
         now_rests = begun and not moves and time.monotonic() - self._changed > REST
@@ -186,23 +186,6 @@ class SolverMonitor(ClosingWidget, ipywidgets.VBox):
             if not self._closed:
                 self.image.format, self.image.value = "png", picture
         self._drawn = new
-
-
-def _line(status: StatusLine, hint: str) -> str:
-    """The status in one line: what is proved first, if all is well. Then what to try next."""
-    text = f"<span>{html.escape(status.text)}</span>"
-    next_ = html.escape(hint)
-    advice = f'<span class="glid-next" role="status" title="{next_}">{next_}</span>' if hint else ""
-    if status.level == "good" and status.proved:
-        detail = f'<span class="glid-detail">{html.escape(status.text)}</span>'
-        text = f"<b>{html.escape(status.proved)}</b> {detail}"
-    return (
-        f'<div style="display:flex;align-items:center;gap:2px 8px;line-height:1.4" '
-        f'title="{html.escape(status.text)}">'
-        f'<span class="glid-state" style="flex:none;width:10px;height:10px;border-radius:5px;'
-        f'background:{_TONES[status.level]}"></span>'
-        f'<span class="glid-said">{text}</span>{advice}</div>'
-    )
 
 
 def _verdict(status: StatusLine) -> str:

@@ -41,6 +41,9 @@ class Overlay:
     """The shown value as a function of ``|f_z|`` and ``|f_zbar|``; None if nothing is computed."""
     start: float = 0.0  # the value of an isometry
     ends: tuple[float, ...] = (1.0,)  # possible ends of the colour map, the narrowest range first
+    limits: tuple[float, ...] = ()
+    """Ends beyond which no map without folds has values. At another end, the last colour is also
+    that of all values beyond it."""
 
 
 OVERLAYS: dict[str, Overlay] = {
@@ -49,8 +52,12 @@ OVERLAYS: dict[str, Overlay] = {
     "sigma1": Overlay(
         2, "Stretch σ₁", lambda r, g: np.maximum(r + g, 1), 1.0, (1.25, 1.5, 2.0, 3.0, 5.0, 10.0)
     ),
-    "sigma2": Overlay(3, "Stretch σ₂", lambda r, g: np.minimum(r - g, 1), 1.0, (0.8, 0.5, 0.0)),
-    "k": Overlay(4, "Dilatation k", lambda r, g: g / np.maximum(r, 1e-6), ends=(0.1, 0.2, 0.5, 1)),
+    "sigma2": Overlay(
+        3, "Stretch σ₂", lambda r, g: np.minimum(r - g, 1), 1.0, (0.8, 0.5, 0.0), (0.0,)
+    ),
+    "k": Overlay(
+        4, "Dilatation k", lambda r, g: g / np.maximum(r, 1e-6), 0.0, (0.1, 0.2, 0.5, 1), (0, 1)
+    ),
     "energy": Overlay(5, "Energy density"),
 }
 """The overlays by the values of ``DeformCanvas.overlay``. That of "energy" depends on the energy.
@@ -70,7 +77,7 @@ def _overlay(name: str, energy: Energy) -> Overlay:
     least = isometry_energy(energy)
     ends = tuple(least + max(least, 1.0) * end for end in _ENERGY_ENDS)
     values = None if energy.shader is None else density
-    return replace(OVERLAYS[name], values=values, start=least, ends=ends)
+    return replace(OVERLAYS[name], values=values, start=least, ends=ends, limits=(least,))
 
 
 def color_range(
@@ -96,12 +103,24 @@ def legend(name: str, energy: Energy, range_: tuple[float, float]) -> dict[str, 
     """The colour bar for the page; empty if the overlay has none."""
     if OVERLAYS[name].number < 2 or (name == "energy" and energy.shader is None):
         return {}
-    title, ticks = OVERLAYS[name].label, _ticks(*range_, 5 if name == "energy" else 3)
+    overlay, count = _overlay(name, energy), 5 if name == "energy" else 3
     about = "Colours of the shape: pale where nothing is distorted, dark where most is"
-    return {"title": title, "colors": list(COLORS), "ticks": ticks, "about": about}
+    return {
+        "title": overlay.label,
+        "colors": list(COLORS),
+        "ticks": _ticks(*range_, overlay.limits, count),
+        "about": about,
+    }
 
 
-def _ticks(low: float, high: float, count: int) -> list[str]:
-    """Labels at equal distances, as many as fit beside each other."""
+def _ticks(low: float, high: float, limits: tuple[float, ...], count: int) -> list[str]:
+    """Labels at equal distances, as many as fit beside each other. Those of the ends say which
+    values share their colours."""
     texts = [f"{float(f'{value:.3g}'):g}" for value in np.linspace(low, high, count)]
-    return texts if len("".join(texts)) <= _MOST_DIGITS else _ticks(low, high, count - 1)
+    before, after = ("≤ ", "≥ ") if low < high else ("≥ ", "≤ ")
+    if low not in limits:
+        texts[0] = before + texts[0]
+    if high not in limits:
+        texts[-1] = after + texts[-1]
+    fits = len("".join(texts)) <= _MOST_DIGITS
+    return texts if fits else _ticks(low, high, limits, count - 1)

@@ -3,16 +3,15 @@
 from collections.abc import Callable, Sequence
 from typing import Any
 
-import anywidget
 import ipywidgets
 import traitlets
 
-from glid_nb.page import bundle
 from glid_nb.session.model import Observed
 from glid_nb.widgets.closing import ClosingWidget
+from glid_nb.widgets.page_widget import PageWidget
 
 
-class Pad(ClosingWidget, anywidget.AnyWidget):
+class Pad(ClosingWidget, PageWidget):
     """A picture on the page that receives pointers and keys: the base class of the two canvases.
 
     The page (``page/js/pad``) sends ``{"view": v, "events": [...]}``, one batch at a time. It waits
@@ -21,8 +20,6 @@ class Pad(ClosingWidget, anywidget.AnyWidget):
     a number ``seq``, what :class:`~glid_nb.widgets.gestures.Gestures` reads, and, if it is
     ``buffered``, its ``data``.
     """
-
-    _esm = bundle("loader")  # loads `_script`, a trait of each class
 
     picture_size = traitlets.List(traitlets.Int(), []).tag(sync=True)
     """Width and height of the picture in its pixels; empty if nobody asks for pixels."""

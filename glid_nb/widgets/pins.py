@@ -13,6 +13,7 @@ from glid_nb.session.edit_state import EditError
 from glid_nb.session.pin_marks import PinMark, switched
 from glid_nb.widgets.controls import EditControls, button, toggle
 from glid_nb.widgets.row_list import Row, RowList, Switch
+from glid_nb.widgets.shared import show_powers, show_texts
 
 _NOTHING = Pose([(0, 0)], [(0, 0)])  # shown in the fields while nothing is selected
 # For each field: what to type, the limits, and whether an empty field means free.
@@ -20,14 +21,18 @@ _PLACE = "a coordinate, such as 7.5", -1e9, 1e9, False
 _DEPTH = f"a depth from {-DEEPEST:g} to {DEEPEST:g}", -DEEPEST, DEEPEST, False
 _ANGLE = "an angle in degrees, such as 30", -1e9, 1e9, True
 _SCALE = "a scale from {:g} to {:g}, such as 1.5".format(*SCALES), *SCALES, True
+_NAME, _FREE = "name", "free"  # what empty fields say
+_WEIGHT = "How firmly the pin is held: soft to the left, firm to the right"
 
 
 class PinBar(EditControls):
-    """The list of pins, the numbers of the last selected pin, and buttons for all selected pins.
+    """The list of pins, and numbers and buttons for all selected pins.
 
     The list says which pins are locked, hidden or grouped, and has an eye and a padlock for each.
     The buttons below it lock, hide, group and remove all selected pins. The numbers are target,
-    angle (degrees), scale, weight and depth. An empty angle or scale is free.
+    angle (degrees), scale, weight and depth. An empty angle or scale is free. Where several pins
+    are selected, a field shows what all of them have, else "mixed". What is typed holds for all;
+    locked pins keep their numbers, except for the depth.
     """
 
     def __init__(self, deformation: Deformation, **kwargs: Any) -> None:
@@ -45,7 +50,9 @@ class PinBar(EditControls):
         self._moving = [*numbers[:-1], self.weight, self.remove, self.release]
         marks = _in_words(self.lock, self.hide, self.group, self.ungroup)
         buttons = _in_words(self.remove, self.release, self.mirror, self.reset)
-        controls = [marks, self.name, *numbers, order, self.weight, buttons]
+        self.count = ipywidgets.Label().add_class("glid-wide")
+        """How many pins are selected; hidden if there are fewer than two."""
+        controls = [marks, self.count, self.name, *numbers, order, self.weight, buttons]
         numbers_box = ipywidgets.GridBox(controls).add_class("glid-pin")
         super().__init__(deformation, [self.list, numbers_box], **kwargs)
         self.name.add_class("glid-wide")
@@ -75,8 +82,8 @@ class PinBar(EditControls):
     def _add_fields(self) -> None:
         full = ipywidgets.Layout(width="auto")
         late: dict[str, Any] = {"continuous_update": False, "layout": full}
-        tip = "The selected pin's name"
-        self.name = ipywidgets.Text(placeholder="name", tooltip=tip, **late)
+        tip = "The name of the selected pins"
+        self.name = ipywidgets.Text(placeholder=_NAME, tooltip=tip, **late)
         late["style"] = {"description_width": "50px"}
 
         def field(name: str, tip: str, **more: Any) -> ipywidgets.Text:
@@ -87,16 +94,15 @@ class PinBar(EditControls):
         self.x, self.y = (field(name, "Target") for name in "xy")
         tip = "Where parts overlap, those near pins of greater depth are in front"
         self.depth = field("Depth", tip)
-        free: Any = {"placeholder": "free"}
+        free: Any = {"placeholder": _FREE}
         tip = "By how much the shape is {} at the pin; empty: free ({}, X)".format
         self.angle = field("Angle °", tip("turned", "&lt; and &gt;"), **free)
         self.scale = field("Scale", tip("scaled", "+ and -"), **free)
         # The page writes these while a pin is dragged (page/js/canvas/followed.js).
         for name in ("x", "y", "angle", "scale"):
             getattr(self, name).add_class(f"glid-number-{name}")
-        tooltip = "How firmly the pin is held: soft to the left, firm to the right"
         scale: Any = {"min": -6, "max": 2, "step": 0.25, "value": 1, "readout_format": ".2g"}
-        scale |= {"tooltip": tooltip, "layout": full, "continuous_update": False}
+        scale |= {"tooltip": _WEIGHT, "layout": full, "continuous_update": False}
         scale["style"] = {"description_width": "50px"}
         self.weight = ipywidgets.FloatLogSlider(description="Weight", base=10, **scale)
 
@@ -105,11 +111,12 @@ class PinBar(EditControls):
             model.set_pins(self._unlocked(), **numbers)
 
         def move(axis: int, text: str) -> None:
-            [target] = model.pose.targets[[model.selection[-1]]].tolist()
-            target[axis] = _number(text, *_PLACE)
-            model.move_target(model.selection[-1], target)
+            moved = self._unlocked()
+            targets = model.pose.targets[moved]
+            targets[:, axis] = _number(text, *_PLACE)
+            model.move_targets(moved, targets)
 
-        self._bind(self.name, lambda name: model.name_pin(model.selection[-1], name))
+        self._bind(self.name, lambda name: model.name_pins(model.selection, name))
         self._bind(self.x, lambda text: move(0, text))
         self._bind(self.y, lambda text: move(1, text))
         self._bind(self.angle, lambda a: set_pins(angles=wrapped(np.radians(_number(a, *_ANGLE)))))
@@ -184,19 +191,28 @@ class PinBar(EditControls):
         self.lock.value = bool(chosen) and all(mark.locked for mark in chosen)
         self.hide.value = bool(chosen) and all(mark.hidden for mark in chosen)
         self.group.disabled = len(chosen) < 2
+        self.count.value = _counted(chosen)
+        self.count.layout.display = None if len(chosen) > 1 else "none"
         self.ungroup.disabled = not any(mark.group for mark in chosen)
-        if chosen and chosen[-1].locked:
+        if chosen and all(mark.locked for mark in chosen):
             for control in self._moving:
                 control.disabled = True
 
     def _show_numbers(self, pose: Pose, selection: Sequence[int]) -> None:
-        shown = pose.only([selection[-1]]) if selection else _NOTHING
-        places = (*shown.targets[0], *shown.depths)
-        self.x.value, self.y.value, self.depth.value = (f"{v.round(3) + 0.0:.8g}" for v in places)
-        [self.name.value] = shown.names.tolist()
-        self.angle.value = _free_or(np.degrees(shown.angles[0]))
-        self.scale.value = _free_or(shown.scales[0])
-        self.weight.value = float(shown.weights[0])
+        shown = pose.only(list(selection)) if selection else _NOTHING
+        places = (*shown.targets.T, shown.depths)
+        for field, numbers in zip((self.x, self.y, self.depth), places, strict=True):
+            show_texts(field, [f"{number.round(3) + 0.0:.8g}" for number in numbers])
+        show_texts(self.name, shown.names.tolist(), _NAME)
+        show_texts(self.angle, [_free_or(number) for number in np.degrees(shown.angles)], _FREE)
+        show_texts(self.scale, [_free_or(number) for number in shown.scales], _FREE)
+        show_powers(self.weight, shown.weights, _WEIGHT)
+
+
+def _counted(chosen: Sequence[PinMark]) -> str:
+    """How many pins are chosen, and how many of them are locked."""
+    locked = sum(mark.locked for mark in chosen)
+    return f"{len(chosen)} pins" + (f", {locked} of them locked" if locked else "")
 
 
 def _in_words(*buttons: ipywidgets.Widget) -> ipywidgets.GridBox:

@@ -4,12 +4,12 @@ from collections.abc import Callable, Mapping
 from dataclasses import asdict, dataclass, field
 from typing import Any, Literal
 
-import anywidget
 import traitlets
 
 from glid_nb.page import bundle, stylesheet
 from glid_nb.widgets.closing import ClosingWidget
 from glid_nb.widgets.pad import answer_during_cells
+from glid_nb.widgets.page_widget import PageWidget
 
 Switch = Literal["hidden", "locked"]
 
@@ -37,7 +37,7 @@ class Row:
     """What can be switched for it, and whether it is on."""
 
 
-class RowList(ClosingWidget, anywidget.AnyWidget):
+class RowList(ClosingWidget, PageWidget):
     """A list whose rows are selected, renamed, hidden and locked.
 
     A click selects; with ``several``, Shift selects all between and Ctrl one more. A double click
@@ -46,7 +46,6 @@ class RowList(ClosingWidget, anywidget.AnyWidget):
     ``on_set(key, switch, on)`` and ``on_rename(key, name)``, and shows what `show` is given.
     """
 
-    _esm = bundle("loader")
     _script = traitlets.Unicode(bundle("rows")).tag(sync=True)
     _css = stylesheet("rows")
 

@@ -3,7 +3,6 @@
 from collections.abc import Callable
 from typing import Any
 
-import anywidget
 import ipywidgets
 import traitlets
 
@@ -13,6 +12,7 @@ from glid_nb.widgets.closing import ClosingWidget
 from glid_nb.widgets.monitor import SolverMonitor
 from glid_nb.widgets.overlays import OVERLAYS
 from glid_nb.widgets.pad import answer_during_cells
+from glid_nb.widgets.page_widget import PageWidget
 
 _CHECKS = (
     ("show_cage", "Cage", "Draw the cage"),
@@ -23,10 +23,9 @@ _CHECKS = (
 )
 
 
-class Toolbar(ClosingWidget, anywidget.AnyWidget):
+class Toolbar(ClosingWidget, PageWidget):
     """Tools, undo and redo, what the canvas shows, and its view."""
 
-    _esm = bundle("loader")
     _script = traitlets.Unicode(bundle("toolbar")).tag(sync=True)
     _css = stylesheet("toolbar")
 

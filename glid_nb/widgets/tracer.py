@@ -118,7 +118,7 @@ class CageTracer(Pad):
             try:
                 self._on_pieces(self.gestures.pieces())  # without the model's lock
             except InputError as error:
-                refusal = str(error)
+                refusal = error.plain
         # The model announces its own changes. Changes of the tools are not the model's.
         own = _of_hand(self.gestures)
         if own != {name: self.shown[name] for name in own}:

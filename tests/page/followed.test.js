@@ -2,7 +2,7 @@
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { meansStill, wordsOf } from "../../glid_nb/page/js/canvas/followed.js";
+import { fieldWords, meansStill, wordsOf } from "../../glid_nb/page/js/canvas/followed.js";
 import { turnWords } from "../../glid_nb/page/js/canvas/numbers.js";
 
 test("numbers are written as the kernel writes them", () => {
@@ -16,6 +16,21 @@ test("numbers are written as the kernel writes them", () => {
   const { angle, scale, x, detail } = wordsOf([-0.0001, -0.001], [0.3, 1.5, false, false]);
   assert.deepEqual([angle, scale], ["", ""]); // free
   assert.deepEqual([x, detail], ["0", "0.00, 0.00"]);
+});
+
+test("fields of several pins say what all of them have", () => {
+  const free = { angle: "", scale: "" };
+  const turned = fieldWords([[1, 2]], [Math.PI / 6, 1.5, true, false], free);
+  assert.deepEqual(turned, { x: "1", y: "2", angle: "30", scale: "" });
+  /** @type {[number, number][]} */
+  const places = [
+    [1, 2],
+    [3, 2.0000001],
+  ];
+  const several = fieldWords(places, [Math.PI / 6, 1.5, true, true], { angle: "10", scale: "" });
+  assert.deepEqual(several, { x: "", y: "2", angle: "30", scale: "" });
+  const locked = fieldWords([[1, 2]], [], { angle: "10", scale: "2" });
+  assert.deepEqual(locked, { x: "1", y: "2", angle: "10", scale: "2" });
 });
 
 test("after a drag that changed nothing the kernel's numbers are shown again", () => {

@@ -11,7 +11,7 @@ import glid_nb
 from glid_nb.page import bundle, stylesheet, template, webgl2_shaders
 
 _TEXTS = (".py", ".js", ".css", ".glsl", ".frag", ".vert", ".html")
-_WIDGETS = ("canvas", "clipboard", "loader", "timeline", "toolbar", "tracer")
+_WIDGETS = ("canvas", "clipboard", "loader", "rows", "timeline", "toolbar", "tracer")
 
 
 @pytest.mark.parametrize("name", _WIDGETS)

@@ -67,6 +67,8 @@ GPU_RASTER_FLAGS = tuple(flag for flag in CHROMIUM_FLAGS if not flag.startswith(
 
 # Messages of pages that are not our fault. Every other message of the kind "error" fails a test.
 _HARMLESS = (
+    # On a slow machine anywidget gives a widget up; ours listen on: test_slow_page_browser.py.
+    re.compile(r"\[anywidget\] Failed to initialize model"),
     # A server without jupyter-lsp, which JupyterLab asks for.
     re.compile(r"Failed to load resource.*404.*/lsp/status"),
     # JupyterLab draws a picture's address before it has resolved the attachment.
@@ -139,6 +141,16 @@ _RUN_ONE = """(index) => {
   return window.jupyterapp.commands.execute('notebook:run-cell');
 }"""
 
+_SCROLL = """async (part) => {
+  const place = () => JSON.stringify(part.getBoundingClientRect());
+  for (let before = ''; before !== place(); ) {
+    before = place();
+    await new Promise(requestAnimationFrame);
+  }
+  part.scrollIntoViewIfNeeded();
+  return part.isConnected;
+}"""
+
 _RUN_ALL = "() => window.jupyterapp.commands.execute('notebook:run-all-cells')"
 
 
@@ -165,6 +177,15 @@ def launched_chromium() -> Iterator[Browser]:
         )
         yield browser
         browser.close()
+
+
+def bring_into_view(part: Locator) -> None:
+    """Scroll a part of a page into view when it stands still, even if the page makes it anew.
+
+    Playwright's ``scroll_into_view_if_needed`` fails if that happens meanwhile.
+    """
+    while not part.evaluate(_SCROLL):
+        pass
 
 
 def still_sliders(figure: Locator) -> list[str]:

@@ -8,7 +8,7 @@ from typing import Any
 
 from playwright.sync_api import Locator, Page
 
-from ..support.browser import NotebookPage
+from ..support.browser import NotebookPage, bring_into_view
 
 # A bar of 16 x 4 units in a picture of 200 x 100 pixels. The checks show where each part goes.
 SETUP = """
@@ -160,7 +160,7 @@ class Hand:
         (cx, cy, unit), width, height = self.book.value(
             "[stage.view, stage.width, stage.height]", f"stage = {self.canvas}.pane.stage"
         )
-        self.pad.scroll_into_view_if_needed()
+        bring_into_view(self.pad)
         self.wait_until_still()
         box = self.pad.bounding_box()
         assert box is not None

@@ -9,8 +9,9 @@ import pytest
 from playwright.sync_api import Locator
 from skimage.io import imread
 
+from ..support.browser import bring_into_view
 from .conftest import OpenNotebook
-from .editor_page import NEW_PICTURE, ROOMY_EDITOR, SETUP, Hand, choose_view
+from .editor_page import NEW_PICTURE, ROOMY_EDITOR, SETUP, Hand, choose_view, contrast
 
 pytestmark = [pytest.mark.browser, pytest.mark.slow]
 
@@ -91,10 +92,10 @@ def test_on_a_phone_the_canvas_comes_first_and_the_tools_have_two_rows(
     for row in (".glid-tools", ".glid-timeline .glid-bar"):
         last = page.locator(f"{row} > :last-child")
         assert box(last)[0] > root[0] + root[2]
-        last.scroll_into_view_if_needed()
+        bring_into_view(last)
         assert sum(box(last)[::2]) <= root[0] + root[2] + 1
     depth = page.get_by_label("Depth")
-    depth.scroll_into_view_if_needed()
+    bring_into_view(depth)
     assert sum(box(depth)[::2]) <= root[0] + root[2] + 1
     # No label of the ruler lies over another one.
     labels = [box(label) for label in page.locator(".glid-ruler span").all()]
@@ -185,6 +186,38 @@ def test_pale_and_dark_outlines_are_seen_in_dark_themes_and_high_contrast(
         page.emulate_media(forced_colors="none")
 
 
+def test_the_table_of_keys_fits_or_shows_where_it_goes_on(open_notebook: OpenNotebook) -> None:
+    book = open_notebook([SETUP, ROOMY_EDITOR])
+    hand, page = Hand(book), book.page
+    desktop = page.viewport_size
+    assert desktop is not None
+    table = page.locator(".glid-help:popover-open")
+
+    def shaded(row: int) -> bool:
+        """Whether the paper is darker in a row of the table than in the heading's."""
+        pixels = imread(BytesIO(table.screenshot())).astype(int)[:, 12]
+        return bool((pixels[10] - pixels[row]).max() > 40)
+
+    try:
+        for size, fits in (((1024, 768), True), ((390, 844), False)):
+            page.set_viewport_size({"width": size[0], "height": size[1]})
+            hand.wait_until_still()
+            hand.pad.focus()
+            page.keyboard.press("?")
+            table.wait_for()
+            assert table.evaluate("one => one.scrollHeight <= one.clientHeight") == fits
+            assert shaded(-4) == (not fits)
+            assert not shaded(40)
+            book.screenshot(f"editor-keys-{size[0]}")
+            table.evaluate("one => { one.scrollTop = one.scrollHeight; }")
+            assert shaded(40) == (not fits)
+            assert not shaded(-4)
+            page.keyboard.press("Escape")
+            table.wait_for(state="detached")
+    finally:
+        page.set_viewport_size(desktop)
+
+
 def test_high_contrast_keeps_what_is_drawn(open_notebook: OpenNotebook) -> None:
     book = open_notebook([SETUP, ROOMY_EDITOR])
     page = book.page
@@ -218,6 +251,43 @@ def test_high_contrast_keeps_what_is_drawn(open_notebook: OpenNotebook) -> None:
         page.emulate_media(forced_colors="none")
 
 
+def test_one_item_of_the_menu_is_marked_and_read_in_high_contrast(
+    open_notebook: OpenNotebook,
+) -> None:
+    book = open_notebook([SETUP, ROOMY_EDITOR])
+    hand, page = Hand(book), book.page
+    book.value("None", setup=PINNED)
+    hand.settle()
+    menu = page.locator(".glid-pane .glid-menu")
+    marked = menu.locator("button:focus")
+
+    def ground(of: Locator) -> str:
+        return of.evaluate("(one) => getComputedStyle(one).backgroundColor")
+
+    try:
+        for theme, least in (("JupyterLab Light", 4.5), ("JupyterLab Dark High Contrast", 7)):
+            if theme != "JupyterLab Light":
+                book.theme(theme)
+            hand.click((-6, 0), button="right")
+            menu.get_by_text("Lock").hover()
+            assert marked.inner_text().startswith("Lock")  # and no longer the first one
+            assert contrast(marked) >= least
+            assert contrast(marked.locator("kbd")) >= least
+            others = menu.locator("button:not(:focus)")
+            assert {ground(one) for one in others.all()}.isdisjoint({ground(marked)})
+            page.keyboard.press("Escape")
+        # The system's colours also reach what lies over the picture, which keeps its own.
+        page.emulate_media(forced_colors="active")
+        hand.click((-6, 0), button="right")
+        assert ground(menu) == f"rgb{PAPER}"
+        assert ground(marked) != ground(menu)
+        book.screenshot("editor-menu-forced-colours")
+        page.keyboard.press("Escape")
+    finally:
+        page.emulate_media(forced_colors="none")
+        book.theme("JupyterLab Light")
+
+
 def test_sliders_are_seen_in_high_contrast(open_notebook: OpenNotebook) -> None:
     book = open_notebook([SETUP, ROOMY_EDITOR])
     page = book.page
@@ -245,7 +315,7 @@ def drawn(slider: Locator) -> float:
     return float((abs(middle - PAPER).sum(axis=-1) > 60).mean())
 
 
-def test_on_a_phone_every_section_leaves_the_timeline_on_the_screen(
+def test_on_a_phone_sections_leave_the_timeline_on_the_screen_or_are_whole(
     open_notebook: OpenNotebook,
 ) -> None:
     book = open_notebook([SETUP, NEW_PICTURE, ROOMY_EDITOR])
@@ -260,13 +330,17 @@ def test_on_a_phone_every_section_leaves_the_timeline_on_the_screen(
         book.wait_for("canvas.pane.stage.room[0] < 300")
         contents = page.locator(".glid-side > .widget-tab-contents")
         timeline = page.locator(".glid-timeline")
+        bottom = 844 - 24  # above JupyterLab's own line
         for section in ("Motion", "Files", "Proof", "Pin"):
             page.get_by_role("tab", name=section, exact=True).click()
             page.locator(".glid-editor").evaluate("one => one.scrollIntoView()")
             hand.wait_until_still()
             book.screenshot(f"editor-phone-{section.lower()}")
             assert box(contents)[3] > 70
-            assert sum(box(timeline)[1::2]) <= 844 - 24  # above JupyterLab's own line
+            if section in ("Files", "Proof"):  # for which the whole page is scrolled
+                assert contents.evaluate("one => one.scrollHeight <= one.clientHeight")
+                continue
+            assert sum(box(timeline)[1::2]) <= bottom
             # The section's end is scrolled to.
             contents.evaluate("one => { one.scrollTop = one.scrollHeight; }")
             last = page.locator(".glid-side .widget-tab-contents > :visible")
@@ -281,9 +355,13 @@ def test_on_a_phone_every_section_leaves_the_timeline_on_the_screen(
         book.screenshot("editor-phone-legend")
         for other in (hand.pad.locator(".glid-paper"), page.locator(".glid-tools")):
             assert not overlap(box(legend), box(other))
-        pads = box(hand.pad)
+        pads, foot = box(hand.pad), page.locator(".glid-foot")
         assert pads[0] <= box(legend)[0]
         assert box(legend)[2] <= pads[2]
+        page.locator(".glid-editor").evaluate("one => one.scrollIntoView()")
+        hand.wait_until_still()
+        assert foot.locator(".glid-next").evaluate("one => one.clientHeight") > 30  # of two lines
+        assert sum(box(foot)[1::2]) <= bottom
 
         # The whole screen, without the inspector, is filled.
         hand.pad.focus()
@@ -292,8 +370,8 @@ def test_on_a_phone_every_section_leaves_the_timeline_on_the_screen(
         book.wait_for("canvas.pane.stage.room[2] and canvas.pane.stage.height > 450")
         hand.wait_until_still()
         book.screenshot("editor-phone-full-screen")
-        assert 700 < sum(box(page.locator(".glid-foot"))[1::2]) <= 844
-        assert box(page.locator(".glid-foot .glid-said"))[2] > 300
+        assert 838 < sum(box(foot)[1::2]) <= 844
+        assert box(foot.locator(".glid-said"))[2] > 300
         page.evaluate("document.exitFullscreen()")
         page.wait_for_function("!document.fullscreenElement")
     finally:

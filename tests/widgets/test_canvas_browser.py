@@ -426,7 +426,7 @@ def test_what_is_beside_the_canvas_neither_takes_undo_nor_moves_it(
         book.wait_for(f"canvas.pane.stage.room[0] {room}")
         hand.wait_until_still()
         before = places()
-        book.value("None", setup="editor.monitor.line.value = 'A long status. ' * 40")
+        book.value("None", setup="editor.monitor.line.said.value = 'A long status. ' * 40")
         book.value(
             "None", setup="stage.notice = 'So it is. ' * 9; stage.legend_corner = 'top left'"
         )
@@ -443,4 +443,4 @@ def test_what_is_beside_the_canvas_neither_takes_undo_nor_moves_it(
         assert below is not None
         assert above["y"] + above["height"] < below["y"]
         book.screenshot(f"editor-long-status-{width}")
-        book.value("None", setup="editor.monitor.line.value = stage.notice = ''")
+        book.value("None", setup="editor.monitor.line.said.value = stage.notice = ''")

@@ -6,6 +6,7 @@ import pytest
 from playwright.sync_api import Locator
 
 from ..support.axe import faults
+from ..support.browser import bring_into_view
 from .conftest import OpenNotebook
 from .editor_page import ROOMY_EDITOR, SETUP, Hand, center
 from .test_timeline_browser import Timeline
@@ -110,6 +111,25 @@ def test_each_segment_shows_its_curve_which_two_handles_change(open_notebook: Op
     page.keyboard.press("Escape")
 
 
+def test_a_press_goes_on_while_the_kernel_changes_the_timeline(open_notebook: OpenNotebook) -> None:
+    timeline = posed_timeline(open_notebook)
+    book, page, root = timeline.book, timeline.page, timeline.root
+    segment = root.locator(".glid-segment-ease").nth(1)
+    segment.hover()
+    page.mouse.down()
+    book.value("None", setup="model.go_to_pose(2)")
+    root.locator(".glid-key").nth(2).and_(root.locator("[aria-pressed=true]")).wait_for()
+    page.mouse.up()
+    root.locator(".glid-ease").get_by_text("Pose 2 → Pose 3").wait_for()
+    # So does what has the focus.
+    key = timeline.keys.nth(0)
+    key.focus()
+    key.evaluate("key => { globalThis.pressed = key; }")
+    book.value("None", setup="model.go_to_pose(1)")
+    root.locator(".glid-key").nth(1).and_(root.locator("[aria-pressed=true]")).wait_for()
+    assert page.evaluate("document.activeElement === pressed && pressed.isConnected")
+
+
 def test_a_finger_eases_where_segments_have_no_room_for_a_curve(
     open_notebook: OpenNotebook,
 ) -> None:
@@ -129,7 +149,7 @@ def test_a_finger_eases_where_segments_have_no_room_for_a_curve(
         session.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": at})
 
     button = root.get_by_role("button", name="Easing of the motion")
-    button.scroll_into_view_if_needed()
+    bring_into_view(button)
     button.tap()
     arriving = panel.get_by_role("slider", name="How it arrives")
     arriving.wait_for()

@@ -91,10 +91,24 @@ def test_the_colour_bar_goes_where_it_hides_least() -> None:
     assert emptiest_corner([(10, 10)], *size, loops=[head, hole]) == "bottom right"
 
 
+def test_a_colour_bar_says_which_values_share_its_last_colours() -> None:
+    def ends(name: str, *range_: float) -> list[str]:
+        ticks = legend(name, glid.energies.ARAP(), range_)["ticks"]
+        return [ticks[0], ticks[-1]]
+
+    assert ends("sigma1", 1.0, 3.0) == ["≤ 1", "≥ 3"]
+    assert ends("sigma2", 1.0, 0.5) == ["≥ 1", "≤ 0.5"]
+    assert ends("sigma2", 1.0, 0.0) == ["≥ 1", "0"]  # a map without folds has no other values
+    assert ends("k", 0.0, 0.2) == ["0", "≥ 0.2"]
+    assert ends("k", 0.0, 1.0) == ["0", "1"]
+    assert ends("energy", *color_range("energy", glid.energies.ARAP())) == ["0", "≥ 0.1"]
+
+
 @pytest.mark.parametrize("top", [2.134, 54.6, 5510.3, 1.2345e7, 9.87e201])
 def test_the_labels_of_a_colour_bar_do_not_meet(top: float) -> None:
     ticks = legend("energy", glid.energies.SymmetricDirichlet(), (2.0, top))["ticks"]
-    assert (float(ticks[0]), float(ticks[-1])) == (2.0, pytest.approx(top, rel=5e-3))
+    sign, end = ticks[-1].split()
+    assert (float(ticks[0]), sign, float(end)) == (2.0, "≥", pytest.approx(top, rel=5e-3))
     assert len("".join(ticks)) <= 22  # of 6 pixels, on a bar of 190
     assert len(ticks) == 5 or top > 1e4
 
@@ -339,7 +353,7 @@ def test_the_canvas_shows_what_the_model_holds() -> None:
     assert stage.legend["colors"] != stage.panel_legend["colors"]
     # Even a bend is visible, and the bar shows the range.
     assert canvas.pane.scene.color_range[1] < 1
-    assert stage.legend["ticks"][-1] == f"{canvas.pane.scene.color_range[1]:g}"
+    assert stage.legend["ticks"][-1] == f"≥ {canvas.pane.scene.color_range[1]:g}"
     range_ = canvas.pane.scene.picture.material.uniforms["color_range"]["value"]
     assert range_ == list(canvas.pane.scene.color_range)
     model.drag(0, to=(4.5, 1.5))
@@ -347,7 +361,7 @@ def test_the_canvas_shows_what_the_model_holds() -> None:
     bar = stage.legend["ticks"]
     model.set_domain(domain("twin"))  # at rest there: another scene, with its own range
     assert canvas.pane.scene.color_range == (0.0, 0.1)
-    assert stage.legend["ticks"][-1] == "0.1" != bar[-1]
+    assert stage.legend["ticks"][-1] == "≥ 0.1" != bar[-1]
     model.undo()
     canvas.overlay = "texture"
     canvas.show_panels = False
@@ -684,8 +698,9 @@ def test_the_numbers_of_pins_and_the_model_show_each_other() -> None:
         assert [row["unnamed"] for row in bar.list.rows] == ["Pin 1", "Pin 2"]
         assert [row["detail"] for row in bar.list.rows] == ["2.00, 0.00", "−2.00, 0.25"]
         assert bar.list.chosen == [0, 1]
-        assert (bar.x.value, bar.y.value, bar.depth.value) == ("-2", "0.25", "0")
-        bar.name.value = "tail"
+        assert (bar.x.value, bar.y.value, bar.depth.value) == ("", "", "0")  # x and y differ
+        assert bar.count.value == "2 pins"
+        model.name_pin(1, "tail")
         assert model.pose.names.tolist() == ["", "tail"]
         assert [(row["number"], row["name"]) for row in bar.list.rows] == [("1", ""), ("2", "tail")]
         bar.back.click()
@@ -734,6 +749,59 @@ def test_the_numbers_of_pins_and_the_model_show_each_other() -> None:
         assert model.selection == ()
         assert bar.depth.disabled
         assert (bar.x.value, bar.name.value, bar.angle.value, bar.weight.value) == ("0", "", "", 1)
+        bar.close()
+
+
+def test_fields_of_several_pins_show_and_set_what_all_of_them_have() -> None:
+    from glid_nb.session.deformation import Deformation
+
+    with Deformation(domain("ring"), begin=False) as model:
+        model.paused = True  # nothing here needs a solve
+        bar = PinBar(model)
+        model.add_handles([(2, 0), (-2, 0.25), (0, 2)])
+        model.set_pins([0, 1], angles=0.5)
+        model.set_pins([0], scales=2, weights=0.01)
+        model.select([0, 1])
+        assert bar.count.layout.display is None
+        fields = bar.x, bar.y, bar.depth, bar.angle, bar.scale, bar.name
+        assert [one.value for one in fields] == ["", "", "0", "28.65", "", ""]
+        said = ["mixed", "mixed", "", "free", "mixed", "name"]
+        assert [one.placeholder for one in fields] == said
+        assert "mixed" in bar.weight.tooltip
+        assert bar.weight.value == pytest.approx(0.1)  # between them, so that each can be chosen
+
+        def undone(change: Callable[[], None], setter: str, wanted: list[Any]) -> None:
+            before = model.state
+            change()
+            np.testing.assert_array_equal(getattr(model.pose, setter), wanted)
+            model.undo()
+            assert model.state is before
+
+        undone(lambda: setattr(bar.x, "value", "3"), "targets", [[3, 0], [3, 0.25], [0, 2]])
+        undone(lambda: setattr(bar.depth, "value", "2"), "depths", [2, 2, 0])
+        undone(lambda: setattr(bar.scale, "value", "1.5"), "scales", [1.5, 1.5, np.nan])
+        undone(lambda: setattr(bar.scale, "value", "free"), "scales", [np.nan] * 3)
+        undone(lambda: setattr(bar.angle, "value", ""), "angles", [np.nan] * 3)
+        undone(lambda: setattr(bar.weight, "value", 1), "weights", [1, 1, 1])
+        undone(lambda: setattr(bar.name, "value", "leg"), "names", ["leg", "leg", ""])
+
+        bar.scale.value = "1.5"
+        assert (bar.scale.value, bar.scale.placeholder) == ("1.5", "free")
+        model.undo()
+        bar.scale.value = "much"
+        assert "is not a number" in bar.refusal.value
+        assert (bar.scale.value, bar.scale.placeholder) == ("", "mixed")
+
+        model.mark_pins([1], locked=True)
+        assert bar.count.value == "2 pins, 1 of them locked"
+        undone(lambda: setattr(bar.y, "value", "1"), "targets", [[2, 1], [-2, 0.25], [0, 2]])
+        model.mark_pins([0], locked=True)
+        assert bar.x.disabled
+        model.select([2])
+        assert bar.count.layout.display == "none"
+        assert [one.value for one in fields] == ["0", "2", "0", "", "", ""]
+        assert [one.placeholder for one in fields] == ["", "", "", "free", "free", "name"]
+        assert "mixed" not in bar.weight.tooltip
         bar.close()
 
 
@@ -838,7 +906,7 @@ def test_the_monitor_draws_plots_and_words() -> None:
         assert model.solve(TIMEOUT)
         assert monitor.refresh(TIMEOUT)
         assert bytes(monitor.image.value).startswith(b"\x89PNG")
-        assert "Converged · certified σ₂ ≥" in monitor.line.value
+        assert "Converged · certified σ₂ ≥" in monitor.line.said.value
         before = bytes(monitor.image.value)
         model.drag(0, to=(3.0, 1.0))
         assert model.solve(TIMEOUT)

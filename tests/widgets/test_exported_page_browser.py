@@ -24,7 +24,7 @@ from glid_nb.imaging.texture import Texture
 from glid_nb.pose import Pose
 
 from ..support import shapes
-from ..support.browser import ARTEFACTS, watched_page
+from ..support.browser import ARTEFACTS, bring_into_view, watched_page
 
 _LOW = ("header p", "main canvas", "#poses", "#play", "#time", "#clock", "#overlay", "#fit")
 # Pauses in the frame in which the condition holds. A slow browser would have moved on.
@@ -146,7 +146,7 @@ def test_thumbnails_are_drawn_when_they_come_into_sight(page: Page, tmp_path: Pa
     page.wait_for_function(f"() => ({drawn})()[5]")
     assert not any(page.evaluate(drawn)[10:])
     before, second = shown(page), page.get_by_role("button", name="Pose 2,").screenshot()
-    page.get_by_role("button", name="Pose 40").scroll_into_view_if_needed()
+    bring_into_view(page.get_by_role("button", name="Pose 40"))
     page.wait_for_function(f"() => ({drawn})()[39]")
     last = page.get_by_role("button", name="Pose 40").screenshot()
     a, b = (imread(io.BytesIO(one))[..., :3].astype(float) for one in (second, last))

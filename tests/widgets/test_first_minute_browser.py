@@ -6,6 +6,7 @@ import pytest
 
 from glid_nb.session.first_minute import HINTS, Step
 
+from ..support.browser import bring_into_view
 from .conftest import OpenNotebook
 from .editor_page import NEW_PICTURE, ROOMY_EDITOR, SETUP, Hand
 
@@ -34,7 +35,7 @@ def test_pale_pins_invite_a_drag_until_there_is_a_pin(open_notebook: OpenNoteboo
         )
 
     wait_for_groups(3)
-    hand.pad.scroll_into_view_if_needed()
+    bring_into_view(hand.pad)
     book.screenshot("first-minute")
     assert book.value("len(model.pose)") == 0
     hand.drag([(-6.0, 0.0), (-6.0, 0.5), (-6.0, 1.0)])
@@ -53,7 +54,7 @@ def test_the_footer_gives_one_hint_at_a_time(open_notebook: OpenNotebook) -> Non
     book = open_notebook([SETUP + fresh, EDITOR])
     hand, page = Hand(book), book.page
     hint = page.locator(".glid-foot .glid-next")
-    page.locator(".glid-editor").scroll_into_view_if_needed()
+    bring_into_view(page.locator(".glid-editor"))
 
     def wait_for_hint(step: Step) -> None:
         hint.get_by_text(HINTS[step], exact=True).wait_for()
@@ -62,7 +63,7 @@ def test_the_footer_gives_one_hint_at_a_time(open_notebook: OpenNotebook) -> Non
     def look(name: str) -> None:
         for width, height in ((390, 844), (1366, 768)):
             page.set_viewport_size({"width": width, "height": height})
-            hint.scroll_into_view_if_needed()
+            bring_into_view(hint)
             hand.wait_until_still()
             assert hint.is_visible()
             book.screenshot(f"hint-{name}-{width}")
@@ -72,6 +73,11 @@ def test_the_footer_gives_one_hint_at_a_time(open_notebook: OpenNotebook) -> Non
     assert hand.pad.locator(".glid-notice").is_hidden()
     hand.click((-6.0, 0.0))
     wait_for_hint("drag")
+    # A status that changes leaves the hint alone: a screen reader does not say it once more.
+    hint.evaluate("(hint) => { hint.dataset.same = ''; }")
+    book.value("None", setup="editor.monitor.line.said.value = 'Something else.'")
+    page.locator(".glid-foot").get_by_text("Something else.").wait_for()
+    assert hint.get_attribute("data-same") == ""
     hand.drag([(-6.0, 0.0), (-6.0, 0.5), (-6.0, 1.0)])
     wait_for_hint("turn")
     look("turn")
@@ -85,7 +91,7 @@ def test_the_footer_gives_one_hint_at_a_time(open_notebook: OpenNotebook) -> Non
     page.get_by_role("button", name="Play").first.click()
     hint.wait_for(state="detached")
     book.value("None", setup="from IPython.display import display\nother = glid.Editor(picture)")
-    assert "glid-next" not in book.value("other.monitor.line.value", "other.monitor.refresh(20)")
+    assert book.value("other.monitor.line.next.value", "other.monitor.refresh(20)") == ""
 
 
 def test_the_inspector_gives_its_room_to_the_canvas(open_notebook: OpenNotebook) -> None:

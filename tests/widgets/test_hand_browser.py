@@ -10,7 +10,14 @@ import pytest
 from PIL import Image
 from playwright.sync_api import Browser
 
-from ..support.browser import GPU_RASTER_FLAGS, JupyterServer, LabNotebook, chromium, watched_page
+from ..support.browser import (
+    GPU_RASTER_FLAGS,
+    JupyterServer,
+    LabNotebook,
+    bring_into_view,
+    chromium,
+    watched_page,
+)
 from .conftest import OpenNotebook
 from .editor_page import EDITOR, SETUP, Hand, center, line
 
@@ -103,7 +110,7 @@ def test_a_hand_finds_what_it_expects(open_notebook: OpenNotebook) -> None:
     # Below a CSS zoom, and a transform, a click lands where it should.
     for style in ("zoom: 1.25", "transform: scale(0.8); transform-origin: 0 0"):
         root.evaluate("(one, style) => { one.style.cssText += style; }", style)
-        hand.pad.scroll_into_view_if_needed()
+        bring_into_view(hand.pad)
         hand.wait_until_still()
         box = hand.pad.bounding_box()
         assert box is not None
@@ -167,7 +174,7 @@ def test_a_drag_between_keyframes_is_kept(open_notebook: OpenNotebook) -> None:
 
     # Scrub to the middle, then drag the shape as it is seen there.
     book.value("None", setup="model.go_to_pose(0)")
-    timeline.scroll_into_view_if_needed()
+    bring_into_view(timeline)
     hand.wait_until_still()
     keys = timeline.locator(".glid-key")
     first, last = (center(keys.nth(i)) for i in (0, 1))
@@ -224,7 +231,7 @@ def test_each_view_of_an_editor_fits_its_own_room(open_notebook: OpenNotebook) -
     page.wait_for_function("document.querySelectorAll('.glid-deform')[0].style.zoom < 1")
 
     def check(one: Hand) -> None:
-        one.pad.scroll_into_view_if_needed()
+        bring_into_view(one.pad)
         one.wait_until_still()
         stage = one.pad.locator("xpath=ancestor::*[contains(@class, 'glid-deform')]")
         inner, outer = one.pad.bounding_box(), stage.bounding_box()

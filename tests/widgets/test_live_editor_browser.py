@@ -11,7 +11,7 @@ from playwright.sync_api import Page
 
 from glid_nb.session.document_file import load_document
 
-from ..support.browser import ARTEFACTS, marimo_server
+from ..support.browser import ARTEFACTS, bring_into_view, marimo_server
 from .conftest import OpenNotebook
 
 pytestmark = [pytest.mark.browser, pytest.mark.slow]
@@ -65,7 +65,7 @@ class LivePage:
 
     def __init__(self, page: Page, number: int = 0) -> None:
         self.page, self._box = page, page.locator("iframe[title='Live picture']").nth(number)
-        self._box.scroll_into_view_if_needed()
+        bring_into_view(self._box)
         self.root = self._box.content_frame.locator("html")
         self._wait_for("ready")
 

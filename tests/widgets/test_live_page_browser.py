@@ -272,6 +272,13 @@ def test_both_ways_to_draw_show_the_same(browser: Browser, tmp_path: Path) -> No
     assert difference.mean() < 2
 
 
+def test_the_colours_say_which_values_share_the_last_one(page: Page, tmp_path: Path) -> None:
+    opened(page, tmp_path, shapes.bent())
+    for colours, ends in (("Stretch σ₁", "1≥ 2"), ("Stretch σ₂", "1≤ 0.4")):
+        page.get_by_label("What is shown").select_option(colours)
+        assert page.locator("#legend").inner_text() == f"{colours} {ends}"
+
+
 def test_a_phone_pins_by_taps_and_zooms_by_two_fingers(browser: Browser, tmp_path: Path) -> None:
     phone: Any = {"viewport": {"width": 390, "height": 844}, "has_touch": True, "is_mobile": True}
     with watched_page(browser, _WATCHED, **phone) as page:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pytest
 
+from ..support.browser import bring_into_view
 from .conftest import OpenNotebook
 from .editor_page import center
 from .test_ease_browser import posed_timeline
@@ -33,7 +34,7 @@ def test_a_range_set_on_the_ruler_plays_over_and_over(open_notebook: OpenNoteboo
         "2.00",
     )
 
-    timeline.root.scroll_into_view_if_needed()
+    bring_into_view(timeline.root)
     # Drags of the marks, each one step; near a frame they land on it. Escape drops a drag.
     for mark, time in ((end, 1.4), (start, 0.6)):
         x, y = center(mark)
@@ -102,5 +103,5 @@ def test_a_range_set_on_the_ruler_plays_over_and_over(open_notebook: OpenNoteboo
     book.wait_for(f"{RANGE} is not None and model.state.timeline.repeat == 'once'")
     book.theme("JupyterLab Dark")
     page.set_viewport_size({"width": 390, "height": 844})
-    root.scroll_into_view_if_needed()
+    bring_into_view(root)
     book.screenshot("timeline-range-phone-dark")

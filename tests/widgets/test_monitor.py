@@ -145,7 +145,7 @@ def test_at_rest_all_say_what_the_final_certificate_proves(
     assert model.status.text.startswith(words)
     assert monitor.text == model.status.text
     assert monitor.refresh(TIMEOUT)
-    assert monitor.text in monitor.line.value
+    assert monitor.text in monitor.line.said.value
     assert shown_bound(drawn[-1]) == f"σ₂ ≥ {lower}"
     # Also without a frame of the solver.
     model.drag(1, to=(-3.0, 1.0))
@@ -176,7 +176,7 @@ def test_the_last_drawing_is_that_at_rest(
     monkeypatch.setattr(Deformation, "moment", property(lambda _: moments.pop(0)))
     assert monitor.refresh(TIMEOUT)
     assert len(moments) == 1
-    assert "Converged" in monitor.line.value
+    assert "Converged" in monitor.line.said.value
     assert shown_bound(drawn[-1]) == f"σ₂ ≥ {rounded_down(certificate_of(rest.map).sigma2_lower)}"
 
 

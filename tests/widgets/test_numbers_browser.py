@@ -86,6 +86,50 @@ def test_the_numbers_follow_the_hand(open_notebook: OpenNotebook) -> None:
     expect(x).to_have_value(f"{round(kept[0], 3):.8g}")
 
 
+def test_the_fields_of_several_pins_are_those_of_all(open_notebook: OpenNotebook) -> None:
+    book = open_notebook([SETUP, NEW_PICTURE + ROOMY_EDITOR])
+    hand, page = Hand(book), book.page
+    pinned = "model.add_handles([(-6.0, 0.0), (6.0, 0.0), (6.0, 1.0)]); model.tell('hand')"
+    book.value("None", setup=f"{pinned}; model.set_pins([0], weights=0.01); model.select([0, 1])")
+    hand.settle()
+    side = page.locator(".glid-side")
+    x, y = (side.get_by_label(name, exact=True) for name in "xy")
+    readout = side.locator(".glid-mixed .widget-readout")
+    said = "(one) => getComputedStyle(one, '::after').content"
+    expect(side.get_by_text("2 pins", exact=True)).to_be_visible()
+    expect(x).to_have_value("")
+    expect(x).to_have_attribute("placeholder", "mixed")
+    expect(y).to_have_value("0")
+    assert readout.evaluate(said) == '"mixed"'
+
+    # While both are dragged, the page keeps to that.
+    places = hand.places(line((6, 0), (5, 1), 8))
+    page.mouse.move(*places[0])
+    page.mouse.down()
+    for place in places[1:]:
+        page.mouse.move(*place)
+    expect(y).not_to_have_value("0")
+    assert float(y.input_value()) == pytest.approx(1, abs=0.05)
+    expect(x).to_have_value("")
+    page.keyboard.press("Escape")
+    expect(y).to_have_value("0")
+    page.mouse.up()
+    hand.settle()
+
+    # What is typed holds for both, and is undone in one step.
+    x.fill("3")
+    x.press("Enter")
+    book.wait_for("model.pose.targets.tolist() == [[3, 0], [3, 0], [6, 1]]")
+    expect(x).to_have_value("3")
+    book.value("None", setup="model.undo()")
+    expect(x).to_have_value("")
+    assert hand.targets == [[-6, 0], [6, 0], [6, 1]]
+    book.value("None", setup="model.select([1])")
+    expect(x).to_have_value("6")
+    expect(readout).to_have_count(0)
+    expect(side.get_by_text("2 pins", exact=True)).to_be_hidden()
+
+
 @pytest.mark.parametrize("size", [(1366, 768), (390, 844)])
 def test_the_buttons_of_pins_are_in_words(
     open_notebook: OpenNotebook, size: tuple[int, int]

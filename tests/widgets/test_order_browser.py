@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from playwright.sync_api import Locator
 
+from ..support.browser import bring_into_view
 from .conftest import OpenNotebook
 from .editor_page import Hand
 from .test_timeline_browser import Timeline
@@ -161,7 +162,7 @@ def test_in_a_motion_the_order_and_the_boundary_are_those_of_its_time(
     assert seen() == [False] * 60
     assert legend.inner_text() == "Certified σ₂ on the boundary"
     for time, right_in_front in ((0.1, True), (0.9, False), (0.2, True)):
-        timeline.root.scroll_into_view_if_needed()
+        bring_into_view(timeline.root)
         timeline.scrub([time])
         assert timeline.time == pytest.approx(time, abs=0.02)
         hand.page.wait_for_timeout(300)

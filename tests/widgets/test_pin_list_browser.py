@@ -6,7 +6,7 @@ import pytest
 from playwright.sync_api import Locator
 
 from ..support.axe import faults
-from ..support.browser import WINDOW
+from ..support.browser import WINDOW, bring_into_view
 from .conftest import OpenNotebook
 from .editor_page import EDITOR, NEW_PICTURE, SETUP, Hand, line
 
@@ -129,7 +129,7 @@ def test_the_list_selects_renames_locks_and_hides(open_notebook: OpenNotebook) -
     page.set_viewport_size(PHONE)
     page.locator(".glid-editor.glid-narrow").wait_for()
     hand.wait_until_still()
-    grid.scroll_into_view_if_needed()
+    bring_into_view(grid)
     book.screenshot("pin-list-390")
     page.set_viewport_size(WINDOW)
 
@@ -140,7 +140,7 @@ def test_a_finger_hits_each_button_of_the_list(open_notebook: OpenNotebook) -> N
     book.value("None", setup=PINS + "; model.tell('hand')")
     hand.settle()
     grid = page.locator(".glid-side").get_by_role("grid", name="Pins")
-    grid.scroll_into_view_if_needed()
+    bring_into_view(grid)
     lock = grid.get_by_role("button", name="Lock Pin 2")
     box = lock.bounding_box()
     assert box is not None

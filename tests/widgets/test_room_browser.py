@@ -5,6 +5,7 @@ from __future__ import annotations
 import pytest
 from playwright.sync_api import Locator
 
+from ..support.browser import bring_into_view
 from .conftest import OpenNotebook
 from .editor_page import NEW_PICTURE, ROOMY_EDITOR, SETUP, Hand, center, choose_view
 
@@ -199,7 +200,7 @@ def test_the_hint_hides_no_vertex_of_a_picture_that_fits(open_notebook: OpenNote
         )
         page.evaluate("new Promise((go) => requestAnimationFrame(() => requestAnimationFrame(go)))")
         scale, _, top = map(float, (stage.get_attribute("data-viewport") or "").split())
-        stage.scroll_into_view_if_needed()
+        bring_into_view(stage)
         book.screenshot(f"tracer-hint-{width}")
         assert box(stage)[1] + top + 200 * scale <= box(hint)[1]
 

@@ -18,8 +18,7 @@ def test_the_list_of_pins_selects_renames_locks_and_hides() -> None:
         model.add_handles([(2, 0), (-2, 0.25), (0, 2), (0, -2)])
         act = bar.list.act
         act({"type": "choose", "keys": [3, 1]})
-        assert model.selection == (3, 1)  # the last one counts most
-        assert bar.y.value == "0.25"
+        assert model.selection == (3, 1)
         act({"type": "switch", "key": 0})
         assert model.selection == tuple(bar.list.chosen) == (3, 1, 0)
         act({"type": "switch", "key": 1})

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from ..support.browser import ARTEFACTS
+from ..support.browser import ARTEFACTS, bring_into_view
 from .conftest import OpenNotebook
 from .editor_page import Hand
 from .test_timeline_browser import Timeline
@@ -243,7 +243,7 @@ def test_all_shapes_play_together(open_notebook: OpenNotebook, how: str) -> None
     book.wait_for(f"{proved} == ['proved'] * 3", 60)
     eye.sees(f"{how}-second-pose")
     for seconds in (0.5, 0.2):
-        timeline.root.scroll_into_view_if_needed()
+        bring_into_view(timeline.root)
         timeline.scrub([seconds])
         eye.sees(f"{how}-at-{seconds}", f"at({timeline.time})")
     hand.page.keyboard.press("Escape")

@@ -10,6 +10,7 @@ import pytest
 from playwright.sync_api import FloatRect, Locator
 from skimage.io import imread
 
+from ..support.browser import bring_into_view
 from .conftest import OpenNotebook
 from .editor_page import Hand, line
 
@@ -100,7 +101,7 @@ class Timeline:
     @staticmethod
     def box(part: Locator) -> FloatRect:
         """The place of a part in the window, after it is scrolled into view."""
-        part.scroll_into_view_if_needed()
+        bring_into_view(part)
         box = part.bounding_box()
         assert box is not None
         return box
@@ -281,7 +282,7 @@ def test_a_walk_cycle_made_by_hand(open_notebook: OpenNotebook) -> None:
     second.root.evaluate("root => { root.style.width = ''; }")
     book.wait_for("panel.animation.wait(0.1)", 60)
     page.wait_for_function("() => document.querySelectorAll('.glid-computing').length === 0")
-    second.root.scroll_into_view_if_needed()
+    bring_into_view(second.root)
     second.scrub([0.4, 1.1])
     near = "abs(other.pane.scene.map.phi - panel.animation.at(t).phi).max() < 1e-12"
     assert second.time == pytest.approx(1.1, abs=0.02)

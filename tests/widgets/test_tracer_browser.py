@@ -11,7 +11,7 @@ from playwright.sync_api import Locator
 from skimage.color import deltaE_ciede2000, rgb2lab
 from skimage.io import imread
 
-from ..support.browser import LabNotebook
+from ..support.browser import LabNotebook, bring_into_view
 from .conftest import OpenNotebook
 
 pytestmark = [pytest.mark.browser, pytest.mark.slow]
@@ -40,7 +40,7 @@ class Hand:
         self.root.wait_for()
         self.stage = self.root.locator(".glid-stage[data-viewport]")
         self.stage.wait_for()
-        self.root.scroll_into_view_if_needed()
+        bring_into_view(self.root)
 
     def place(self, x: float, y: float) -> tuple[float, float]:
         """Where a pixel of the picture is on the page."""

@@ -13,6 +13,7 @@ import pytest
 
 import glid_nb
 
+from ..support.browser import bring_into_view
 from .conftest import OpenNotebook
 from .editor_page import Hand, line
 from .test_editors_browser import RESTART
@@ -152,7 +153,7 @@ def test_a_photograph(
     shot("photograph")
     page.get_by_role("button", name="Draw its outline").click()
     tracer = Tracer(book)
-    tracer.stage.scroll_into_view_if_needed()
+    bring_into_view(tracer.stage)
     for corner in ((150, 30), (310, 60), (330, 210), (220, 290), (80, 250), (70, 90)):
         page.mouse.click(*tracer.place(*corner))
     page.keyboard.press("Enter")

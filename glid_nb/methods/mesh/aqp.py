@@ -54,7 +54,7 @@ class AQP(MeshMethod):
     tolerance: float = 1e-9
     arap_iterations: int = field(
         default=5,
-        metadata={"least": 1, "why": ", because the first brings the handles to their targets"},
+        metadata={"least": 1, "why": ", because the first brings the shape to the targets"},
     )
 
     def steps(self, problem: MeshProblem) -> Steps:

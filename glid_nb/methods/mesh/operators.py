@@ -14,7 +14,7 @@ from glid_nb._runtime import double_precision
 from glid_nb.energies import Energy
 from glid_nb.geometry import MeshMap, Triangulation, as_points, place, triangulate
 from glid_nb.harmonic import as_complex
-from glid_nb.pose import rigid_motion
+from glid_nb.pose import in_both, rigid_motion
 from glid_nb.solvers import Inputs, Iteration, Method, MethodError, Result
 from glid_nb.solvers.loop import GeneratedDescent, Reached, Steps, follow
 
@@ -176,7 +176,8 @@ class MeshMethod(Method):
 
     def check_handles(self, inputs: Inputs) -> None:
         if self.needs_handles and not len(inputs.pose):
-            raise MethodError(f"the method {self.name!r} needs at least one handle")
+            needs = f"the method {self.name!r} needs at least one"
+            raise MethodError(*in_both(lambda named: f"{needs} {named.word}"))
 
     def steps(self, problem: MeshProblem) -> Steps:
         """The method as a generator: yields the start and then each step."""

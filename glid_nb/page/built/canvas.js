@@ -1,8 +1,7 @@
 function make(tag,properties={},...children){const element=document.createElement(tag);if(element instanceof
 HTMLButtonElement)element.type="button";for(const[name,value]of Object.entries(properties)){if(name.
 startsWith("on"))element.addEventListener(name.slice(2),value);else if(name in element&&name!=="list")
-Reflect.set(element,name,value);else element.setAttribute(name,value)}element.append(...children);return element}
-function penOf(canvas){const pen=canvas.getContext("2d");if(!pen)throw new Error("this browser does \
+Reflect.set(element,name,value);else element.setAttribute(name,value)}element.append(...children);return element}function penOf(canvas){const pen=canvas.getContext("2d");if(!pen)throw new Error("this browser does \
 not draw on canvases");return pen}function save(model,changes){for(const[name,value]of Object.entries(
 changes))model.set(name,value);model.save_changes()}function toFloats(view){if(!view)return new Float32Array;
 return new Float32Array(view.buffer.slice(view.byteOffset,view.byteOffset+view.byteLength))}function follow(model,listeners){
@@ -77,16 +76,16 @@ indexOf(focused);items.at((present+by)%items.length)?.focus()};const keys={Arrow
 -1),Escape:close,Tab:close};const item=row2=>{if(!row2)return make("hr");const[label,key,act]=row2;const onclick=e=>{
 if(!pressed&&e.detail)return;close();act()};return make("button",{role:"menuitem",onclick},label,make(
 "kbd",{},key))};const menu=shield(make("div",{className:"glid-menu",role:"menu",popover:"manual",onpointerdown:()=>{
-pressed=true},oncontextmenu:e=>e.preventDefault(),onkeydown:e=>{if(!keys[e.key])return;e.preventDefault();
-keys[e.key]()}},...rows.map(item)));element.querySelector(".glid-menu")?.remove();element.append(menu);
-menu.showPopover();putAt(menu,onPage(element,[x,y]));const pressedElsewhere=e=>{const target=e.target;
-if(menu.contains(target))return;close();if(e.button===0&&element.contains(target))e.stopPropagation()};
-window.addEventListener("pointerdown",pressedElsewhere,{capture:true,signal:ending2.signal});step(1)}
-function onPage(element,[x,y]){const{left,top,width,height}=element.getBoundingClientRect();return[left+
-x*width/element.offsetWidth,top+y*height/element.offsetHeight]}function putAt(menu,[x,y]){const{width,
-height}=menu.getBoundingClientRect();const zoom=width/menu.offsetWidth||1;menu.style.left=`${within(
-x,window.innerWidth-width)/zoom}px`;menu.style.top=`${within(y,window.innerHeight-height)/zoom}px`}function within(at,room){
-return Math.max(EDGE,Math.min(at,room-EDGE))}var NEARLY_NOTHING="rgba(255, 255, 255, 0.004)";function painter(canvas,view,signal,draw2){let due=0;
+pressed=true},onpointerover:e=>{e.target.closest("button")?.focus()},oncontextmenu:e=>e.preventDefault(),
+onkeydown:e=>{if(!keys[e.key])return;e.preventDefault();keys[e.key]()}},...rows.map(item)));element.
+querySelector(".glid-menu")?.remove();element.append(menu);menu.showPopover();putAt(menu,onPage(element,
+[x,y]));const pressedElsewhere=e=>{const target=e.target;if(menu.contains(target))return;close();if(e.
+button===0&&element.contains(target))e.stopPropagation()};window.addEventListener("pointerdown",pressedElsewhere,
+{capture:true,signal:ending2.signal});step(1)}function onPage(element,[x,y]){const{left,top,width,height}=element.
+getBoundingClientRect();return[left+x*width/element.offsetWidth,top+y*height/element.offsetHeight]}function putAt(menu,[
+x,y]){const{width,height}=menu.getBoundingClientRect();const zoom=width/menu.offsetWidth||1;menu.style.
+left=`${within(x,window.innerWidth-width)/zoom}px`;menu.style.top=`${within(y,window.innerHeight-height)/
+zoom}px`}function within(at,room){return Math.max(EDGE,Math.min(at,room-EDGE))}var NEARLY_NOTHING="rgba(255, 255, 255, 0.004)";function painter(canvas,view,signal,draw2){let due=0;
 signal.addEventListener("abort",()=>cancelAnimationFrame(due));return()=>{if(due)return;due=requestAnimationFrame(
 ()=>{due=0;draw2(clearedPen(canvas,view))})}}function clearedPen(canvas,{width,height}){const ratio=window.
 devicePixelRatio||1;const wide=Math.round(width*ratio);const high=Math.round(height*ratio);if(canvas.
@@ -311,12 +310,15 @@ pen,[[corner(0,11),corner(2.4,9),corner(-2.4,9)]],TARGET_FILL);strokePath(pen,[[
 function drawCursor(pen,[x,y]){const arm=(dx,dy)=>[[x+4*dx,y+4*dy],[x+13*dx,y+13*dy]];lines(pen,[arm(
 1,0),arm(-1,0),arm(0,1),arm(0,-1)],[[4,PALE],[1.6,WANTED]])}function wordsOf([x,y],[angle=0,scale=1,turned,scaled]){return{x:rounded(x),y:rounded(y),angle:turned?
 significant(angle*180/Math.PI):"",scale:scaled?significant(scale):"",detail:`${short(x)}, ${short(y)}`}}
-function rounded(number2){return String(Number(number2.toFixed(3))||0)}function significant(number2){
-return String(Number(Number(number2.toFixed(4)).toPrecision(4))||0)}function short(number2){return(Number(
-number2.toFixed(2))||0).toFixed(2).replace("-","−")}function meansStill(said,wrote,now){if(now===wrote||
-said===wrote)return false;const apart=one=>Math.abs(numberIn(one)-numberIn(now));return now===said||
-apart(said)<apart(wrote)}function numberIn(text){const numbers=text.replaceAll("−","-").split(",").
-map(Number.parseFloat);return numbers[0]+Math.PI*(numbers[1]??0)}var Written=class{said="";wrote="";constructor(element){
+function fieldWords(places,ring,before){const words2=places.map(place=>wordsOf(place,ring));const[{x,
+y,angle,scale}]=words2;const follows=name=>ring.length&&(words2.length===1||before[name]);return{x:words2.
+every(one=>one.x===x)?x:"",y:words2.every(one=>one.y===y)?y:"",angle:follows("angle")?angle:before.angle,
+scale:follows("scale")?scale:before.scale}}function rounded(number2){return String(Number(number2.toFixed(
+3))||0)}function significant(number2){return String(Number(Number(number2.toFixed(4)).toPrecision(4))||
+0)}function short(number2){return(Number(number2.toFixed(2))||0).toFixed(2).replace("-","−")}function meansStill(said,wrote,now){
+if(now===wrote||said===wrote)return false;const apart=one=>Math.abs(numberIn(one)-numberIn(now));return now===
+said||apart(said)<apart(wrote)}function numberIn(text){const numbers=text.replaceAll("−","-").split(
+",").map(Number.parseFloat);return numbers[0]+Math.PI*(numbers[1]??0)}var Written=class{said="";wrote="";constructor(element){
 this.element=element;this.said=this.text;this.wrote=this.said}get text(){const{element}=this;return element instanceof
 HTMLInputElement?element.value:element.textContent??""}put(text){if(this.text!==this.wrote)this.said=
 this.text;this.wrote=text;if(this.text===text)return;if(this.element instanceof HTMLInputElement)this.
@@ -327,11 +329,12 @@ get(element)??new Written(element);this.#written.set(element,written);written.pu
 if(!this.#written.size)return;for(const[element,text]of this.#texts(marks,new Map)){this.#written.get(
 element)?.settle(text)}this.#written.clear()}#texts({targets,selected,ring},held){const side=this.pad.
 closest(".glid-editor")?.querySelector(".glid-side .glid-bars");const last=selected.at(-1);if(!side||
-last===void 0||!targets[last])return[];const{detail:_,...fields}=wordsOf(held.get(last)??targets[last],
-ring);const found=Object.entries(fields).map(([name,text])=>{return[side.querySelector(`.glid-number\
--${name} input`),text]});const cells=side.querySelectorAll(".glid-entry-detail");for(const[i,cell]of cells.
-entries()){const place=held.get(i)??targets[i];if(place)found.push([cell,wordsOf(place,[]).detail])}
-return found.filter(([element])=>element)}};var COUNT=3;var GRID=24;var USED="glid-nb-pinned";var RADIUS2=8;function ghostPins({cage,holes}){const loops=[
+last===void 0||!targets[last])return[];const field=name=>{return side.querySelector(`.glid-number-${name}\
+ input`)};const places=selected.map(i=>held.get(i)??targets[i]).filter(Boolean);const before={angle:field(
+"angle")?.value??"",scale:field("scale")?.value??""};const found=Object.entries(fieldWords(places,ring,
+before)).map(([name,text])=>[field(name),text]);const cells=side.querySelectorAll(".glid-entry-detai\
+l");for(const[i,cell]of cells.entries()){const place=held.get(i)??targets[i];if(place)found.push([cell,
+wordsOf(place,[]).detail])}return found.filter(([element])=>element)}};var COUNT=3;var GRID=24;var USED="glid-nb-pinned";var RADIUS2=8;function ghostPins({cage,holes}){const loops=[
 cage,...holes];const candidates=gridOver(cage).filter(point=>encloses(cage,point)&&!holes.some(hole=>encloses(
 hole,point))).map(point=>({point,clearance:nearestEdge(loops,point,Infinity)?.d??0}));if(!candidates.
 length)return[];const places=[best(candidates,[middleOf(candidates)])];while(places.length<COUNT)places.
@@ -520,9 +523,9 @@ getAttribute("title");if(own)return own;if(control.matches(".glid-plots, .glid-p
 s of the solve";const widget=control.closest(".jupyter-widgets");const label=widget?.querySelector("\
 .widget-label")?.textContent?.trim();return label||widget?.getAttribute("title")||labelBefore(widget??
 control)}function labelBefore(one){let before=one.previousElementSibling;while(before&&!before.matches(
-".widget-label"))before=before.previousElementSibling;return before?.textContent?.trim()??""}var NOTEBOOK=124;var PAGE=48;var PARTS=44+110+28+2;var NARROW_PARTS=44+130+100+2;var NARROW_LEGEND=42;
-var LEAST=280;var BESIDE3=340;var PLOTS=477;var SLACK=20;var SETTLE=80;var NARROW=600;var CLOSE=800;
-var Room=class{#root=null;#last={width:0,height:0,all:0};#decides=false;#told="";#room=null;#plotted=true;#timer;constructor(pad,model,signal){
+".widget-label"))before=before.previousElementSibling;return before?.textContent?.trim()??""}var NOTEBOOK=124;var PAGE=48;var PARTS=44+110+28+2;var NARROW_LEGEND=42;var TABS=34;var LEAST=280;var NARROW_LEAST=220;
+var BESIDE3=340;var PLOTS=477;var SLACK=20;var SETTLE=80;var NARROW=600;var CLOSE=800;var Room=class{#root=null;#last={
+width:0,height:0,all:0};#decides=false;#told="";#room=null;#foot={layout:"",height:0};#plotted=true;#timer;constructor(pad,model,signal){
 this.pad=pad;this.model=model;this.signal=signal;this.observer=new ResizeObserver(()=>this.#measureSoon());
 this.observer.observe(pad);window.addEventListener("resize",()=>this.#measureSoon(),{signal});window.
 addEventListener("keydown",e=>this.#escape(e),{signal,capture:true});model.on("change:room",()=>{if(String(
@@ -550,23 +553,31 @@ SLACK)return;this.#last=room;const numbers=[room.width,room.height,room.all].map
 String(numbers);save(this.model,{room:numbers})}#begin(root,shell,room){this.#root=root;this.observer.
 observe(root);this.observer.observe(shell);const plots=shell.querySelector(".glid-plots-box");if(plots)
 this.observer.observe(plots);nameControls(root,this.signal);const[width=0]=this.model.get("room");this.#decides=
-room.width>width;root.addEventListener("pointerup",()=>this.#decide(),{signal:this.signal});const inspected=()=>this.
-toggleInspector(false);root.addEventListener("glid:inspect",inspected,{signal:this.signal})}#decide(){
-if(this.#decides)return;this.#decides=true;this.#last={width:0,height:0,all:0};this.#measureSoon()}shrink(){
-const whole=this.pad.closest(".glid-deform");if(!whole||!this.#room)return;const panes=whole.querySelectorAll(
-".glid-pane");const widths=[...panes].map(pane=>Number.parseFloat(pane.style.width)||0);const share=this.#room.
-width/widths.reduce((sum,width)=>sum+width,0);whole.style.zoom=share<1&&!this.#decides?String(share):
-""}#roomIn(root,shell){const full=document.fullscreenElement===root;const below=window.innerHeight-(full?
-0:around(root));if(this.#isAlone)return{width:root.clientWidth,height:below,all:1};const narrow=root.
-classList.contains("glid-narrow");const side=shell.querySelector(".glid-side");const plots=shell.querySelector(
-".glid-plots-box");const beside=shell.clientWidth-(narrow?0:side?.offsetWidth??0);const plotted=Boolean(
-plots?.offsetWidth)&&!narrow&&beside-PLOTS>=BESIDE3;shell.classList.toggle("glid-beside",plotted);this.#showPlots(
-plots,plotted);const width=plotted?beside-PLOTS:beside;const above=shell.getBoundingClientRect().top-
-root.getBoundingClientRect().top;const bars=shell.querySelector(".glid-legend:not([hidden])")?NARROW_LEGEND:
-0;const parts=narrow?NARROW_PARTS+bars:PARTS;const height=Math.max(LEAST,below-above/scaleOf(root).down-
-parts);return{width,height,all:Number(narrow&&full&&!side?.offsetWidth)}}#showPlots(plots,beside){const seen=Boolean(
-plots?.offsetWidth);if(seen&&!beside&&!this.#plotted)plots?.scrollIntoView({block:"nearest"});this.#plotted=
-seen}};function around(root){return root.closest(".jp-MainAreaWidget")?NOTEBOOK:PAGE}var FRAME=16;var SHARE=.5;var REST=200;var Detail=class{#views;#less=new Map;#timer;constructor(views){
+room.width>width;const released=()=>{this.#decide();this.#measureSoon()};root.addEventListener("poin\
+terup",released,{signal:this.signal});const inspected=()=>this.toggleInspector(false);root.addEventListener(
+"glid:inspect",inspected,{signal:this.signal})}#decide(){if(this.#decides)return;this.#decides=true;
+this.#last={width:0,height:0,all:0}}shrink(){const whole=this.pad.closest(".glid-deform");if(!whole||
+!this.#room)return;const panes=whole.querySelectorAll(".glid-pane");const widths=[...panes].map(pane=>Number.
+parseFloat(pane.style.width)||0);const share=this.#room.width/widths.reduce((sum,width)=>sum+width,0);
+whole.style.zoom=share<1&&!this.#decides?String(share):""}#roomIn(root,shell){const full=document.fullscreenElement===
+root;const below=window.innerHeight-(full?0:around(root));if(this.#isAlone)return{width:root.clientWidth,
+height:below,all:1};const narrow=root.classList.contains("glid-narrow");const side=shell.querySelector(
+".glid-side");const plots=shell.querySelector(".glid-plots-box");const beside=shell.clientWidth-(narrow?
+0:side?.offsetWidth??0);const plotted=Boolean(plots?.offsetWidth)&&!narrow&&beside-PLOTS>=BESIDE3;shell.
+classList.toggle("glid-beside",plotted);this.#showPlots(plots,plotted);const width=plotted?beside-PLOTS:
+beside;const above=shell.getBoundingClientRect().top-root.getBoundingClientRect().top;const section2=Boolean(
+side?.offsetWidth);const parts=narrow?this.#partsOnPhone(shell,section2,full):PARTS;const free=below-
+above/scaleOf(root).down-parts;const height=Math.max(narrow?NARROW_LEAST:LEAST,free);return{width,height,
+all:Number(narrow&&full&&!section2)}}#partsOnPhone(shell,section2,full){const heightOf=name=>{const part=shell.
+querySelector(name);return part?.offsetHeight??0};const bars=shell.querySelector(".glid-legend:not([\
+hidden])")?NARROW_LEGEND:0;const layout=String([shell.clientWidth,section2,full,bars]);if(this.#foot.
+layout!==layout)this.#foot={layout,height:0};const moving=this.pad.matches(":active")||shell.querySelector(
+".glid-foot .glid-working");if(!moving||!this.#foot.height){this.#foot.height=Math.max(this.#foot.height,
+heightOf(".glid-foot"))}const inspector=section2?TABS+sectionHeight(window.innerHeight):0;const rows=heightOf(
+".glid-tools")+heightOf(".glid-timeline");return rows+inspector+bars+this.#foot.height+2}#showPlots(plots,beside){
+const seen=Boolean(plots?.offsetWidth);if(seen&&!beside&&!this.#plotted)plots?.scrollIntoView({block:"\
+nearest"});this.#plotted=seen}};function sectionHeight(screen){return Math.min(Math.max(screen-730,120),
+300)}function around(root){return root.closest(".jp-MainAreaWidget")?NOTEBOOK:PAGE}var FRAME=16;var SHARE=.5;var REST=200;var Detail=class{#views;#less=new Map;#timer;constructor(views){
 this.#views=views}moved(drawingTime2){if(drawingTime2<=FRAME)return;clearTimeout(this.#timer);this.#timer=
 setTimeout(()=>this.restore(),REST);for(const one of this.#views())void one.then(view=>this.#reduce(
 view))}restore(){clearTimeout(this.#timer);for(const[renderer,ratio]of this.#less)renderer.setPixelRatio(

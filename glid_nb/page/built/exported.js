@@ -5,8 +5,7 @@ Math.max(bound,LEAST_HEIGHT),1)}function proofStrip(motion,boundAt){const layers
 (${fill} 0 0) ${left}% 100%/1% ${100*height}% no-repeat`});return layers.join()}function make(tag,properties={},...children){const element=document.createElement(tag);if(element instanceof
 HTMLButtonElement)element.type="button";for(const[name,value]of Object.entries(properties)){if(name.
 startsWith("on"))element.addEventListener(name.slice(2),value);else if(name in element&&name!=="list")
-Reflect.set(element,name,value);else element.setAttribute(name,value)}element.append(...children);return element}
-function penOf(canvas){const pen=canvas.getContext("2d");if(!pen)throw new Error("this browser does \
+Reflect.set(element,name,value);else element.setAttribute(name,value)}element.append(...children);return element}function penOf(canvas){const pen=canvas.getContext("2d");if(!pen)throw new Error("this browser does \
 not draw on canvases");return pen}var WHEEL_SPEED=.0015;var WHEEL_LINE=33;var LINES=1;var PINCH=5;function distance([x,y],[u,v]){return Math.
 hypot(x-u,y-v)}var View=class{x=0;y=0;unit=1;width=0;height=0;constructor(changed,{up:up2=1,nearest,
 farthest}){this.changed=changed;this.up=up2;this.nearest=nearest;this.farthest=farthest}toWorld([px,

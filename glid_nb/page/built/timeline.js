@@ -1,7 +1,10 @@
 function make(tag,properties={},...children){const element=document.createElement(tag);if(element instanceof
 HTMLButtonElement)element.type="button";for(const[name,value]of Object.entries(properties)){if(name.
 startsWith("on"))element.addEventListener(name.slice(2),value);else if(name in element&&name!=="list")
-Reflect.set(element,name,value);else element.setAttribute(name,value)}element.append(...children);return element}function toFloats(view){if(!view)return new Float32Array;return new Float32Array(view.buffer.slice(view.
+Reflect.set(element,name,value);else element.setAttribute(name,value)}element.append(...children);return element}
+function showChildren(parent,children){for(const[i,child]of children.entries()){const shown=parent.children[i];
+if(!shown)parent.append(child);else if(!shown.isEqualNode(child))shown.replaceWith(child)}for(const child of[
+...parent.children].slice(children.length))child.remove()}function toFloats(view){if(!view)return new Float32Array;return new Float32Array(view.buffer.slice(view.
 byteOffset,view.byteOffset+view.byteLength))}function follow(model,listeners){for(const[names,listener]of Object.
 entries(listeners)){model.on(names,listener);listener()}}var Motion=class{constructor({times,repeat},floats){this.times=times;this.repeat=repeat;this.floats=
 floats;this.mixed=floats.slice(0,floats.length/times.length);this.start=times[0];this.last=times[times.
@@ -284,8 +287,8 @@ left=this.#at(place);this.head.classList.toggle("glid-seen",seen);this.head.data
 "aria-valuenow",place.toFixed(2));this.ruler.setAttribute("aria-valuetext",seconds(place));if(seen&&
 this.#scrubbing===null)this.zoom.reveal(this.head.offsetLeft)}showKeys(shown,thumbnails){this.#shown=
 shown;if(this.#drag||this.#scrubbing!==null)return;const all=withReturn(shown);this.span=spanOf(all);
-this.ruler.setAttribute("aria-valuemax",this.span.toFixed(2));const focused=this.#focused();this.keys.
-replaceChildren(...all.map(({name,time,thumbnail},i)=>{const title=`${name} at ${seconds(time)}`;const width=`${this.#wide(
+this.ruler.setAttribute("aria-valuemax",this.span.toFixed(2));const focused=this.#focused();showChildren(
+this.keys,all.map(({name,time,thumbnail},i)=>{const title=`${name} at ${seconds(time)}`;const width=`${this.#wide(
 roomAt(all,i,this.span))} - 2px`;const own=i<shown.keyframes.length;const picture=thumbnail===void 0?
 void 0:thumbnails[thumbnail];return make("button",{className:own?"glid-key":"glid-key glid-return",title:`${title}\
 ; drag it to another time`,"aria-label":title,"aria-pressed":i===shown.active,style:`left: ${this.#at(
@@ -293,51 +296,51 @@ time)}; width: clamp(${SLIM}px, ${width}, ${WIDE}px)`,onpointerdown:e=>this.#gra
 if(!e.detail)this.hand.select(i%shown.keyframes.length)}},...picture?[make("img",{src:picture,alt:"",
 draggable:false})]:[])}));const key=this.keys.children[focused];if(key instanceof HTMLElement)key.focus();
 this.#showDiamonds(all);this.#showEases(all);const{time:end}=all[all.length-1];this.range.show(shown.
-range,all.length>1?[all[0].time,end]:null)}#showDiamonds(all){this.diamonds.replaceChildren(...all.map(
-({time},i)=>{const{title,ariaPressed}=this.keys.children[i];const diamond=make("i",{title,style:`lef\
-t: ${this.#at(time)}`,onpointerdown:e=>this.#grab(e,i,time)});diamond.dataset.selected=ariaPressed??
-"false";return diamond}))}#showEases(all){const focused=this.#focused(this.eases);this.eases.replaceChildren(
-...all.slice(1).map(({name,time},i)=>{const start=all[i];const title=`From ${start.name} to ${name}:\
- ${nameOf(start.easing)}`;const button2=make("button",{className:"glid-segment-ease",title,"aria-lab\
-el":title,"aria-haspopup":"dialog",innerHTML:`${stretchedCurve(start.easing)}<span>${nameOf(start.easing)}\
-</span>`,style:`left: ${this.#at(start.time)}; width: calc(${this.#wide(time-start.time)})`,onpointerdown:e=>{
-e.stopPropagation();this.hand.easePressed()},onclick:()=>this.hand.ease(i,button2)});button2.dataset.
-seconds=`${time-start.time}`;return button2}));this.#hideNarrow();const button=this.eases.children[focused];
-if(button instanceof HTMLElement)button.focus()}#hideNarrow(){const perSecond=Math.max(this.ruler.clientWidth-
-2*INSET,0)/this.span;for(const button of this.eases.children){button.hidden=Number(button.dataset.seconds)*
-perSecond<WIDE+EASE2}}showSegments(segments,label){this.strip.replaceChildren(...segments.flatMap(segment=>this.#pieces(
-segment)));this.strip.setAttribute("aria-label",label);this.#label()}#label(){const{ruler,span,rate}=this;
-const width=Math.max(ruler.clientWidth-2*INSET,0);const labels=labelledTimes(span,width,this.zoom.factor).
-map(time=>{const frame2=frameAt(time,rate);const number=frame2===null?[]:[make("b",{},`${frame2}`)];
-const second=make("small",{},`${Number(time.toFixed(2))} s`);return make("span",{style:`left: ${this.#at(
-time)}`},...number,second)});const frame=width/(span*rate);const ticks=make("i",{className:"glid-fra\
-mes",hidden:frame<LEAST_FRAME});ticks.style.setProperty("--glid-frame",`${frame}px`);ruler.replaceChildren(
-ticks,...labels);this.#hideNarrow()}#pieces(segment){const{end,status,until,pieces}=segment;const proved=pieces.
-map(piece=>{const height=heightOf(piece.sigma2);return this.#piece(piece.start,piece.end,"proved",boundOf(
-piece),height)});if(status==="proved")return proved;return[...proved,this.#piece(until,end,status,reasonOf(
-segment),1)]}#piece(start,end,kind,text,height){const width=`calc(${this.#wide(end-start)})`;return make(
-"div",{className:`glid-piece glid-${kind}`,title:text,onpointerenter:()=>this.hand.hover(text),style:`\
-left: ${this.#at(start)}; width: ${width}; --glid-height: ${height}`})}#wide(time){return`${time/this.
-span} * (100% - 2 * var(--glid-inset))`}#at(time){return`calc(var(--glid-inset) + ${this.#wide(time)}\
-)`}#inside(){const{left,width}=this.element.getBoundingClientRect();const length=getComputedStyle(this.
-element).getPropertyValue("--glid-inset");const inset=Number.parseFloat(length)*scaleOf(this.element).
-across;return{left:left+inset,width:width-2*inset}}#grab(e,index,time){if(e.button!==0)return;e.stopPropagation();
-const button=this.keys.children[index];this.#drag={index,from:time,x:e.clientX,time:null};button.setPointerCapture(
-e.pointerId);button.focus({preventScroll:true});button.onpointermove=move=>this.#dragged(move,button);
-button.onlostpointercapture=()=>this.#letGo()}#dragged(e,button){const drag=this.#drag;if(!drag)return;
-const moved=e.clientX-drag.x;if(drag.time===null&&Math.abs(moved)<=STILL)return;const time=drag.from+
-moved/this.#inside().width*this.span;drag.time=this.landing(drag.index,time);const diamond=this.diamonds.
-children[drag.index];button.style.left=this.#at(drag.time);diamond.style.left=this.#at(drag.time);this.
-head.style.left=this.#at(drag.time);this.hand.hover(`to ${seconds(drag.time)}`)}#letGo(){if(!this.#drag)
-return;const{index,time}=this.#drag;this.drop();if(time!==null){this.focus();this.hand.move(index,time)}else if(index<
-(this.#shown?.keyframes.length??0)){this.#clicked(index)}}#clicked(index){const now=performance.now();
-const last=this.#last;this.#last={index,at:now};if(last.index===index&&now-last.at<DOUBLE_CLICK)this.
-rename(index);else this.hand.select(index)}#down(e){if(e.button!==0)return;this.#scrubbing=e.pointerId;
-this.element.setPointerCapture(e.pointerId);this.#scrub(e)}#scrub(e){if(this.#scrubbing===e.pointerId)
-this.hand.scrub(this.#timeNear(e))}#timeNear(e,framed=false){const{left,width}=this.#inside();const time=(e.
-clientX-left)/width*this.span;const near=SNAP/width*this.span;const key=this.#shown?.keyframes.find(
-one=>Math.abs(one.time-time)<near);return key?.time??(framed?Math.round(time*this.rate)/this.rate:time)}#up(e){
-if(this.#scrubbing!==e.pointerId)return;this.drop();this.hand.scrubbed()}};var BADNESS={proved:0,computing:1,fails:2,refused:2};function worstOf([own,...others]){return own.spans.
+range,all.length>1?[all[0].time,end]:null)}#showDiamonds(all){showChildren(this.diamonds,all.map(({time},i)=>{
+const{title,ariaPressed}=this.keys.children[i];const diamond=make("i",{title,style:`left: ${this.#at(
+time)}`,onpointerdown:e=>this.#grab(e,i,time)});diamond.dataset.selected=ariaPressed??"false";return diamond}))}#showEases(all){
+const focused=this.#focused(this.eases);showChildren(this.eases,all.slice(1).map(({name,time},i)=>{const start=all[i];
+const title=`From ${start.name} to ${name}: ${nameOf(start.easing)}`;const button2=make("button",{className:"\
+glid-segment-ease",title,"aria-label":title,"aria-haspopup":"dialog",innerHTML:`${stretchedCurve(start.
+easing)}<span>${nameOf(start.easing)}</span>`,style:`left: ${this.#at(start.time)}; width: calc(${this.#wide(
+time-start.time)})`,onpointerdown:e=>{e.stopPropagation();this.hand.easePressed()},onclick:()=>this.
+hand.ease(i,button2)});button2.dataset.seconds=`${time-start.time}`;return button2}));this.#hideNarrow();
+const button=this.eases.children[focused];if(button instanceof HTMLElement)button.focus()}#hideNarrow(){
+const perSecond=Math.max(this.ruler.clientWidth-2*INSET,0)/this.span;for(const button of this.eases.
+children){button.hidden=Number(button.dataset.seconds)*perSecond<WIDE+EASE2}}showSegments(segments,label){
+this.strip.replaceChildren(...segments.flatMap(segment=>this.#pieces(segment)));this.strip.setAttribute(
+"aria-label",label);this.#label()}#label(){const{ruler,span,rate}=this;const width=Math.max(ruler.clientWidth-
+2*INSET,0);const labels=labelledTimes(span,width,this.zoom.factor).map(time=>{const frame2=frameAt(time,
+rate);const number=frame2===null?[]:[make("b",{},`${frame2}`)];const second=make("small",{},`${Number(
+time.toFixed(2))} s`);return make("span",{style:`left: ${this.#at(time)}`},...number,second)});const frame=width/
+(span*rate);const ticks=make("i",{className:"glid-frames",hidden:frame<LEAST_FRAME});ticks.style.setProperty(
+"--glid-frame",`${frame}px`);ruler.replaceChildren(ticks,...labels);this.#hideNarrow()}#pieces(segment){
+const{end,status,until,pieces}=segment;const proved=pieces.map(piece=>{const height=heightOf(piece.sigma2);
+return this.#piece(piece.start,piece.end,"proved",boundOf(piece),height)});if(status==="proved")return proved;
+return[...proved,this.#piece(until,end,status,reasonOf(segment),1)]}#piece(start,end,kind,text,height){
+const width=`calc(${this.#wide(end-start)})`;return make("div",{className:`glid-piece glid-${kind}`,
+title:text,onpointerenter:()=>this.hand.hover(text),style:`left: ${this.#at(start)}; width: ${width}\
+; --glid-height: ${height}`})}#wide(time){return`${time/this.span} * (100% - 2 * var(--glid-inset))`}#at(time){
+return`calc(var(--glid-inset) + ${this.#wide(time)})`}#inside(){const{left,width}=this.element.getBoundingClientRect();
+const length=getComputedStyle(this.element).getPropertyValue("--glid-inset");const inset=Number.parseFloat(
+length)*scaleOf(this.element).across;return{left:left+inset,width:width-2*inset}}#grab(e,index,time){
+if(e.button!==0)return;e.stopPropagation();const button=this.keys.children[index];this.#drag={index,
+from:time,x:e.clientX,time:null};button.setPointerCapture(e.pointerId);button.focus({preventScroll:true});
+button.onpointermove=move=>this.#dragged(move,button);button.onlostpointercapture=()=>this.#letGo()}#dragged(e,button){
+const drag=this.#drag;if(!drag)return;const moved=e.clientX-drag.x;if(drag.time===null&&Math.abs(moved)<=
+STILL)return;const time=drag.from+moved/this.#inside().width*this.span;drag.time=this.landing(drag.index,
+time);const diamond=this.diamonds.children[drag.index];button.style.left=this.#at(drag.time);diamond.
+style.left=this.#at(drag.time);this.head.style.left=this.#at(drag.time);this.hand.hover(`to ${seconds(
+drag.time)}`)}#letGo(){if(!this.#drag)return;const{index,time}=this.#drag;this.drop();if(time!==null){
+this.focus();this.hand.move(index,time)}else if(index<(this.#shown?.keyframes.length??0)){this.#clicked(
+index)}}#clicked(index){const now=performance.now();const last=this.#last;this.#last={index,at:now};
+if(last.index===index&&now-last.at<DOUBLE_CLICK)this.rename(index);else this.hand.select(index)}#down(e){
+if(e.button!==0)return;this.#scrubbing=e.pointerId;this.element.setPointerCapture(e.pointerId);this.#scrub(
+e)}#scrub(e){if(this.#scrubbing===e.pointerId)this.hand.scrub(this.#timeNear(e))}#timeNear(e,framed=false){
+const{left,width}=this.#inside();const time=(e.clientX-left)/width*this.span;const near=SNAP/width*this.
+span;const key=this.#shown?.keyframes.find(one=>Math.abs(one.time-time)<near);return key?.time??(framed?
+Math.round(time*this.rate)/this.rate:time)}#up(e){if(this.#scrubbing!==e.pointerId)return;this.drop();
+this.hand.scrubbed()}};var BADNESS={proved:0,computing:1,fails:2,refused:2};function worstOf([own,...others]){return own.spans.
 map((span,i)=>{const all=[{name:own.name,span}];for(const{name,spans}of others){all.push({name,span:spans[i]??
 untold(span)})}return worst(all)})}function untold(span){return{...span,status:"computing",reason:"",
 until:span.start,sigma2:[]}}function worst(all){const until=Math.min(...all.map(({span})=>provedUntil(

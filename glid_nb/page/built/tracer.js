@@ -2,8 +2,10 @@ function make(tag,properties={},...children){const element=document.createElemen
 HTMLButtonElement)element.type="button";for(const[name,value]of Object.entries(properties)){if(name.
 startsWith("on"))element.addEventListener(name.slice(2),value);else if(name in element&&name!=="list")
 Reflect.set(element,name,value);else element.setAttribute(name,value)}element.append(...children);return element}
-function penOf(canvas){const pen=canvas.getContext("2d");if(!pen)throw new Error("this browser does \
-not draw on canvases");return pen}function follow(model,listeners){for(const[names,listener]of Object.entries(listeners)){model.on(names,
+function showChildren(parent,children){for(const[i,child]of children.entries()){const shown=parent.children[i];
+if(!shown)parent.append(child);else if(!shown.isEqualNode(child))shown.replaceWith(child)}for(const child of[
+...parent.children].slice(children.length))child.remove()}function penOf(canvas){const pen=canvas.getContext(
+"2d");if(!pen)throw new Error("this browser does not draw on canvases");return pen}function follow(model,listeners){for(const[names,listener]of Object.entries(listeners)){model.on(names,
 listener);listener()}}var OF_THE_PAD=["pointerdown","pointermove","wheel","keydown","keyup","contextmenu"];function shield(element){
 for(const name of OF_THE_PAD)element.addEventListener(name,e=>e.stopPropagation());return element}function help(sections){
 const head=make("div",{className:"glid-help-head"},make("h2",{},"Keys and gestures"),make("button",{
@@ -158,16 +160,17 @@ gest",String(i))});this.component.replaceChildren(...options)}this.component.val
 holes:listed,n_holes:count,n_filled:filled,loops,doubt}){const small=filled?`, ${filled} small fille\
 d`:"";this.holesTitle.textContent=`${holesIn(loops.length-1)} in the cage${small}`;this.holesTitle.hidden=
 Boolean(doubt);const rows=listed.map((hole,i)=>this.#holeRow(hole,i));const left=count-listed.length;
-const root=this.holes.getRootNode();const focused=[...this.holes.children].findIndex(one=>one.contains(
-root.activeElement));this.holes.replaceChildren(...rows);if(left){this.holes.append(make("div",{className:"\
-glid-unit"},`and ${left} smaller ones`))}rows[focused]?.querySelector("input")?.focus()}#holeRow(hole,i){
-const size=hole.area>=LARGE?`${(hole.area/1e3).toFixed(0)}k px²`:`${hole.area.toFixed(0)} px²`;const made=hole.
-by_offset?" (made by the offset)":"";return make("label",{className:"glid-hole",onpointerenter:()=>this.
-stage.highlightHole(i),onpointerleave:()=>this.stage.highlightHole(null)},make("input",{type:"checkb\
-ox",checked:hole.kept,onchange:()=>this.act("toggle_hole",{number:i})}),make("span",{className:"glid\
--grow"},`Hole ${i+1}${made}`),make("span",{className:"glid-unit"},size))}};function row2(...parts){return make(
-"div",{className:"glid-row"},...parts)}function brush(tool,label){return make("button",{className:`g\
-lid-brush glid-${tool}`,"data-tool":tool},label)}var ZOOM=1.25;var WHEEL_SPEED=.0015;var WHEEL_LINE=33;var LINES=1;var PINCH=5;function distance([x,y],[
+const more=make("div",{className:"glid-unit"},`and ${left} smaller ones`);const root=this.holes.getRootNode();
+const focused=[...this.holes.children].findIndex(one=>one.contains(root.activeElement));showChildren(
+this.holes,left?[...rows,more]:rows);const boxes=this.holes.querySelectorAll("input");for(const[i,{kept}]of listed.
+entries())boxes[i].checked=kept;boxes[focused]?.focus()}#holeRow(hole,i){const size=hole.area>=LARGE?
+`${(hole.area/1e3).toFixed(0)}k px²`:`${hole.area.toFixed(0)} px²`;const made=hole.by_offset?" (ma\
+de by the offset)":"";return make("label",{className:"glid-hole",onpointerenter:()=>this.stage.highlightHole(
+i),onpointerleave:()=>this.stage.highlightHole(null)},make("input",{type:"checkbox",checked:hole.kept,
+onchange:()=>this.act("toggle_hole",{number:i})}),make("span",{className:"glid-grow"},`Hole ${i+1}${made}`),
+make("span",{className:"glid-unit"},size))}};function row2(...parts){return make("div",{className:"g\
+lid-row"},...parts)}function brush(tool,label){return make("button",{className:`glid-brush glid-${tool}`,
+"data-tool":tool},label)}var ZOOM=1.25;var WHEEL_SPEED=.0015;var WHEEL_LINE=33;var LINES=1;var PINCH=5;function distance([x,y],[
 u,v]){return Math.hypot(x-u,y-v)}var View=class{x=0;y=0;unit=1;width=0;height=0;constructor(changed,{
 up=1,nearest:nearest2,farthest}){this.changed=changed;this.up=up;this.nearest=nearest2;this.farthest=
 farthest}toWorld([px,py]){const x=this.x+(px-this.width/2)*this.unit;const y=this.y-this.up*(py-this.

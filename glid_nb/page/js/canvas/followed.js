@@ -21,6 +21,27 @@ export function wordsOf([x, y], [angle = 0, scale = 1, turned, scaled]) {
   };
 }
 
+/**
+ * The numbers of the selected pins' fields. A field of several pins is empty unless all have its
+ * number. What all turn or scale alike, they go on having alike.
+ *
+ * @param {Point[]} places
+ * @param {Marks["ring"]} ring of the pin that was selected last; empty if the hand cannot turn it
+ * @param {{ angle: string, scale: string }} before what these fields say
+ */
+export function fieldWords(places, ring, before) {
+  const words = places.map((place) => wordsOf(place, ring));
+  const [{ x, y, angle, scale }] = words;
+  /** @param {"angle" | "scale"} name */
+  const follows = (name) => ring.length && (words.length === 1 || before[name]);
+  return {
+    x: words.every((one) => one.x === x) ? x : "",
+    y: words.every((one) => one.y === y) ? y : "",
+    angle: follows("angle") ? angle : before.angle,
+    scale: follows("scale") ? scale : before.scale,
+  };
+}
+
 /** @param {number} number */
 function rounded(number) {
   return String(Number(number.toFixed(3)) || 0); // avoids -0
@@ -126,7 +147,7 @@ export class FollowedNumbers {
   }
 
   /**
-   * The inspector's texts of the pin that was selected last, and of the pins that are moved.
+   * The inspector's texts of the selected pins, and of the pins that are moved.
    *
    * @param {Marks} marks
    * @param {Map<Mark, Point>} held
@@ -136,11 +157,19 @@ export class FollowedNumbers {
     const side = this.pad.closest(".glid-editor")?.querySelector(".glid-side .glid-bars");
     const last = selected.at(-1);
     if (!side || last === undefined || !targets[last]) return [];
-    const { detail: _, ...fields } = wordsOf(held.get(last) ?? targets[last], ring);
+    /** @param {string} name */
+    const field = (name) => {
+      return /** @type {HTMLInputElement | null} */ (
+        side.querySelector(`.glid-number-${name} input`)
+      );
+    };
+    const places = selected.map((i) => held.get(i) ?? targets[i]).filter(Boolean);
+    const before = { angle: field("angle")?.value ?? "", scale: field("scale")?.value ?? "" };
     /** @type {[HTMLElement | null, string][]} */
-    const found = Object.entries(fields).map(([name, text]) => {
-      return [side.querySelector(`.glid-number-${name} input`), text];
-    });
+    const found = Object.entries(fieldWords(places, ring, before)).map(([name, text]) => [
+      field(name),
+      text,
+    ]);
     const cells = /** @type {NodeListOf<HTMLElement>} */ (
       side.querySelectorAll(".glid-entry-detail")
     );

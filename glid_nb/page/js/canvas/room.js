@@ -14,9 +14,10 @@ import { nameControls } from "./names.js";
 const NOTEBOOK = 124; // what a notebook's page needs above and below
 const PAGE = 48; // what another page needs, as one of Voila
 const PARTS = 44 + 110 + 28 + 2; // bar, timeline, line of the state, frame
-const NARROW_PARTS = 44 + 130 + 100 + 2; // the same on a phone, where the words need more lines
 const NARROW_LEGEND = 42; // of the colour bars below a phone's canvas
+const TABS = 34; // of the inspector
 const LEAST = 280; // of the height
+const NARROW_LEAST = 220; // on a phone
 const BESIDE = 340; // least width beside the plots
 const PLOTS = 477; // of the plots
 const SLACK = 20; // a scroll bar that comes and goes changes nothing
@@ -32,6 +33,7 @@ export class Room {
   #told = ""; // to the kernel
   /** @type {{ width: number, height: number, all: number } | null} all: the canvas fills it */
   #room = null;
+  #foot = { layout: "", height: 0 }; // of the line of the state on a phone, the highest so far
   #plotted = true; // whether the plots were seen before; those that come first do not scroll
   /** @type {ReturnType<typeof setTimeout> | undefined} */
   #timer;
@@ -164,7 +166,11 @@ export class Room {
     const [width = 0] = this.model.get("room");
     this.#decides = room.width > width;
     // Not before the hand lets go: a canvas must not change below a drag.
-    root.addEventListener("pointerup", () => this.#decide(), { signal: this.signal });
+    const released = () => {
+      this.#decide();
+      this.#measureSoon();
+    };
+    root.addEventListener("pointerup", released, { signal: this.signal });
     // The timeline's export opens a section of the inspector.
     const inspected = () => this.toggleInspector(false);
     root.addEventListener("glid:inspect", inspected, { signal: this.signal });
@@ -174,7 +180,6 @@ export class Room {
     if (this.#decides) return;
     this.#decides = true;
     this.#last = { width: 0, height: 0, all: 0 };
-    this.#measureSoon();
   }
 
   /** Shows the canvas smaller where another view has given it more width than there is room. */
@@ -205,11 +210,39 @@ export class Room {
     this.#showPlots(plots, plotted);
     const width = plotted ? beside - PLOTS : beside;
     const above = shell.getBoundingClientRect().top - root.getBoundingClientRect().top;
-    const bars = shell.querySelector(".glid-legend:not([hidden])") ? NARROW_LEGEND : 0;
-    const parts = narrow ? NARROW_PARTS + bars : PARTS;
-    const height = Math.max(LEAST, below - above / scaleOf(root).down - parts);
+    const section = Boolean(side?.offsetWidth);
+    const parts = narrow ? this.#partsOnPhone(shell, section, full) : PARTS;
+    const free = below - above / scaleOf(root).down - parts;
+    const height = Math.max(narrow ? NARROW_LEAST : LEAST, free);
     // A phone's canvas is a square above the inspector. Without that it has the rest of the screen.
-    return { width, height, all: Number(narrow && full && !side?.offsetWidth) };
+    return { width, height, all: Number(narrow && full && !section) };
+  }
+
+  /**
+   * The height of what a phone's screen has beside the canvas. Words at rest that need more lines
+   * than before make the canvas smaller. Fewer lines change nothing, nor do the words during a drag
+   * or a solve.
+   *
+   * @param {HTMLElement} shell
+   * @param {boolean} section whether the inspector is seen
+   * @param {boolean} full whether the editor has the whole screen
+   */
+  #partsOnPhone(shell, section, full) {
+    /** @param {string} name */
+    const heightOf = (name) => {
+      const part = /** @type {HTMLElement | null} */ (shell.querySelector(name));
+      return part?.offsetHeight ?? 0;
+    };
+    const bars = shell.querySelector(".glid-legend:not([hidden])") ? NARROW_LEGEND : 0;
+    const layout = String([shell.clientWidth, section, full, bars]);
+    if (this.#foot.layout !== layout) this.#foot = { layout, height: 0 };
+    const moving = this.pad.matches(":active") || shell.querySelector(".glid-foot .glid-working");
+    if (!moving || !this.#foot.height) {
+      this.#foot.height = Math.max(this.#foot.height, heightOf(".glid-foot"));
+    }
+    const inspector = section ? TABS + sectionHeight(window.innerHeight) : 0;
+    const rows = heightOf(".glid-tools") + heightOf(".glid-timeline");
+    return rows + inspector + bars + this.#foot.height + 2;
   }
 
   /**
@@ -223,6 +256,15 @@ export class Room {
     if (seen && !beside && !this.#plotted) plots?.scrollIntoView({ block: "nearest" });
     this.#plotted = seen;
   }
+}
+
+/**
+ * The height of a phone's section of the inspector, as in canvas.css.
+ *
+ * @param {number} screen
+ */
+function sectionHeight(screen) {
+  return Math.min(Math.max(screen - 730, 120), 300);
 }
 
 /**

@@ -324,6 +324,9 @@ export class LivePage {
     const range = this.data.ranges[value];
     const legend = byId("legend");
     legend.hidden = !range;
-    if (range) legend.replaceChildren(`${OVERLAYS[value]} ${range[0]}`, make("i"), `${range[1]}`);
+    if (!range) return;
+    // All values beyond share the last colour.
+    const end = `${range[1] < range[0] ? "≤" : "≥"} ${range[1]}`;
+    legend.replaceChildren(`${OVERLAYS[value]} ${range[0]}`, make("i"), end);
   }
 }

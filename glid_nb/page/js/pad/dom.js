@@ -24,6 +24,22 @@ export function make(tag, properties = {}, ...children) {
 }
 
 /**
+ * Shows these children. A child that would look the same stays in the page: a press on it goes on,
+ * and it keeps the focus. Its listeners stay too, so equal children must do the same.
+ *
+ * @param {Element} parent
+ * @param {Element[]} children
+ */
+export function showChildren(parent, children) {
+  for (const [i, child] of children.entries()) {
+    const shown = parent.children[i];
+    if (!shown) parent.append(child);
+    else if (!shown.isEqualNode(child)) shown.replaceWith(child);
+  }
+  for (const child of [...parent.children].slice(children.length)) child.remove();
+}
+
+/**
  * The pen of a 2D canvas.
  *
  * @param {HTMLCanvasElement} canvas

@@ -50,6 +50,10 @@ export function openMenu(element, [x, y], rows) {
         onpointerdown: () => {
           pressed = true;
         },
+        // The item under the pointer is the one that Enter chooses, and the only one marked.
+        onpointerover: (/** @type {PointerEvent} */ e) => {
+          /** @type {Element} */ (e.target).closest("button")?.focus();
+        },
         oncontextmenu: (/** @type {Event} */ e) => e.preventDefault(),
         onkeydown: (/** @type {KeyboardEvent} */ e) => {
           if (!keys[e.key]) return;

@@ -3,7 +3,7 @@
 // A keyframe is dragged along time, or clicked; elsewhere a pointer scrubs.
 
 import { heightOf } from "../motion/strip.js";
-import { make } from "../pad/dom.js";
+import { make, showChildren } from "../pad/dom.js";
 import { scaleOf } from "../pad/place.js";
 import { nameOf, stretchedCurve } from "./ease.js";
 import { nameField } from "./name_field.js";
@@ -167,8 +167,9 @@ export class Track {
     this.span = spanOf(all);
     this.ruler.setAttribute("aria-valuemax", this.span.toFixed(2));
     const focused = this.#focused();
-    this.keys.replaceChildren(
-      ...all.map(({ name, time, thumbnail }, i) => {
+    showChildren(
+      this.keys,
+      all.map(({ name, time, thumbnail }, i) => {
         const title = `${name} at ${seconds(time)}`;
         const width = `${this.#wide(roomAt(all, i, this.span))} - 2px`;
         const own = i < shown.keyframes.length;
@@ -191,7 +192,7 @@ export class Track {
       }),
     );
     const key = this.keys.children[focused];
-    if (key instanceof HTMLElement) key.focus();
+    if (key instanceof HTMLElement) key.focus(); // a changed one lost it
     this.#showDiamonds(all);
     this.#showEases(all);
     const { time: end } = all[all.length - 1];
@@ -204,8 +205,9 @@ export class Track {
    * @param {Keyframe[]} all
    */
   #showDiamonds(all) {
-    this.diamonds.replaceChildren(
-      ...all.map(({ time }, i) => {
+    showChildren(
+      this.diamonds,
+      all.map(({ time }, i) => {
         const { title, ariaPressed } = /** @type {HTMLElement} */ (this.keys.children[i]);
         const diamond = make("i", {
           title,
@@ -225,8 +227,9 @@ export class Track {
    */
   #showEases(all) {
     const focused = this.#focused(this.eases);
-    this.eases.replaceChildren(
-      ...all.slice(1).map(({ name, time }, i) => {
+    showChildren(
+      this.eases,
+      all.slice(1).map(({ name, time }, i) => {
         const start = all[i];
         const title = `From ${start.name} to ${name}: ${nameOf(start.easing)}`;
         const button = make("button", {

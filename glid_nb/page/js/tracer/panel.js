@@ -2,7 +2,7 @@
 //
 // Buttons with `data-tool` are the toolbar's too; it hears them and shows which is chosen.
 
-import { make } from "../pad/dom.js";
+import { make, showChildren } from "../pad/dom.js";
 import { NUMBERS, NumberControl } from "./number_control.js";
 import { holesIn } from "./words.js";
 
@@ -203,14 +203,14 @@ export class Panel {
     this.holesTitle.hidden = Boolean(doubt); // no outline, no holes
     const rows = listed.map((hole, i) => this.#holeRow(hole, i));
     const left = count - listed.length;
-    // Rebuilding takes the focus; the row that had it gets it back.
+    const more = make("div", { className: "glid-unit" }, `and ${left} smaller ones`);
+    // A row that changes loses the focus; it gets it back.
     const root = /** @type {Document | ShadowRoot} */ (this.holes.getRootNode());
     const focused = [...this.holes.children].findIndex((one) => one.contains(root.activeElement));
-    this.holes.replaceChildren(...rows);
-    if (left) {
-      this.holes.append(make("div", { className: "glid-unit" }, `and ${left} smaller ones`));
-    }
-    rows[focused]?.querySelector("input")?.focus();
+    showChildren(this.holes, left ? [...rows, more] : rows);
+    const boxes = this.holes.querySelectorAll("input");
+    for (const [i, { kept }] of listed.entries()) boxes[i].checked = kept;
+    boxes[focused]?.focus();
   }
 
   /**
