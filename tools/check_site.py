@@ -45,7 +45,7 @@ _CUT = """() => {
   const right = (e) => e.getBoundingClientRect().left + e.clientWidth;
   const output = '.cell_output img, .cell_output pre';
   const seen = `.equation .broken, .equation :not(.broken) > math, ${output}`;
-  const table = (e) => e.tagName === 'PRE' && e.textContent.trim().includes('  ');
+  const table = (e) => e.closest('.columns') !== null; // of docs/extensions/printed.py
   return [...document.querySelectorAll(seen)]
     .filter((e) => !table(e))
     .filter((e) => {

@@ -6,6 +6,7 @@
 - A link to a folder opens a list of its files, for download.
 - A name of a module below the package's parts (`glid_nb.certificate.paper.turning`) opens its
   source in the same way.
+- A page's path in code type (`docs/proof.md`) opens that page.
 - A public name in code type (`glid.solve`, `HarmonicMap.sigma1`) opens the reference.
 
 If the Python file of a path does not exist, there is a warning, so that pages follow the code.
@@ -35,6 +36,7 @@ logger = logging.getLogger(__name__)
 FOLDER = "files"
 _LANGUAGES = {".py": "python", ".js": "javascript"}
 _PATH = re.compile(r"((?:glid_nb|checker|studies|tests|tools)/[\w/.]+\.py)(?:::(\w+).*)?")
+_PAGE = re.compile(r"(docs/[\w/.-]+)\.md")
 _CLASSES = "|".join(name for name in dir(glid_nb) if name[0].isupper())
 _NAME = re.compile(
     rf"(?:(?:glid|glid_nb)\.(?=\w)|(?=(?:{_CLASSES})\b))([\w.]+)(?:\(.*\))?", re.DOTALL
@@ -122,6 +124,8 @@ class RepositoryLinks(SphinxTransform):
                 node.replace_self(self._reference(found[1], [found[2] or ""], [node.deepcopy()]))
             else:
                 logger.warning("there is no file %s", found[1], location=node)
+        elif (found := _PAGE.fullmatch(text)) and found[1] != self.env.docname:
+            self._page(node, found[1])
         elif place := source_of(text, self.root):
             path, name = place
             node.replace_self(self._reference(path, [name], [_breakable(text)]))
@@ -138,6 +142,13 @@ class RepositoryLinks(SphinxTransform):
                     refexplicit=True,
                 )
             )
+
+    def _page(self, node: nodes.literal, page: str) -> None:
+        if page not in self.env.found_docs:
+            logger.warning("there is no page %s.md", page, location=node)
+            return
+        uri = self.app.builder.get_relative_uri(self.env.docname, page)
+        node.replace_self(nodes.reference("", "", node.deepcopy(), refuri=uri, internal=True))
 
 
 def links(env: BuildEnvironment) -> dict[str, set[str]]:

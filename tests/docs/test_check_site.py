@@ -49,7 +49,7 @@ def test_a_browser_sees_errors_requests_wide_pages_and_dead_sliders(tmp_path: Pa
         "wide": '<div style="width: 2000px">wide</div>',
         "formula": f'<div class="equation"><div>{_SCROLLING}</div></div>',
         "sentence": f'<div class="cell_output">{_PRINTED.format("one word " * 40)}</div>',
-        "table": f'<div class="cell_output">{_PRINTED.format("one  word " * 40)}</div>',
+        "table": f'<div class="cell_output columns">{_PRINTED.format("one  word " * 40)}</div>',
         "figure": f'<div class="cell_output" style="overflow-x: auto">{_PICTURE}</div>',
     }
     for name, slope in {"moving": 1, "still": 0}.items():

@@ -47,9 +47,7 @@ def test_there_is_room_after_an_integral() -> None:
 
 def test_an_upper_limit_keeps_away_from_its_integral() -> None:
     made = equations.mathml(r"\int_a^b f", "block")
-    assert re.search(
-        r'<mrow><mspace width="0.35em" /><mrow><mi>b</mi></mrow></mrow></msubsup>', made
-    )
+    assert '<mspace width="0.35em" /><mi>b</mi></mrow></msubsup>' in made
     assert "0.35em" not in equations.mathml(r"x_a^b", "block")
 
 
