@@ -137,6 +137,17 @@ def test_pins_are_dragged_and_the_shape_follows_certified(browser: Browser, tmp_
         assert not requests
 
 
+def test_a_page_that_cannot_draw_claims_nothing(browser: Browser, tmp_path: Path) -> None:
+    path = tmp_path / "ring.html"
+    path.write_text(live_page_html(shapes.picture(), shapes.domain()), encoding="utf-8")
+    with watched_page(browser, "HTMLCanvasElement.prototype.getContext = () => null;") as page:
+        page.goto(path.as_uri())
+        page.get_by_text("This page needs WebGL 2").wait_for()
+        assert page.get_by_text("Never folds").is_hidden()
+        assert page.get_by_text("Click the shape").is_hidden()
+        page.screenshot(path=ARTEFACTS / "live-page-without-webgl.png")
+
+
 def test_undo_redo_delete_and_keys(browser: Browser, tmp_path: Path) -> None:
     with watched_page(browser, _WATCHED) as page:
         opened(page, tmp_path)
