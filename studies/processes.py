@@ -1,5 +1,6 @@
 """Measurements in separate processes: of memory, of devices, of the first compilation."""
 
+import contextlib
 import json
 import os
 import signal
@@ -69,7 +70,8 @@ def printed_by(arguments: Sequence[str], given: Any, limit: float, **environment
         assert process.stdout is not None
         reader = threading.Thread(target=lines.extend, args=(process.stdout,))
         reader.start()
-        with process.stdin as entrance:
+        # A process may end before it has read its input. What it printed and its exit code tell.
+        with contextlib.suppress(BrokenPipeError), process.stdin as entrance:
             entrance.write(json.dumps(given))
         ending = ""
         try:

@@ -184,7 +184,8 @@ def _negative_share(corners: Floats) -> Floats:
     p, q = np.minimum(along, up), np.maximum(along, up)
     least: Floats = np.min(np.stack([d00, d10, d01, d11]), axis=0)
     t = -least
-    with np.errstate(divide="ignore", invalid="ignore"):
+    # Where one of these is not finite, it is not the one that holds there.
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
         first = t / p * (t / q) / 2
         middle = (t - p / 2) / q
         rest = p + q - t

@@ -83,10 +83,14 @@ def start(missing: Sequence[Arguments]) -> subprocess.Popen[bytes] | None:
             env=environment,
             creationflags=lowest,
         )
-        assert process.stdin is not None
+    except (OSError, ValueError):  # no such system call, or no interpreter is known
+        return None
+    assert process.stdin is not None
+    try:
         with process.stdin as pipe:
             pipe.write(pickle.dumps((jax_option("jax_compilation_cache_dir"), list(missing))))
-    except (OSError, ValueError):  # no such system call, or no interpreter is known
+    except OSError:  # it has ended before it read that
+        process.wait()
         return None
     return process
 

@@ -76,3 +76,8 @@ def test_without_a_folder_nothing_is_made_ahead() -> None:
 def test_a_system_without_processes_goes_on(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(ahead.sys, "executable", "/no/such/interpreter")
     assert ahead.start(ahead.missing_programs(inputs(POSE))) is None
+
+
+def test_a_process_that_ends_before_it_reads_is_none(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(ahead, "_CODE", "")
+    assert ahead.start([("x" * 1_000_000,)]) is None

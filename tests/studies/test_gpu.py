@@ -90,6 +90,9 @@ def test_a_process_that_fails_says_why() -> None:
     printed = printed_by(["-c", "print('{}')\nraise SystemExit('no such device')"], None, 60.0)
     assert printed.lines == ["{}\n"]
     assert printed.ending == "ended with exit code 1: no such device"
+    # Also if it ends before it has read all of its input.
+    printed = printed_by(["-c", "raise SystemExit('no such device')"], "x" * 1_000_000, 60.0)
+    assert printed.ending == "ended with exit code 1: no such device"
 
 
 def test_without_a_gpu_one_sentence_says_so(
