@@ -468,12 +468,16 @@ class NotebookPage(abc.ABC):
     def shut_down(self) -> None:
         """End the kernel."""
 
-    def wait_for(self, condition: str, timeout: float = 30.0) -> None:
-        """Wait until a Python expression in the kernel is true."""
+    def wait_for(self, condition: str, timeout: float = 30.0, told: str = "''") -> None:
+        """Wait until a Python expression in the kernel is true.
+
+        If it does not become true, the error has what the expression ``told`` says then.
+        """
         end = time.monotonic() + timeout
         while not self.value(f"bool({condition})"):
             if time.monotonic() > end:
-                raise AssertionError(f"the kernel did not reach {condition!r} in {timeout:g} s")
+                what = f"the kernel did not reach {condition!r} in {timeout:g} s"
+                raise AssertionError(f"{what}. {self.value(f'str({told})')}")
             self.page.wait_for_timeout(50)  # lets the page work; the kernel has no event for us
 
     def screenshot(self, name: str, of: Locator | None = None) -> Path:

@@ -85,7 +85,11 @@ class Timeline:
         """Wait until everything between the poses is proved, and the page knows."""
         self.hand.settle()
         proved = "all(s.status == 'proved' for s in editor.timeline.animation.spans)"
-        self.book.wait_for(f"{proved} and len(editor.timeline.animation.spans) > 0", 60)
+        told = (
+            "([(one.status, one.reason) for one in editor.timeline.animation.spans], model.status,"
+            " model.settled(), [pose.unsolved for pose in model.state.poses])"
+        )
+        self.book.wait_for(f"{proved} and len(editor.timeline.animation.spans) > 0", 60, told)
         spans = self.book.value("len(editor.timeline.animation.spans)")
         done = "n => document.querySelectorAll('.glid-computing').length === 0 && n > 0"
         self.page.wait_for_function(done, arg=spans)
