@@ -27,14 +27,13 @@ def as_complex(points: Any) -> Array:
     else:
         array = _pairs(points)
         z = array[:, 0] + 1j * array[:, 1]
-    bad = np.flatnonzero(~np.isfinite(z))
+    with np.errstate(over="ignore"):  # what overflows is too far
+        bad = np.flatnonzero(~(abs(z) <= FARTHEST))
     if bad.size:
-        x, y = np.real(z[bad[0]]), np.imag(z[bad[0]])
-        raise MapError(f"point {bad[0]} is ({x:g}, {y:g}); coordinates must be finite")
-    far = np.flatnonzero(abs(z) > FARTHEST)
-    if far.size:
-        x, y = np.real(z[far[0]]), np.imag(z[far[0]])
-        raise MapError(f"point {far[0]} is ({x:g}, {y:g}); the largest distance is {FARTHEST:g}")
+        first: Any = z[bad[0]]
+        far = f"the largest distance is {FARTHEST:g}"
+        wanted = far if np.isfinite(first) else "coordinates must be finite"
+        raise MapError(f"point {bad[0]} is ({first.real:g}, {first.imag:g}); {wanted}")
     return z
 
 

@@ -67,7 +67,7 @@ def read_image(source: ImageSource, name: str | None = None) -> RGBA:
             return _decode(bytes(source), name)
     except TraceError:
         raise
-    except (Image.DecompressionBombError, Image.DecompressionBombWarning):
+    except Image.DecompressionBombError:
         most = f"a side may have at most {MAX_SIDE} pixels"
         raise TraceError(f"{name} is too large: {most}; scale it down first") from None
     except Exception as error:  # decoders raise errors of any type

@@ -37,8 +37,8 @@ def checked_each(name: str, kind: Any, given: Any, count: int, **limits: float) 
 
 def checked_keyframes(keyframes: Any) -> tuple[HarmonicMap, ...]:
     """Certified maps of one domain whose ``f_z`` turn alike, all with the first one's domain."""
-    if not isinstance(keyframes, list | tuple) or len(keyframes) < 2:
-        listed = isinstance(keyframes, list | tuple)
+    listed = isinstance(keyframes, list | tuple)
+    if not listed or len(keyframes) < 2:
         given = f"{len(keyframes)}" if listed else f"{keyframes!r:.60}"
         least = "at least 2 keyframes"
         raise MotionError(

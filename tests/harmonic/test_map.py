@@ -217,7 +217,7 @@ def test_no_point_however_far_gives_nan(name: str) -> None:
     far = np.array([[1e50, -1.0], [7e99, 7e99]])
     values = (map(far), map.sigma1(far), map.sigma2(far), *map.wirtinger(far))
     assert all(np.isfinite(value).all() for value in values)
-    for x, y in ([1e101, 0.0], [1e308, 1e308]):
+    for x, y in ([1e101, 0.0], [1e308, 1e308], [1.7e308, 1.7e308]):
         with pytest.raises(MapError, match=r"point 1 is .*; the largest distance is 1e\+100"):
             map.sigma1([[0.0, 0.0], [x, y]])
 

@@ -91,10 +91,7 @@ def downloads(page: Page, label: str, count: int) -> list[Download]:
     page.on("download", lambda one: found.append(one))
     page.get_by_role("button", name="Copy, download, reset").click()
     page.get_by_role("button", name=label).click()
-    for _ in range(100):
-        if len(found) == count:
-            break
-        page.wait_for_timeout(50)
+    wait_until(page, lambda: len(found) == count, f"{count} files are saved")
     return found
 
 
